@@ -2,7 +2,9 @@
 #![cfg_attr(test, allow(missing_docs))]
 
 pub mod error;
+pub mod groebner;
 pub mod number;
+pub mod poly;
 pub mod watch;
 
 pub use error::{Error, ErrorKind, Result};

@@ -1,0 +1,91 @@
+//! Multivariate division, normal forms and S-polynomials.
+
+use crate::Result;
+use crate::number::{Field, Ring};
+use crate::poly::{Polynomial, PolynomialRing, Term};
+
+/// `f = sum quotients[k] * divisors[k] + remainder`; no term of the remainder is divisible by a leading monomial.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Division<E> {
+    /// One quotient a divisor.
+    pub quotients: Vec<Polynomial<E>>,
+    /// The normal form of `f` (unique when the divisors are a Groebner basis).
+    pub remainder: Polynomial<E>,
+}
+
+/// Divides `f` by `divisors`; the first that fits is taken. Zero divisors are passed over.
+///
+/// # Errors
+/// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes.
+pub fn divide<F: Field>(
+    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, divisors: &[Polynomial<F::Element>],
+) -> Result<Division<F::Element>> {
+    let mut quotients = vec![Vec::new(); divisors.len()];
+    let mut remainder = Vec::new();
+    let mut rest = f.clone();
+    while let Some(lead) = rest.leading().cloned() {
+        match find_divisor(ring, &lead, divisors) {
+            Some((index, factor)) => {
+                rest = ring.sub_mul_term(&rest, &factor.coefficient, &factor.monomial, &divisors[index])?;
+                quotients[index].push(factor);
+            }
+            None => {
+                rest = ring.sub(&rest, &ring.term(lead.coefficient.clone(), lead.monomial.clone()));
+                remainder.push(lead);
+            }
+        }
+    }
+    let quotients = quotients.into_iter().map(|terms| ring.collect(terms)).collect();
+    Ok(Division { quotients, remainder: ring.collect(remainder) })
+}
+
+/// The first divisor whose leading monomial divides `lead`, and `lead` divided by its leading term.
+fn find_divisor<F: Field>(
+    ring: &PolynomialRing<F>, lead: &Term<F::Element>, divisors: &[Polynomial<F::Element>],
+) -> Option<(usize, Term<F::Element>)> {
+    divisors.iter().enumerate().find_map(|(index, divisor)| {
+        let top = divisor.leading()?;
+        let monomial = ring.layout().checked_div(&lead.monomial, &top.monomial)?;
+        let coefficient = ring.field().checked_div(&lead.coefficient, &top.coefficient)?;
+        Some((index, Term { coefficient, monomial }))
+    })
+}
+
+/// The remainder of [`divide`]: zero exactly for members of the ideal when `basis` is a Groebner basis.
+///
+/// # Errors
+/// As [`divide`].
+pub fn normal_form<F: Field>(
+    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, basis: &[Polynomial<F::Element>],
+) -> Result<Polynomial<F::Element>> {
+    Ok(divide(ring, f, basis)?.remainder)
+}
+
+/// The S-polynomial of two nonzero polynomials (NAO 6.3.1); zero when one of them is zero.
+///
+/// # Errors
+/// As [`divide`].
+pub fn s_polynomial<F: Field>(
+    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
+) -> Result<Polynomial<F::Element>> {
+    match s_factors(ring, f, g)? {
+        None => Ok(ring.zero()),
+        Some((left, right)) => {
+            let first = ring.mul_term(f, &left.coefficient, &left.monomial)?;
+            ring.sub_mul_term(&first, &right.coefficient, &right.monomial, g)
+        }
+    }
+}
+
+/// The two terms that lift the leading terms of `f` and `g` to their least common multiple.
+pub(super) fn s_factors<F: Field>(
+    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
+) -> Result<Option<(Term<F::Element>, Term<F::Element>)>> {
+    let (Some(a), Some(b)) = (f.leading(), g.leading()) else { return Ok(None) };
+    let lcm = ring.lcm(&a.monomial, &b.monomial)?;
+    let lift = |term: &Term<F::Element>| {
+        let monomial = ring.layout().checked_div(&lcm, &term.monomial)?;
+        Some(Term { coefficient: ring.field().inverse(&term.coefficient)?, monomial })
+    };
+    Ok(lift(a).zip(lift(b)))
+}

@@ -1,0 +1,110 @@
+//! Critical pairs: the Gebauer-Moeller criteria and the selection strategies.
+//!
+//! R. Gebauer, H. M. Moeller, "On an installation of Buchberger's algorithm", J. Symbolic Computation 6 (1988);
+//! A. Giovini et al., "One sugar cube, please", ISSAC 1991.
+
+use std::cmp::Ordering;
+
+use crate::Result;
+use crate::number::Field;
+use crate::poly::{Monomial, PolynomialRing};
+
+/// Which pair comes next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strategy {
+    /// The least common multiple that is smallest in the monomial order.
+    Normal,
+    /// The smallest sugar degree (that of homogenised input), then as `Normal`: better for lexicographic orders.
+    #[default]
+    Sugar,
+}
+
+/// A pair of basis elements whose S-polynomial is still open.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    pub left: usize,
+    pub right: usize,
+    pub lcm: Monomial,
+    pub sugar: u32,
+}
+
+/// What a basis element shows to the pair criteria.
+#[derive(Clone, Debug)]
+pub(super) struct Head {
+    pub monomial: Monomial,
+    pub sugar: u32,
+    /// Its leading monomial is a multiple of a later one: no new pairs are made with it.
+    pub redundant: bool,
+}
+
+/// The open pairs of a running computation.
+#[derive(Clone, Debug)]
+pub(super) struct Pairs {
+    open: Vec<Pair>,
+    strategy: Strategy,
+}
+
+impl Pairs {
+    pub fn new(strategy: Strategy) -> Self {
+        Pairs { open: Vec::new(), strategy }
+    }
+
+    pub fn len(&self) -> usize {
+        self.open.len()
+    }
+
+    /// Takes the next pair out.
+    pub fn select<F: Field>(&mut self, ring: &PolynomialRing<F>) -> Option<Pair> {
+        let compare = |a: &Pair, b: &Pair| {
+            let sugar = match self.strategy {
+                Strategy::Normal => Ordering::Equal,
+                Strategy::Sugar => a.sugar.cmp(&b.sugar),
+            };
+            let lcm = || ring.layout().compare(&a.lcm, &b.lcm);
+            sugar.then_with(lcm).then_with(|| (a.right, a.left).cmp(&(b.right, b.left)))
+        };
+        let (index, _) = self.open.iter().enumerate().min_by(|a, b| compare(a.1, b.1))?;
+        Some(self.open.swap_remove(index))
+    }
+
+    /// Adds the element with index `heads.len()`: drops old pairs by the chain criterion, keeps of the new ones those that no other
+    /// new pair covers and whose heads are not coprime, and marks redundant elements.
+    pub fn update<F: Field>(
+        &mut self, ring: &PolynomialRing<F>, heads: &mut Vec<Head>, new: Head,
+    ) -> Result<()> {
+        let layout = ring.layout();
+        let index = heads.len();
+        let lcms: Vec<Monomial> =
+            heads.iter().map(|head| ring.lcm(&head.monomial, &new.monomial)).collect::<Result<_>>()?;
+        self.open.retain(|pair| {
+            let covered = layout.divides(&new.monomial, &pair.lcm);
+            !covered || lcms[pair.left] == pair.lcm || lcms[pair.right] == pair.lcm
+        });
+        let coprime = |k: usize| layout.coprime(&heads[k].monomial, &new.monomial);
+        let live: Vec<usize> = (0..index).filter(|&k| !heads[k].redundant).collect();
+        let mut kept: Vec<usize> = Vec::new();
+        for (position, &k) in live.iter().enumerate() {
+            let covers = |&other: &usize| layout.divides(&lcms[other], &lcms[k]);
+            let covered = live[position + 1..].iter().any(covers) || kept.iter().any(covers);
+            if coprime(k) || !covered {
+                kept.push(k);
+            }
+        }
+        for k in kept.into_iter().filter(|&k| !coprime(k)) {
+            let sugar = pair_sugar(ring, &heads[k], &new, &lcms[k]);
+            self.open.push(Pair { left: k, right: index, lcm: lcms[k].clone(), sugar });
+        }
+        for head in heads.iter_mut().filter(|head| layout.divides(&new.monomial, &head.monomial)) {
+            head.redundant = true;
+        }
+        heads.push(new);
+        Ok(())
+    }
+}
+
+/// The degree that the S-polynomial would have, had the input been homogenised.
+fn pair_sugar<F: Field>(ring: &PolynomialRing<F>, a: &Head, b: &Head, lcm: &Monomial) -> u32 {
+    let degree = |m: &Monomial| ring.layout().degree(m);
+    let excess = (a.sugar - degree(&a.monomial)).max(b.sugar - degree(&b.monomial));
+    degree(lcm).saturating_add(excess)
+}

@@ -1,0 +1,219 @@
+//! Rational functions of parameters as a field, with square-root relations between the parameters.
+//!
+//! A relation `v^2 = e` makes `v` algebraic over the parameters before it: the sine of an angle whose cosine is
+//! a parameter (`v^2 = 1 - c^2`), or a constant such as `sqrt(1/2)`. Numerators are reduced modulo the relations and
+//! denominators are free of algebraic parameters, so that equal elements are equal data: no parameter relation is ever
+//! hidden in a coefficient that looks invertible (design: `r.r - 1` must not become a unit).
+
+use super::gcd::gcd;
+use super::order::Order;
+use super::ring::{Polynomial, PolynomialRing};
+use crate::number::{BigInt, Field, Ring, Style};
+use crate::{Error, ErrorKind, Result};
+
+/// A rational function in lowest terms: the denominator is monic. Plain data of [`Fractions`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fraction<E> {
+    numerator: Polynomial<E>,
+    denominator: Polynomial<E>,
+}
+
+impl<E> Fraction<E> {
+    /// The numerator.
+    pub fn numerator(&self) -> &Polynomial<E> {
+        &self.numerator
+    }
+    /// The monic denominator, free of algebraic parameters.
+    pub fn denominator(&self) -> &Polynomial<E> {
+        &self.denominator
+    }
+}
+
+/// `v^2 = square`, where `square` uses parameters before `v` only.
+#[derive(Clone, Debug, PartialEq)]
+struct Relation<E> {
+    variable: usize,
+    square: Polynomial<E>,
+}
+
+/// The field of fractions of `F[p1, ..., pk]` modulo its square-root relations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fractions<F: Field> {
+    ring: PolynomialRing<F>,
+    relations: Vec<Relation<F::Element>>,
+}
+
+impl<F: Field> Fractions<F> {
+    /// The rational functions of `parameters` over `field`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::DuplicateName`] when a parameter is listed twice.
+    pub fn new<S: AsRef<str>>(field: F, parameters: &[S]) -> Result<Self> {
+        let ring = PolynomialRing::new(field, parameters, Order::GrevLex)?;
+        Ok(Fractions { ring, relations: Vec::new() })
+    }
+
+    /// The field in which parameter `variable` satisfies `variable^2 = square`. The caller vouches that `square` is
+    /// not a square already (the relation ideal is prime); where it is, some inverses do not exist.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `square` uses `variable` or one behind it, or is zero, or when relations do not come in
+    /// the order of their variables.
+    pub fn with_square(mut self, variable: usize, square: &Polynomial<F::Element>) -> Result<Self> {
+        let behind = (variable..self.ring.variables().len()).any(|v| self.ring.degree_in(square, v) > 0);
+        let ordered = self.relations.last().is_none_or(|relation| relation.variable < variable);
+        if behind || !ordered || square.is_zero() {
+            let name = &self.ring.variables()[variable];
+            let text = format!("the square of `{name}` must be a nonzero polynomial of the parameters before it");
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let square = self.reduce(square);
+        self.relations.push(Relation { variable, square });
+        Ok(self)
+    }
+
+    /// The ring of the numerators and denominators.
+    pub fn ring(&self) -> &PolynomialRing<F> {
+        &self.ring
+    }
+
+    /// Whether `variable` is algebraic over the parameters before it.
+    pub fn is_algebraic(&self, variable: usize) -> bool {
+        self.relations.iter().any(|relation| relation.variable == variable)
+    }
+
+    /// `f` modulo the relations: every algebraic parameter to the power 0 or 1.
+    pub fn reduce(&self, f: &Polynomial<F::Element>) -> Polynomial<F::Element> {
+        self.relations.iter().rev().fold(f.clone(), |f, relation| {
+            if self.ring.degree_in(&f, relation.variable) < 2 {
+                return f;
+            }
+            let root = self.ring.variable(relation.variable);
+            let powers = self.ring.coefficients_in(&f, relation.variable).into_iter().enumerate();
+            powers.fold(self.ring.zero(), |sum, (k, coefficient)| {
+                let even = self.ring.mul(&coefficient, &self.ring.pow(&relation.square, k as u32 / 2));
+                let part = if k % 2 == 1 { self.ring.mul(&even, &root) } else { even };
+                self.ring.add(&sum, &part)
+            })
+        })
+    }
+
+    /// The polynomial `f` of the parameters as a field element.
+    pub fn embed(&self, f: &Polynomial<F::Element>) -> Fraction<F::Element> {
+        Fraction { numerator: self.reduce(f), denominator: self.ring.one() }
+    }
+
+    /// `numerator / denominator` in canonical form; `None` when the denominator is zero.
+    pub fn fraction(
+        &self, numerator: &Polynomial<F::Element>, denominator: &Polynomial<F::Element>,
+    ) -> Option<Fraction<F::Element>> {
+        let (mut top, mut bottom) = (self.reduce(numerator), self.reduce(denominator));
+        for relation in self.relations.iter().rev() {
+            if self.ring.degree_in(&bottom, relation.variable) > 0 {
+                let conjugate = self.conjugate(&bottom, relation.variable);
+                top = self.reduce(&self.ring.mul(&top, &conjugate));
+                bottom = self.reduce(&self.ring.mul(&bottom, &conjugate));
+            }
+        }
+        (!bottom.is_zero()).then(|| self.lowest_terms(top, bottom))
+    }
+
+    /// `f` with the sign of its root `variable` changed; `f` is reduced.
+    fn conjugate(&self, f: &Polynomial<F::Element>, variable: usize) -> Polynomial<F::Element> {
+        let parts = self.ring.coefficients_in(f, variable);
+        let root = self.ring.variable(variable);
+        self.ring.sub(&parts[0], &self.ring.mul(&parts[1], &root))
+    }
+
+    /// Divides by the common factor of the denominator and all coefficients of the numerator in the roots.
+    fn lowest_terms(
+        &self, numerator: Polynomial<F::Element>, denominator: Polynomial<F::Element>,
+    ) -> Fraction<F::Element> {
+        let mut common = denominator.clone();
+        for part in self.parts_over_roots(&numerator) {
+            common = gcd(&self.ring, &common, &part);
+        }
+        let divide = |f: &Polynomial<F::Element>| self.ring.exact_div(f, &common).expect("a gcd divides");
+        let (top, bottom) = (divide(&numerator), divide(&denominator));
+        let lead = &bottom.leading().expect("a denominator is not zero").coefficient;
+        let inverse = self.ring.field().inverse(lead).expect("a leading coefficient is not zero");
+        Fraction { numerator: self.ring.scale(&top, &inverse), denominator: self.ring.scale(&bottom, &inverse) }
+    }
+
+    /// The coefficients of `f` as a polynomial in the algebraic parameters.
+    pub fn parts_over_roots(&self, f: &Polynomial<F::Element>) -> Vec<Polynomial<F::Element>> {
+        self.relations.iter().fold(vec![f.clone()], |parts, relation| {
+            parts.iter().flat_map(|part| self.ring.coefficients_in(part, relation.variable)).collect()
+        })
+    }
+
+    /// The element when it is a constant of the base field.
+    pub fn as_constant(&self, a: &Fraction<F::Element>) -> Option<F::Element> {
+        self.ring.as_constant(&a.denominator)?;
+        self.ring.as_constant(&a.numerator)
+    }
+}
+
+impl<F: Field> Ring for Fractions<F> {
+    type Element = Fraction<F::Element>;
+
+    fn zero(&self) -> Self::Element {
+        self.embed(&self.ring.zero())
+    }
+    fn one(&self) -> Self::Element {
+        self.embed(&self.ring.one())
+    }
+    fn from_integer(&self, n: &BigInt) -> Self::Element {
+        self.embed(&self.ring.from_integer(n))
+    }
+    fn add(&self, a: &Self::Element, b: &Self::Element) -> Self::Element {
+        if a.denominator == b.denominator {
+            let sum = self.ring.add(&a.numerator, &b.numerator);
+            return if self.ring.is_one(&a.denominator) {
+                Fraction { numerator: sum, denominator: a.denominator.clone() }
+            } else {
+                self.lowest_terms(sum, a.denominator.clone())
+            };
+        }
+        let left = self.ring.mul(&a.numerator, &b.denominator);
+        let right = self.ring.mul(&b.numerator, &a.denominator);
+        self.lowest_terms(self.ring.add(&left, &right), self.ring.mul(&a.denominator, &b.denominator))
+    }
+    fn neg(&self, a: &Self::Element) -> Self::Element {
+        Fraction { numerator: self.ring.neg(&a.numerator), denominator: a.denominator.clone() }
+    }
+    fn mul(&self, a: &Self::Element, b: &Self::Element) -> Self::Element {
+        let numerator = self.reduce(&self.ring.mul(&a.numerator, &b.numerator));
+        if self.ring.is_one(&a.denominator) && self.ring.is_one(&b.denominator) {
+            return Fraction { numerator, denominator: a.denominator.clone() };
+        }
+        self.lowest_terms(numerator, self.ring.mul(&a.denominator, &b.denominator))
+    }
+    fn is_zero(&self, a: &Self::Element) -> bool {
+        a.numerator.is_zero()
+    }
+    fn checked_div(&self, a: &Self::Element, b: &Self::Element) -> Option<Self::Element> {
+        let numerator = self.ring.mul(&a.numerator, &b.denominator);
+        self.fraction(&numerator, &self.ring.mul(&a.denominator, &b.numerator))
+    }
+    fn format(&self, a: &Self::Element, style: Style) -> String {
+        let numerator = self.ring.format(&a.numerator, style);
+        if self.ring.is_one(&a.denominator) {
+            return numerator;
+        }
+        let denominator = self.ring.format(&a.denominator, style);
+        match style {
+            Style::Text => format!("({numerator})/({denominator})"),
+            Style::Latex => format!("\\frac{{{numerator}}}{{{denominator}}}"),
+        }
+    }
+    fn generator(&self, name: &str) -> Option<Self::Element> {
+        self.ring.generator(name).map(|f| self.embed(&f))
+    }
+}
+
+impl<F: Field> Field for Fractions<F> {
+    fn characteristic(&self) -> u64 {
+        self.ring.field().characteristic()
+    }
+}

@@ -1,0 +1,405 @@
+//! Sparse multivariate polynomials over any field.
+
+use std::cmp::Ordering;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::monomial::{Layout, Monomial, Width};
+use super::order::Order;
+use crate::number::{BigInt, Field, Ring, Style};
+use crate::{Error, ErrorKind, Result};
+
+/// One term: a nonzero coefficient and its monomial.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term<E> {
+    /// The nonzero coefficient.
+    pub coefficient: E,
+    /// The packed exponents.
+    pub monomial: Monomial,
+}
+
+/// A polynomial: terms in strictly descending monomial order, none zero. Plain data of a [`PolynomialRing`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polynomial<E> {
+    pub(super) terms: Vec<Term<E>>,
+}
+
+impl<E> Polynomial<E> {
+    /// The terms, greatest first.
+    pub fn terms(&self) -> &[Term<E>] {
+        &self.terms
+    }
+
+    /// The leading term, `None` for zero.
+    pub fn leading(&self) -> Option<&Term<E>> {
+        self.terms.first()
+    }
+
+    /// Whether this is the zero polynomial.
+    pub fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+}
+
+/// The ring `F[x1, ..., xn]` with a monomial order; variables are listed greatest first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolynomialRing<F: Field> {
+    field: F,
+    variables: Arc<[String]>,
+    layout: Layout,
+}
+
+impl<F: Field> PolynomialRing<F> {
+    /// The ring over `field` in `variables` (greatest first) with 16-bit exponent lanes.
+    ///
+    /// # Errors
+    /// [`ErrorKind::DuplicateName`] when a variable is listed twice or already names a field element;
+    /// [`ErrorKind::BadValue`] when a block order does not cover the variables.
+    pub fn new<S: AsRef<str>>(field: F, variables: &[S], order: Order) -> Result<Self> {
+        let names: Vec<String> = variables.iter().map(|name| name.as_ref().to_owned()).collect();
+        for (index, name) in names.iter().enumerate() {
+            if names[..index].contains(name) || field.generator(name).is_some() {
+                let text = format!("variable `{name}` is already taken; each name stands for one thing");
+                return Err(Error::new(ErrorKind::DuplicateName, text));
+            }
+        }
+        if let Order::Block(blocks) = &order
+            && blocks.iter().map(|block| block.size).sum::<usize>() != names.len()
+        {
+            let text = format!("order {order} does not cover the {} variables", names.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let layout = Layout::new(names.len(), Width::Bits16, order);
+        Ok(PolynomialRing { field, variables: names.into(), layout })
+    }
+
+    /// The same ring with another lane width.
+    #[must_use]
+    pub fn with_width(&self, width: Width) -> Self {
+        let layout = Layout::new(self.layout.variables(), width, self.layout.order().clone());
+        PolynomialRing { layout, ..self.clone() }
+    }
+
+    /// The coefficient field.
+    pub fn field(&self) -> &F {
+        &self.field
+    }
+
+    /// The variables' names, greatest first.
+    pub fn variables(&self) -> &[String] {
+        &self.variables
+    }
+
+    /// The layout of the monomials, with their order.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// The polynomial of `terms` given in any order, like terms collected.
+    pub fn collect(&self, terms: impl IntoIterator<Item = Term<F::Element>>) -> Polynomial<F::Element> {
+        let mut sums: HashMap<Monomial, F::Element> = HashMap::new();
+        for Term { coefficient, monomial } in terms {
+            match sums.get_mut(&monomial) {
+                Some(sum) => *sum = self.field.add(sum, &coefficient),
+                None => drop(sums.insert(monomial, coefficient)),
+            }
+        }
+        let nonzero = sums.into_iter().filter(|(_, coefficient)| !self.field.is_zero(coefficient));
+        let mut terms: Vec<_> = nonzero.map(|(monomial, coefficient)| Term { coefficient, monomial }).collect();
+        terms.sort_by(|a, b| self.layout.compare(&b.monomial, &a.monomial));
+        Polynomial { terms }
+    }
+
+    /// The constant polynomial `c`.
+    pub fn constant(&self, c: F::Element) -> Polynomial<F::Element> {
+        self.term(c, self.layout.one())
+    }
+
+    /// The polynomial of one term (zero when `c` is zero).
+    pub fn term(&self, c: F::Element, monomial: Monomial) -> Polynomial<F::Element> {
+        let terms = if self.field.is_zero(&c) { Vec::new() } else { vec![Term { coefficient: c, monomial }] };
+        Polynomial { terms }
+    }
+
+    /// The variable with this index.
+    ///
+    /// # Panics
+    /// When there is no such variable.
+    pub fn variable(&self, index: usize) -> Polynomial<F::Element> {
+        let mut exponents = vec![0; self.variables.len()];
+        exponents[index] = 1;
+        let monomial = self.layout.pack(&exponents).expect("degree one always fits");
+        self.term(self.field.one(), monomial)
+    }
+
+    /// The index of the variable called `name`.
+    pub fn index_of(&self, name: &str) -> Option<usize> {
+        self.variables.iter().position(|variable| variable == name)
+    }
+
+    /// The constant that `f` is, if it is one.
+    pub fn as_constant(&self, f: &Polynomial<F::Element>) -> Option<F::Element> {
+        match f.terms.as_slice() {
+            [] => Some(self.field.zero()),
+            [term] if self.layout.degree(&term.monomial) == 0 => Some(term.coefficient.clone()),
+            _ => None,
+        }
+    }
+
+    /// The total degree; 0 for constants and for zero.
+    pub fn degree(&self, f: &Polynomial<F::Element>) -> u32 {
+        f.terms.iter().map(|term| self.layout.degree(&term.monomial)).max().unwrap_or(0)
+    }
+
+    /// The degree in one variable; 0 for zero.
+    pub fn degree_in(&self, f: &Polynomial<F::Element>, variable: usize) -> u32 {
+        f.terms.iter().map(|term| self.layout.exponent(&term.monomial, variable)).max().unwrap_or(0)
+    }
+
+    /// `c f`.
+    pub fn scale(&self, f: &Polynomial<F::Element>, c: &F::Element) -> Polynomial<F::Element> {
+        if self.field.is_zero(c) {
+            return self.zero();
+        }
+        let scaled = |term: &Term<F::Element>| Term {
+            coefficient: self.field.mul(&term.coefficient, c),
+            monomial: term.monomial.clone(),
+        };
+        Polynomial { terms: f.terms.iter().map(scaled).collect() }
+    }
+
+    /// `c m f`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
+    pub fn mul_term(
+        &self, f: &Polynomial<F::Element>, c: &F::Element, m: &Monomial,
+    ) -> Result<Polynomial<F::Element>> {
+        let product = |term: &Term<F::Element>| {
+            let monomial = self.layout.checked_mul(&term.monomial, m).ok_or_else(|| self.overflow())?;
+            Ok(Term { coefficient: self.field.mul(&term.coefficient, c), monomial })
+        };
+        Ok(Polynomial { terms: f.terms.iter().map(product).collect::<Result<_>>()? })
+    }
+
+    /// `f - c m g`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
+    pub fn sub_mul_term(
+        &self, f: &Polynomial<F::Element>, c: &F::Element, m: &Monomial, g: &Polynomial<F::Element>,
+    ) -> Result<Polynomial<F::Element>> {
+        Ok(self.add(f, &self.mul_term(g, &self.field.neg(c), m)?))
+    }
+
+    /// `f g`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
+    pub fn checked_mul(
+        &self, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
+    ) -> Result<Polynomial<F::Element>> {
+        let (short, long) = if f.terms.len() <= g.terms.len() { (f, g) } else { (g, f) };
+        match short.terms.as_slice() {
+            [] => Ok(self.zero()),
+            [term] => self.mul_term(long, &term.coefficient, &term.monomial),
+            _ => {
+                let mut products = Vec::with_capacity(short.terms.len() * long.terms.len());
+                for term in &short.terms {
+                    products.extend(self.mul_term(long, &term.coefficient, &term.monomial)?.terms);
+                }
+                Ok(self.collect(products))
+            }
+        }
+    }
+
+    /// `f` with leading coefficient one; zero stays zero.
+    pub fn monic(&self, f: &Polynomial<F::Element>) -> Polynomial<F::Element> {
+        match f.leading().and_then(|term| self.field.inverse(&term.coefficient)) {
+            Some(inverse) => self.scale(f, &inverse),
+            None => f.clone(),
+        }
+    }
+
+    /// `f / g` when `g` divides `f` exactly, else `None`; `None` for `g = 0`.
+    pub fn exact_div(
+        &self, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
+    ) -> Option<Polynomial<F::Element>> {
+        let lead = g.leading()?;
+        let inverse = self.field.inverse(&lead.coefficient)?;
+        if g.terms.len() == 1 && self.layout.degree(&lead.monomial) == 0 {
+            return Some(self.scale(f, &inverse));
+        }
+        let (mut rest, mut quotient) = (f.clone(), Vec::new());
+        while let Some(term) = rest.leading() {
+            let monomial = self.layout.checked_div(&term.monomial, &lead.monomial)?;
+            let coefficient = self.field.mul(&term.coefficient, &inverse);
+            rest = self.sub_mul_term(&rest, &coefficient, &monomial, g).ok()?;
+            quotient.push(Term { coefficient, monomial });
+        }
+        Some(Polynomial { terms: quotient })
+    }
+
+    /// The least common multiple of two monomials.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Overflow`] when its degree does not fit the lanes.
+    pub fn lcm(&self, a: &Monomial, b: &Monomial) -> Result<Monomial> {
+        self.layout.lcm(a, b).ok_or_else(|| self.overflow())
+    }
+
+    /// The same polynomial read in another ring with the same variables, in any order or width.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] when `f` uses a variable that `target` lacks; [`ErrorKind::Overflow`].
+    pub fn transfer<G: Field<Element = F::Element>>(
+        &self, f: &Polynomial<F::Element>, target: &PolynomialRing<G>,
+    ) -> Result<Polynomial<F::Element>> {
+        self.map_into(f, target, |coefficient| Ok(coefficient.clone()))
+    }
+
+    /// The image of `f` in another ring: variables by name, coefficients by `map`.
+    ///
+    /// # Errors
+    /// As [`PolynomialRing::transfer`], and what `map` fails with.
+    pub fn map_into<G: Field>(
+        &self, f: &Polynomial<F::Element>, target: &PolynomialRing<G>,
+        map: impl Fn(&F::Element) -> Result<G::Element>,
+    ) -> Result<Polynomial<G::Element>> {
+        let indices: Vec<Option<usize>> = self.variables.iter().map(|name| target.index_of(name)).collect();
+        let image = |term: &Term<F::Element>| {
+            let mut exponents = vec![0; target.variables.len()];
+            for (variable, index) in indices.iter().enumerate() {
+                let exponent = self.layout.exponent(&term.monomial, variable);
+                match index {
+                    Some(index) => exponents[*index] = exponent,
+                    None if exponent > 0 => return Err(self.unknown_variable(variable)),
+                    None => {}
+                }
+            }
+            let monomial = target.layout.pack(&exponents).ok_or_else(|| target.overflow())?;
+            Ok(Term { coefficient: map(&term.coefficient)?, monomial })
+        };
+        let terms: Vec<_> = f.terms.iter().map(image).collect::<Result<_>>()?;
+        Ok(target.collect(terms))
+    }
+
+    /// `f` with the ring elements `values` put in place of all variables, in ring `target`.
+    pub fn substitute<R: Ring>(
+        &self, f: &Polynomial<F::Element>, target: &R, values: &[R::Element],
+        map: impl Fn(&F::Element) -> R::Element,
+    ) -> R::Element {
+        f.terms.iter().fold(target.zero(), |sum, term| {
+            let powers = values.iter().enumerate().map(|(v, value)| (value, self.layout.exponent(&term.monomial, v)));
+            let product = powers.filter(|(_, exponent)| *exponent > 0).fold(map(&term.coefficient), |product, power| {
+                target.mul(&product, &target.pow(power.0, power.1))
+            });
+            target.add(&sum, &product)
+        })
+    }
+
+    /// The coefficients of `f` as a polynomial in one variable: `result[k]` belongs to its `k`-th power.
+    pub fn coefficients_in(&self, f: &Polynomial<F::Element>, variable: usize) -> Vec<Polynomial<F::Element>> {
+        let mut parts = vec![Vec::new(); self.degree_in(f, variable) as usize + 1];
+        for term in &f.terms {
+            let mut exponents = self.layout.exponents(&term.monomial);
+            let power = std::mem::take(&mut exponents[variable]) as usize;
+            let monomial = self.layout.pack(&exponents).expect("a divisor fits");
+            parts[power].push(Term { coefficient: term.coefficient.clone(), monomial });
+        }
+        parts.into_iter().map(|terms| self.collect(terms)).collect()
+    }
+
+    /// The partial derivative with respect to one variable.
+    pub fn derivative(&self, f: &Polynomial<F::Element>, variable: usize) -> Polynomial<F::Element> {
+        let differentiate = |term: &Term<F::Element>| {
+            let mut exponents = self.layout.exponents(&term.monomial);
+            let power = exponents[variable];
+            exponents[variable] = power.checked_sub(1)?;
+            let factor = self.field.from_integer(&BigInt::from(power));
+            let coefficient = self.field.mul(&term.coefficient, &factor);
+            Some(Term { coefficient, monomial: self.layout.pack(&exponents)? })
+        };
+        self.collect(f.terms.iter().filter_map(differentiate))
+    }
+
+    /// Whether the invariants of a polynomial of this ring hold: descending, no zero coefficient.
+    pub fn is_well_formed(&self, f: &Polynomial<F::Element>) -> bool {
+        let descending =
+            |pair: &[Term<F::Element>]| self.layout.compare(&pair[0].monomial, &pair[1].monomial).is_gt();
+        f.terms.windows(2).all(descending) && f.terms.iter().all(|term| !self.field.is_zero(&term.coefficient))
+    }
+
+    fn overflow(&self) -> Error {
+        let limit = self.layout.width().max_degree();
+        Error::new(ErrorKind::Overflow, format!("a monomial's degree exceeds {limit}, the limit of this ring"))
+    }
+
+    fn unknown_variable(&self, variable: usize) -> Error {
+        let text = format!("variable `{}` has no place in the target ring", self.variables[variable]);
+        Error::new(ErrorKind::UnknownName, text)
+    }
+}
+
+impl<F: Field> Ring for PolynomialRing<F> {
+    type Element = Polynomial<F::Element>;
+
+    fn zero(&self) -> Self::Element {
+        Polynomial { terms: Vec::new() }
+    }
+    fn one(&self) -> Self::Element {
+        self.constant(self.field.one())
+    }
+    fn from_integer(&self, n: &BigInt) -> Self::Element {
+        self.constant(self.field.from_integer(n))
+    }
+    fn add(&self, f: &Self::Element, g: &Self::Element) -> Self::Element {
+        let mut terms = Vec::with_capacity(f.terms.len() + g.terms.len());
+        let (mut left, mut right) = (f.terms.iter().peekable(), g.terms.iter().peekable());
+        while let (Some(a), Some(b)) = (left.peek(), right.peek()) {
+            match self.layout.compare(&a.monomial, &b.monomial) {
+                Ordering::Greater => terms.extend(left.next().cloned()),
+                Ordering::Less => terms.extend(right.next().cloned()),
+                Ordering::Equal => {
+                    let coefficient = self.field.add(&a.coefficient, &b.coefficient);
+                    if !self.field.is_zero(&coefficient) {
+                        terms.push(Term { coefficient, monomial: a.monomial.clone() });
+                    }
+                    (left.next(), right.next());
+                }
+            }
+        }
+        terms.extend(left.chain(right).cloned());
+        let sum = Polynomial { terms };
+        debug_assert!(self.is_well_formed(&sum));
+        sum
+    }
+    fn neg(&self, f: &Self::Element) -> Self::Element {
+        let negated = |term: &Term<F::Element>| Term {
+            coefficient: self.field.neg(&term.coefficient),
+            monomial: term.monomial.clone(),
+        };
+        Polynomial { terms: f.terms.iter().map(negated).collect() }
+    }
+    /// The product. Degrees beyond the lanes panic, as integer overflow does; engines and readers
+    /// use [`PolynomialRing::checked_mul`].
+    ///
+    /// # Panics
+    /// When the degree exceeds that of the ring's [`Width`].
+    fn mul(&self, f: &Self::Element, g: &Self::Element) -> Self::Element {
+        self.checked_mul(f, g).unwrap_or_else(|error| panic!("{error}"))
+    }
+    fn is_zero(&self, f: &Self::Element) -> bool {
+        f.is_zero()
+    }
+    fn checked_div(&self, f: &Self::Element, g: &Self::Element) -> Option<Self::Element> {
+        self.exact_div(f, g)
+    }
+    fn format(&self, f: &Self::Element, style: Style) -> String {
+        super::print::format_polynomial(self, f, style)
+    }
+    fn generator(&self, name: &str) -> Option<Self::Element> {
+        let variable = self.index_of(name).map(|index| self.variable(index));
+        variable.or_else(|| self.field.generator(name).map(|element| self.constant(element)))
+    }
+}
