@@ -1,0 +1,240 @@
+//! Running a [`Program`]: every chart that applies, every root, each candidate polished, measured and merged.
+
+use serde::Serialize;
+
+use super::instruction::{Instruction, Operand, Operation};
+use super::program::{Chart, Guard, JointValue, Program, Rule, Step, root_slots};
+use super::{MERGE, NEAR, PIVOT, TINY, refine};
+use crate::{Error, ErrorKind, Result, roots};
+
+/// One answer of a program.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Solution {
+    /// Joint values in the program's joint order: radians in (-pi, pi], lengths in the program's unit.
+    pub q: Vec<f64>,
+    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
+    pub residual: f64,
+    /// Which chart and which roots gave it: the same number for the same branch at every target.
+    pub branch: usize,
+    /// Joints (indices) that may take any value here: this is one member of a family.
+    pub free: Vec<usize>,
+    /// Whether the source document would choose this one.
+    pub chosen: bool,
+}
+
+/// The values that operands refer to.
+pub(super) struct Frame<'a> {
+    pub parameters: &'a [f64],
+    pub magnitude: f64,
+    pub unknowns: Vec<f64>,
+    pub registers: Vec<f64>,
+}
+
+impl Frame<'_> {
+    pub fn value(&self, operand: Operand) -> f64 {
+        match operand {
+            Operand::Constant(value) => value,
+            Operand::Parameter(index) => self.parameters[index],
+            Operand::Unknown(index) => self.unknowns[index],
+            Operand::Register(index) => self.registers[index],
+            Operand::Magnitude => self.magnitude,
+        }
+    }
+
+    pub fn run(&mut self, code: &[Instruction]) {
+        for instruction in code {
+            let result = match instruction.operation {
+                Operation::Add(a, b) => self.value(a) + self.value(b),
+                Operation::Sub(a, b) => self.value(a) - self.value(b),
+                Operation::Mul(a, b) => self.value(a) * self.value(b),
+                Operation::Div(a, b) => self.value(a) / self.value(b),
+                Operation::Abs(a) => self.value(a).abs(),
+            };
+            self.registers.truncate(instruction.target);
+            self.registers.push(result);
+        }
+    }
+
+    fn holds(&self, guard: &Guard) -> bool {
+        let (value, scale) = (self.value(guard.value).abs(), self.value(guard.scale));
+        if guard.near { value <= NEAR * scale } else { value > TINY * scale }
+    }
+}
+
+impl Program {
+    /// All real solutions for `target` (one number an input, in order and unit of [`Program::inputs`]), by branch. Empty when the
+    /// target is unreachable. The program must be valid ([`Program::validate`]).
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a wrong count of numbers, NaN or infinity; [`ErrorKind::Unsupported`] when the target lies on a
+    /// stratum that could not be derived.
+    pub fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
+        self.check_target(target)?;
+        let parameters = self.parameter_values(target);
+        let largest = parameters.iter().fold(self.scale, |largest, value| largest.max(value.abs()));
+        let mut answers = Vec::new();
+        for chart in &self.charts {
+            let unknowns = vec![0.0; self.unknowns.len()];
+            let mut frame = Frame { parameters: &parameters, magnitude: largest, unknowns, registers: Vec::new() };
+            frame.run(&chart.guard_code);
+            if chart.guards.iter().all(|guard| frame.holds(guard)) {
+                if chart.open {
+                    let text = format!("the target lies on `{}`, a stratum that could not be derived", chart.label);
+                    return Err(Error::new(ErrorKind::Unsupported, text));
+                }
+                self.walk(chart, 0, chart.first_branch, &mut frame, &mut answers);
+            }
+        }
+        answers.sort_by_key(|answer| answer.branch);
+        self.mark_choice(&mut answers);
+        Ok(answers)
+    }
+
+    fn check_target(&self, target: &[f64]) -> Result<()> {
+        let names = || self.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>().join(", ");
+        if target.len() != self.inputs.len() {
+            let text = format!("{} numbers given, {} expected: {}", target.len(), self.inputs.len(), names());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        match self.inputs.iter().zip(target).find(|(_, value)| !value.is_finite()) {
+            Some((input, value)) => {
+                let text = format!("`{}` is {value}; give a finite number", input.name);
+                Err(Error::new(ErrorKind::BadValue, text))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The parameters' values for a checked target.
+    pub(super) fn parameter_values(&self, target: &[f64]) -> Vec<f64> {
+        let mut values: Vec<f64> = Vec::with_capacity(self.parameters.len());
+        for parameter in &self.parameters {
+            let value = match &parameter.rule {
+                Rule::Input(index) => target[*index],
+                Rule::Cosine(index) => target[*index].cos(),
+                Rule::Sine(index) => target[*index].sin(),
+                Rule::Root { code, value } => {
+                    let mut frame =
+                        Frame { parameters: &values, magnitude: 0.0, unknowns: Vec::new(), registers: Vec::new() };
+                    frame.run(code);
+                    frame.value(*value).max(0.0).sqrt()
+                }
+            };
+            values.push(value);
+        }
+        values
+    }
+
+    /// Runs the steps of `chart` from number `next` on, once for each choice of roots.
+    fn walk(&self, chart: &Chart, next: usize, branch: usize, frame: &mut Frame<'_>, answers: &mut Vec<Solution>) {
+        let Some(step) = chart.steps.get(next) else {
+            return self.finish(chart, branch, frame, answers);
+        };
+        match step {
+            Step::Compute(code) => {
+                frame.run(code);
+                self.walk(chart, next + 1, branch, frame, answers);
+            }
+            Step::Set { unknown, value } => {
+                frame.unknowns[*unknown] = frame.value(*value);
+                self.walk(chart, next + 1, branch, frame, answers);
+            }
+            Step::Roots { unknown, polynomials } => {
+                let stride: usize = chart.steps[next + 1..].iter().map(slots).product();
+                let registers = frame.registers.len();
+                for (index, root) in find_roots(polynomials, frame).as_slice().iter().enumerate() {
+                    frame.unknowns[*unknown] = *root;
+                    frame.registers.truncate(registers);
+                    self.walk(chart, next + 1, branch + index * stride, frame, answers);
+                }
+            }
+        }
+    }
+
+    /// Turns the unknowns into joints, polishes them, and keeps the answer if the equations hold.
+    fn finish(&self, chart: &Chart, branch: usize, frame: &mut Frame<'_>, answers: &mut Vec<Solution>) {
+        let mut q: Vec<f64> = self.joints.iter().map(|joint| joint_value(joint.value, &frame.unknowns)).collect();
+        if chart.free.is_empty() {
+            refine::polish(self, &mut q, frame);
+        }
+        let fit = refine::measure(self, &q, frame);
+        if !fit.accepted {
+            return;
+        }
+        let answer = Solution { q, residual: fit.residual, branch, free: chart.free.clone(), chosen: false };
+        match answers.iter_mut().find(|other| self.same(other, &answer)) {
+            Some(other) if answer.residual < other.residual => *other = Solution { branch: other.branch, ..answer },
+            Some(_) => {}
+            None => answers.push(answer),
+        }
+    }
+
+    /// Whether two answers are one within [`MERGE`].
+    fn same(&self, a: &Solution, b: &Solution) -> bool {
+        let close = |(index, joint): (usize, &super::Joint)| {
+            let difference = a.q[index] - b.q[index];
+            match joint.value {
+                JointValue::Angle { .. } => {
+                    let turn = std::f64::consts::TAU;
+                    (difference - turn * (difference / turn).round()).abs() <= MERGE
+                }
+                JointValue::Plain(_) => difference.abs() <= MERGE * self.scale.max(a.q[index].abs()),
+            }
+        };
+        a.free == b.free && self.joints.iter().enumerate().all(close)
+    }
+
+    fn mark_choice(&self, answers: &mut [Solution]) {
+        let Some(preference) = self.preference else { return };
+        let sign = if preference.greatest { -1.0 } else { 1.0 };
+        let value = |answer: &Solution| {
+            let mut unknowns = vec![0.0; self.unknowns.len()];
+            refine::unknowns_of(self, &answer.q, &mut unknowns);
+            sign * unknowns[preference.unknown]
+        };
+        let least = answers.iter().map(value).fold(f64::INFINITY, f64::min);
+        for answer in answers {
+            answer.chosen = value(answer) <= least + MERGE;
+        }
+    }
+}
+
+fn slots(step: &Step) -> usize {
+    match step {
+        Step::Roots { polynomials, .. } => root_slots(polynomials),
+        _ => 1,
+    }
+}
+
+/// The real roots of the first polynomial whose leading coefficient is not negligible.
+fn find_roots(polynomials: &[Vec<Operand>], frame: &Frame<'_>) -> roots::Roots {
+    let values = |coefficients: &[Operand]| {
+        let mut line = [0.0; roots::MAX_DEGREE + 1];
+        for (slot, operand) in line.iter_mut().zip(coefficients) {
+            *slot = frame.value(*operand);
+        }
+        line
+    };
+    let (last, earlier) = polynomials.split_last().expect("a valid program has a polynomial for each root step");
+    for coefficients in earlier {
+        let line = values(coefficients);
+        let line = &line[..coefficients.len()];
+        let largest = line.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        if line.last().is_some_and(|lead| lead.abs() > PIVOT * largest) {
+            return roots::real_roots(line);
+        }
+    }
+    roots::real_roots(&values(last)[..last.len()])
+}
+
+fn joint_value(value: JointValue, unknowns: &[f64]) -> f64 {
+    match value {
+        JointValue::Angle { cosine, sine } => half_open(unknowns[sine].atan2(unknowns[cosine])),
+        JointValue::Plain(unknown) => unknowns[unknown],
+    }
+}
+
+/// The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi.
+pub(super) fn half_open(angle: f64) -> f64 {
+    if angle <= -std::f64::consts::PI { angle + std::f64::consts::TAU } else { angle }
+}

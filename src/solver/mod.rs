@@ -1,0 +1,27 @@
+//! The solver itself: a small straight-line program with branches ([`Program`]), its evaluator, and [`Solution`].
+//!
+//! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
+
+mod evaluate;
+mod instruction;
+mod program;
+mod refine;
+
+pub use evaluate::Solution;
+pub use instruction::{Instruction, Operand, Operation};
+pub use program::{Chart, Checks, Guard, Input, Joint, JointValue, ParameterRule, Preference, Program, Rule, Step, Unit};
+
+/// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
+pub const ACCEPT: f64 = 1e-12;
+/// Two answers whose joints all differ by no more than this (rad, or relative to the length scale) are one.
+pub const MERGE: f64 = 1e-7;
+/// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
+pub const NEAR: f64 = 1e-6;
+/// A chart does not run where a denominator is below this share of its scale.
+pub const TINY: f64 = 1e-15;
+/// Among polynomials for one unknown, the first whose leading coefficient exceeds this share of the largest one is used.
+pub const PIVOT: f64 = 1e-9;
+/// Newton steps that polish each answer; a step that does not lower the residual is not taken.
+pub const POLISH_STEPS: usize = 3;
+/// The most joints that a program may have.
+pub const MAX_JOINTS: usize = 8;
