@@ -3,6 +3,7 @@
 
 pub mod error;
 pub mod number;
+pub mod poly;
 pub mod watch;
 
 pub use error::{Error, ErrorKind, Result};
