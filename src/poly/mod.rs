@@ -1,22 +1,30 @@
 //! Polynomials: packed monomials and their orders, sparse rings over any field, gcd, rational functions.
 //!
 //! [`PolynomialRing`] is a ring as a value, [`Polynomial`] its plain data; [`Fractions`] is the field of
-//! rational functions of the parameters.
+//! rational functions of the parameters; [`Expression`] is what a person wrote, before it is expanded.
 
+mod evaluate;
+mod expression;
 mod factor;
 mod fractions;
 mod gcd;
+mod grammar;
+mod latex;
 mod monomial;
 mod order;
+mod parse;
 mod print;
 mod ring;
+mod token;
 
+pub use expression::Expression;
 pub use factor::{refine_factors, square_free_factors};
 pub use fractions::{Fraction, Fractions};
 pub use gcd::gcd;
+pub use grammar::{MAX_DEPTH, MAX_EXPONENT};
+pub use latex::{latex_name, parse_latex};
 pub use monomial::{Layout, Monomial, Width};
 pub use order::{Block, Order};
+pub use parse::{is_identifier, parse, parse_equation};
 pub use ring::{Polynomial, PolynomialRing, Term};
-
-/// Until the expression reader lands.
-fn latex_name(name: &str) -> String { name.to_owned() }
+pub use token::MAX_LENGTH;

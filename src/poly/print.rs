@@ -2,7 +2,7 @@
 
 use super::monomial::Monomial;
 use super::ring::{Polynomial, PolynomialRing, Term};
-use crate::number::{Field, Ring, Style};
+use crate::number::{Field, Style};
 
 /// `f` as a sum, greatest term first: `3/2*x^2*y - x + 1`.
 pub(super) fn format_polynomial<F: Field>(

@@ -1,0 +1,116 @@
+//! Words of a text and the cursor that cuts them, for the two lexers.
+
+use std::fmt;
+
+use crate::{Error, ErrorKind, Result};
+
+/// The longest text that is read, in bytes.
+pub const MAX_LENGTH: usize = 400_000;
+
+/// A word of the text and where it starts.
+pub(super) struct Token<'a> {
+    /// In characters, from 1.
+    pub(super) column: usize,
+    pub(super) kind: Kind<'a>,
+}
+
+/// What a word is.
+#[derive(Clone, PartialEq)]
+pub(super) enum Kind<'a> {
+    Number(&'a str),
+    Name(String),
+    Symbol(char),
+    /// `\frac`.
+    Fraction,
+    End,
+}
+
+impl fmt::Display for Kind<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let short = |text: &str| text.chars().take(40).collect::<String>();
+        match self {
+            Kind::Number(text) => f.write_str(&short(text)),
+            Kind::Name(name) => f.write_str(&short(name)),
+            Kind::Symbol(symbol) => write!(f, "{symbol}"),
+            Kind::Fraction => f.write_str("\\frac"),
+            Kind::End => f.write_str("end of text"),
+        }
+    }
+}
+
+/// A [`ErrorKind::Syntax`] error at `column`.
+pub(super) fn syntax(column: usize, message: impl fmt::Display) -> Error {
+    Error::new(ErrorKind::Syntax, format!("column {column}: {message}"))
+}
+
+/// A place in a text, counted in bytes and in characters.
+#[derive(Clone, Copy)]
+pub(super) struct Cursor<'a> {
+    text: &'a str,
+    byte: usize,
+    column: usize,
+}
+
+impl<'a> Cursor<'a> {
+    pub(super) fn new(text: &'a str) -> Result<Self> {
+        if text.len() > MAX_LENGTH {
+            let message = format!("the text is {} bytes long, at most {MAX_LENGTH} are read; split it", text.len());
+            return Err(Error::new(ErrorKind::Syntax, message));
+        }
+        Ok(Cursor { text, byte: 0, column: 1 })
+    }
+
+    pub(super) fn column(&self) -> usize {
+        self.column
+    }
+
+    pub(super) fn mark(&self) -> Cursor<'a> {
+        *self
+    }
+
+    pub(super) fn reset(&mut self, mark: Cursor<'a>) {
+        *self = mark;
+    }
+
+    pub(super) fn since(&self, mark: Cursor<'a>) -> &'a str {
+        &self.text[mark.byte..self.byte]
+    }
+
+    pub(super) fn peek(&self) -> Option<char> {
+        self.text[self.byte..].chars().next()
+    }
+
+    pub(super) fn peek_after_space(&mut self) -> Option<char> {
+        self.take_while(|c| matches!(c, ' ' | '\t' | '\r' | '\n'));
+        self.peek()
+    }
+
+    /// Takes the next character, which the caller has peeked at.
+    pub(super) fn take_one(&mut self) -> char {
+        let c = self.peek().unwrap_or(' ');
+        self.take_if(|_| true);
+        c
+    }
+
+    pub(super) fn take_if(&mut self, test: impl Fn(char) -> bool) -> bool {
+        match self.peek() {
+            Some(c) if test(c) => {
+                self.byte += c.len_utf8();
+                self.column += 1;
+                true
+            }
+            _ => false,
+        }
+    }
+
+    pub(super) fn take_while(&mut self, test: impl Fn(char) -> bool) -> &'a str {
+        let start = *self;
+        while self.take_if(&test) {}
+        self.since(start)
+    }
+
+    pub(super) fn unknown_character(&self, allowed: &str) -> Error {
+        let shown = self.peek().map_or("end of text".to_owned(), |c| format!("`{}`", c.escape_debug()));
+        syntax(self.column, format!("{shown} has no meaning here; allowed are {allowed}"))
+    }
+}

@@ -1,0 +1,6 @@
+//! Tests of `groebot::poly`.
+
+mod expression;
+mod latex;
+mod parse;
+mod trees;
