@@ -3,6 +3,8 @@
 
 pub mod error;
 pub mod number;
+pub mod poly;
+pub mod roots;
 pub mod watch;
 
 pub use error::{Error, ErrorKind, Result};

@@ -1,3 +1,5 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
 mod number;
+mod poly;
+mod roots;

@@ -1,0 +1,3 @@
+//! Polynomials over any [`crate::number::Field`].
+
+pub mod univariate;

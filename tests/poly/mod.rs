@@ -1,0 +1,3 @@
+//! Polynomials.
+
+mod univariate;
