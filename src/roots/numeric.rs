@@ -106,8 +106,8 @@ impl Polynomial {
         let degree = self.degree - order;
         let mut a = [0.0; MAX_DEGREE + 1];
         let mut binomial = 1.0;
-        for i in 0..=degree {
-            a[i] = binomial * self.a[i + order];
+        for (i, target) in a[..=degree].iter_mut().enumerate() {
+            *target = binomial * self.a[i + order];
             binomial = binomial * (i + 1 + order) as f64 / (i + 1) as f64;
         }
         Polynomial { a, degree }.scaled()
