@@ -5,6 +5,7 @@ pub mod error;
 pub mod groebner;
 pub mod number;
 pub mod poly;
+pub mod roots;
 pub mod watch;
 
 pub use error::{Error, ErrorKind, Result};

@@ -28,3 +28,6 @@ pub use order::{Block, Order};
 pub use parse::{is_identifier, parse, parse_equation};
 pub use ring::{Polynomial, PolynomialRing, Term};
 pub use token::MAX_LENGTH;
+//! Polynomials over any [`crate::number::Field`].
+
+pub mod univariate;

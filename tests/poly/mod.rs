@@ -4,3 +4,6 @@ mod expression;
 mod latex;
 mod parse;
 mod trees;
+//! Polynomials.
+
+mod univariate;
