@@ -3,6 +3,7 @@
 
 pub mod error;
 pub mod number;
+pub mod spatial;
 pub mod watch;
 
 pub use error::{Error, ErrorKind, Result};
