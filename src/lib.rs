@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(missing_docs))]
 
 pub mod error;
+pub mod kinematics;
 pub mod number;
 pub mod spatial;
 pub mod watch;
