@@ -105,12 +105,12 @@ proptest! {
         prop_assert!((rotation.to_homogeneous() - expected).amax() < 1e-12);
         prop_assert!((rotation.matrix() * rotation.matrix().transpose()).is_identity(1e-14));
         let moved = x + rotation::displacement(&unit, theta, &x);
-        prop_assert!((rotation * x - moved).norm() < 1e-14);
+        prop_assert!((rotation * x - moved).norm() < 1e-13);
     }
 
     #[test]
     fn a_twist_of_any_length_exponentiates(
-        v in vector(2.0), w in direction(), size in prop_oneof![Just(0.0), -20.0..0.5_f64], theta in -3.0..3.0_f64,
+        v in vector(2.0), w in direction(), size in prop_oneof![Just(0.0), -20.0..0.0_f64], theta in -3.0..3.0_f64,
     ) {
         let w = if size == 0.0 { Vector3::zeros() } else { w * 10f64.powf(size) };
         let twist = Twist { v, w };
@@ -121,25 +121,25 @@ proptest! {
     fn screws_move_as_their_twists(axis in axis(), w in direction(), q in -7.0..7.0_f64) {
         for screw in [Screw::Revolute(axis), Screw::prismatic(w).unwrap()] {
             assert_close(&screw.exp(q), &series(&(wedge(&screw.twist()) * q)), 1e-11);
-            assert_close(&screw.exp(q), &screw.twist().exp(q).to_homogeneous(), 1e-14);
+            assert_close(&screw.exp(q), &screw.twist().exp(q).to_homogeneous(), 1e-13);
         }
     }
 
     #[test]
     fn motions_about_one_screw_add_up(axis in axis(), a in -4.0..4.0_f64, b in -4.0..4.0_f64) {
         let both = axis.rotation(a) * axis.rotation(b);
-        assert_close(&both, &axis.rotation(a + b).to_homogeneous(), 1e-14);
+        assert_close(&both, &axis.rotation(a + b).to_homogeneous(), 1e-13);
     }
 
     #[test]
     fn rotations_fix_their_axis_and_keep_distances_to_it(axis in axis(), p in vector(3.0), q in -4.0..4.0_f64) {
         let p = Point3::from(p);
         let turned = axis.rotate(q, &p);
-        prop_assert!((axis.rotation(q) * p - turned).norm() < 1e-14);
+        prop_assert!((axis.rotation(q) * p - turned).norm() < 1e-13);
         let foot = axis.foot(&p);
-        prop_assert!((foot - p).dot(&axis.direction()).abs() < 1e-14);
-        prop_assert!((axis.rotate(q, &foot) - foot).norm() < 1e-14);
-        prop_assert!(((turned - axis.point()).norm() - (p - axis.point()).norm()).abs() < 1e-14);
+        prop_assert!((foot - p).dot(&axis.direction()).abs() < 1e-13);
+        prop_assert!((axis.rotate(q, &foot) - foot).norm() < 1e-13);
+        prop_assert!(((turned - axis.point()).norm() - (p - axis.point()).norm()).abs() < 1e-13);
         prop_assert_eq!(axis.level_with(&p).point(), foot);
         prop_assert_eq!(axis.rotate(0.0, &p), p);
     }

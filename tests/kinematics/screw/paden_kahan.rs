@@ -165,7 +165,7 @@ fn the_axis_is_left_in_order() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(20_000))]
+    #![proptest_config(ProptestConfig { cases: 20_000, max_global_rejects: 20_000, ..ProptestConfig::default() })]
 
     #[test]
     fn the_angle_that_moved_the_point_is_found(axis in axis(), p in point(3.0), theta in -PI..PI) {
