@@ -6,6 +6,9 @@ pub mod groebner;
 pub mod number;
 pub mod poly;
 pub mod roots;
+pub mod kinematics;
+pub mod number;
+pub mod spatial;
 pub mod watch;
 
 pub use error::{Error, ErrorKind, Result};

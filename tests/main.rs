@@ -1,5 +1,7 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
+mod kinematics;
 mod number;
 mod poly;
 mod roots;
+mod spatial;

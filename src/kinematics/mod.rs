@@ -1,0 +1,4 @@
+//! Kinematics of chains of joints.
+
+pub mod oracle;
+pub mod screw;

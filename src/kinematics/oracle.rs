@@ -1,0 +1,148 @@
+//! A numeric inverse-kinematics oracle: damped least squares (Levenberg 1944, Marquardt 1963) from many seeds.
+//!
+//! It knows only a residual function, so it can witness for or against any solver. It proves nothing: an answer that no
+//! seed leads to is not found.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+use crate::spatial::angle;
+use crate::{Error, ErrorKind, Result};
+
+/// Settings of the search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Oracle {
+    /// Number of starting points, spread evenly and always the same.
+    pub seeds: usize,
+    /// Steps from each starting point at most.
+    pub iterations: usize,
+    /// Largest Euclidean norm of the residual that counts as zero, in the residual's own unit.
+    pub tolerance: f64,
+    /// Answers are the same when each angle differs by at most this much \[rad\], modulo whole turns.
+    pub distinct: f64,
+}
+
+/// An answer of the oracle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// The joint angles, each in (-pi, pi] \[rad\].
+    pub q: Vec<f64>,
+    /// Euclidean norm of the residual at `q`.
+    pub residual: f64,
+}
+
+impl Default for Oracle {
+    /// 100 seeds, 200 steps, residual 1e-11, angles 1e-6 rad.
+    fn default() -> Self {
+        Oracle { seeds: 100, iterations: 200, tolerance: 1e-11, distinct: 1e-6 }
+    }
+}
+
+/// A point of the search with its residual.
+struct State {
+    q: DVector<f64>,
+    residual: DVector<f64>,
+    norm: f64,
+}
+
+impl Oracle {
+    /// The distinct zeros of `residual`, a smooth function of `joints` angles \[rad\] with period 2 pi in each.
+    ///
+    /// `residual` returns a vector of the same length every time; entries that are not finite end the search from
+    /// that seed. A continuum of zeros shows as about as many answers as seeds.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `joints` is zero.
+    pub fn solve(&self, joints: usize, residual: impl Fn(&[f64]) -> Vec<f64>) -> Result<Vec<Solution>> {
+        if joints == 0 {
+            return Err(Error::new(ErrorKind::BadValue, "an oracle needs at least one joint"));
+        }
+        let mut found = Vec::new();
+        for start in seeds(joints, self.seeds) {
+            if let Some(answer) = self.descend(start, &residual) {
+                self.keep(&mut found, answer);
+            }
+        }
+        Ok(found)
+    }
+
+    /// Adds `answer` to `found`, or lets it replace a less accurate equal one.
+    fn keep(&self, found: &mut Vec<Solution>, answer: Solution) {
+        let same = |other: &&mut Solution| {
+            let mut pairs = answer.q.iter().zip(&other.q);
+            pairs.all(|(a, b)| angle::difference(*a, *b).abs() <= self.distinct)
+        };
+        match found.iter_mut().find(same) {
+            Some(other) if answer.residual < other.residual => *other = answer,
+            Some(_) => {}
+            None => found.push(answer),
+        }
+    }
+
+    /// The zero that the descent from `start` ends in, if it does.
+    fn descend(&self, start: DVector<f64>, residual: &impl Fn(&[f64]) -> Vec<f64>) -> Option<Solution> {
+        let mut state = State::new(start, residual)?;
+        let mut damping = 1e-3;
+        for _ in 0..self.iterations {
+            let Some(better) = state.improve(&mut damping, residual) else { break };
+            state = better;
+        }
+        let q = state.q.iter().map(|&q| angle::wrap(q)).collect();
+        (state.norm <= self.tolerance).then_some(Solution { q, residual: state.norm })
+    }
+}
+
+impl State {
+    /// `None` when the residual is not finite at `q`.
+    fn new(q: DVector<f64>, residual: &impl Fn(&[f64]) -> Vec<f64>) -> Option<State> {
+        let residual = DVector::from_vec(residual(q.as_slice()));
+        let norm = residual.norm();
+        norm.is_finite().then_some(State { q, residual, norm })
+    }
+
+    /// A state with a smaller residual, one damped step away; `damping` adapts to how well that works.
+    fn improve(&self, damping: &mut f64, residual: &impl Fn(&[f64]) -> Vec<f64>) -> Option<State> {
+        const MOST: f64 = 1e8;
+        const LEAST: f64 = 1e-15;
+        let jacobian = self.jacobian(residual)?;
+        let normal = jacobian.tr_mul(&jacobian);
+        let gradient = jacobian.tr_mul(&self.residual);
+        let scale = normal.diagonal().amax().max(f64::MIN_POSITIVE);
+        while *damping <= MOST {
+            let damped = &normal + DMatrix::identity(self.q.len(), self.q.len()) * (*damping * scale);
+            let step = Cholesky::new(damped).map(|factor| factor.solve(&gradient));
+            let next = step.and_then(|step| State::new(&self.q - step, residual));
+            if let Some(better) = next.filter(|next| next.norm < self.norm) {
+                *damping = (*damping / 10.0).max(LEAST);
+                return Some(better);
+            }
+            *damping *= 10.0;
+        }
+        None
+    }
+
+    /// Central differences of the residual, one column per joint; `None` when it changes its length.
+    fn jacobian(&self, residual: &impl Fn(&[f64]) -> Vec<f64>) -> Option<DMatrix<f64>> {
+        // The cube root of the machine precision balances truncation and rounding.
+        let step = f64::EPSILON.cbrt();
+        let mut jacobian = DMatrix::zeros(self.residual.len(), self.q.len());
+        for joint in 0..self.q.len() {
+            let moved = |by: f64| {
+                let mut q = self.q.clone();
+                q[joint] += by;
+                Some(DVector::from_vec(residual(q.as_slice()))).filter(|r| r.len() == self.residual.len())
+            };
+            jacobian.set_column(joint, &((moved(step)? - moved(-step)?) / (2.0 * step)));
+        }
+        Some(jacobian)
+    }
+}
+
+/// `count` points spread evenly over (-pi, pi]^`joints`: the Kronecker sequence whose steps are the powers of 1/x,
+/// x^(joints + 1) = x + 1 (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+fn seeds(joints: usize, count: usize) -> impl Iterator<Item = DVector<f64>> {
+    let root = (0..64).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / (joints as f64 + 1.0)));
+    let steps = DVector::from_fn(joints, |joint, _| TAU * root.powi(-(joint as i32 + 1)));
+    (0..count).map(move |seed| steps.map(|step| angle::wrap(step * (seed as f64 + 0.5))))
+}

@@ -1,0 +1,120 @@
+//! Joint axes as lines in space, and the motions they allow.
+
+use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
+
+use super::{Pose, Twist, rotation};
+use crate::{Error, ErrorKind, Result};
+
+/// A directed line: the axis of a revolute joint. Coordinates in the base frame, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    direction: Unit<Vector3<f64>>,
+    point: Point3<f64>,
+}
+
+/// The motion that a joint allows, in the base frame at the zero configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Screw {
+    /// A rotation \[rad\] about an axis: a screw of pitch 0.
+    Revolute(Axis),
+    /// A translation \[m\] along a direction: a screw of infinite pitch.
+    Prismatic(Unit<Vector3<f64>>),
+}
+
+impl Axis {
+    /// The line through `point` along `direction`, which need not have length one.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `direction` is zero or a coordinate is not finite.
+    pub fn new(direction: Vector3<f64>, point: Point3<f64>) -> Result<Self> {
+        if !point.iter().all(|x| x.is_finite()) {
+            let [x, y, z] = point.into();
+            let text = format!("axis through [{x}, {y}, {z}]: give finite coordinates");
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        Ok(Axis { direction: unit(direction)?, point })
+    }
+
+    /// The unit direction.
+    pub fn direction(&self) -> Unit<Vector3<f64>> {
+        self.direction
+    }
+
+    /// A point of the axis \[m\].
+    pub fn point(&self) -> Point3<f64> {
+        self.point
+    }
+
+    /// The point of the axis that is nearest to `p` \[m\].
+    pub fn foot(&self, p: &Point3<f64>) -> Point3<f64> {
+        self.point + self.direction.scale(self.direction.dot(&(p - self.point)))
+    }
+
+    /// The same line, given by its point nearest to `p`.
+    #[must_use]
+    pub fn level_with(&self, p: &Point3<f64>) -> Axis {
+        Axis { point: self.foot(p), ..*self }
+    }
+
+    /// `p` \[m\] after a right-handed rotation by `angle` \[rad\] about this axis, RH0 (2-14), (2-15).
+    pub fn rotate(&self, angle: f64, p: &Point3<f64>) -> Point3<f64> {
+        p + rotation::displacement(&self.direction, angle, &(p - self.point))
+    }
+
+    /// The rotation by `angle` \[rad\] about this axis as a rigid transform, RH0 (2-7) with (2-25).
+    pub fn rotation(&self, angle: f64) -> Pose {
+        let translation = -rotation::displacement(&self.direction, angle, &self.point.coords);
+        Pose::from_parts(Translation3::from(translation), UnitQuaternion::from_axis_angle(&self.direction, angle))
+    }
+
+    /// The unit twist of this axis, RH0 (2-25).
+    pub fn twist(&self) -> Twist {
+        let w = self.direction.into_inner();
+        Twist { v: -w.cross(&self.point.coords), w }
+    }
+}
+
+impl Screw {
+    /// A revolute joint about the line through `point` \[m\] along `direction`.
+    ///
+    /// # Errors
+    /// As [`Axis::new`].
+    pub fn revolute(direction: Vector3<f64>, point: Point3<f64>) -> Result<Self> {
+        Ok(Screw::Revolute(Axis::new(direction, point)?))
+    }
+
+    /// A prismatic joint along `direction`, which need not have length one.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `direction` is zero or not finite.
+    pub fn prismatic(direction: Vector3<f64>) -> Result<Self> {
+        Ok(Screw::Prismatic(unit(direction)?))
+    }
+
+    /// The unit twist of the joint: RH0 (2-25) when revolute, (2-26) when prismatic.
+    pub fn twist(&self) -> Twist {
+        match self {
+            Screw::Revolute(axis) => axis.twist(),
+            Screw::Prismatic(direction) => Twist { v: direction.into_inner(), w: Vector3::zeros() },
+        }
+    }
+
+    /// The rigid transform of moving the joint by `q` (\[rad\] when revolute, \[m\] when prismatic), RH0 (2-7).
+    pub fn exp(&self, q: f64) -> Pose {
+        match self {
+            Screw::Revolute(axis) => axis.rotation(q),
+            Screw::Prismatic(direction) => Pose::translation(direction.x * q, direction.y * q, direction.z * q),
+        }
+    }
+}
+
+/// `direction` at length one, whatever its magnitude.
+fn unit(direction: Vector3<f64>) -> Result<Unit<Vector3<f64>>> {
+    let size = direction.amax();
+    if direction.iter().all(|x| x.is_finite()) && size > 0.0 {
+        return Ok(Unit::new_normalize(direction / size));
+    }
+    let [x, y, z] = direction.into();
+    let text = format!("axis [{x}, {y}, {z}] has no direction; give a finite, non-zero vector");
+    Err(Error::new(ErrorKind::BadValue, text))
+}

@@ -1,0 +1,4 @@
+//! Kinematics.
+
+mod oracle;
+mod screw;

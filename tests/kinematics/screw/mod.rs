@@ -1,0 +1,17 @@
+//! The screw solver.
+
+mod paden_kahan;
+mod two_link;
+
+use groebot::spatial::{Axis, angle};
+use nalgebra::{Point3, Rotation3};
+
+/// `p` turned about `axis`, by nalgebra's rotation: shares no code with `Axis::rotate`.
+fn turned(axis: &Axis, angle: f64, p: &Point3<f64>) -> Point3<f64> {
+    axis.point() + Rotation3::from_axis_angle(&axis.direction(), angle) * (p - axis.point())
+}
+
+/// Whether two angles agree modulo whole turns.
+fn same(a: f64, b: f64, tolerance: f64) -> bool {
+    angle::difference(a, b).abs() <= tolerance
+}
