@@ -69,7 +69,7 @@ def document(case):
     commands = script(case)
     found = singular.run(commands)
     confirm(case, found)
-    parts = [singular.table(head(case, found, commands)), singular.table(facts(found), "[facts]")]
+    parts = [singular.table(head(case, found, commands)), singular.table(facts(case, found), "[facts]")]
     parts += [singular.table(fact, "[[elimination]]") for fact in eliminations(case, found)]
     parts += [singular.table(fact, "[[membership]]") for fact in memberships(case, found)]
     return "\n".join(parts)
@@ -162,9 +162,11 @@ def head(case, found, commands):
     } | known | {"script": commands}
 
 
-def facts(found):
-    """Dimension, degree, and for a zero-dimensional ideal the standard monomials."""
-    made = {"dimension": int(found["dimension"][0]), "degree": int(found["degree"][0])}
+def facts(case, found):
+    """Dimension, degree (that of the ideal only if the order goes by degree), standard monomials if there are finitely many."""
+    made = {"dimension": int(found["dimension"][0])}
+    if case["order"] == "grevlex":
+        made["degree"] = int(found["degree"][0])
     if made["dimension"] > 0:
         return made
     monomials = nonzero(found["kbase"])
