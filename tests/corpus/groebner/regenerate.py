@@ -29,7 +29,11 @@ def main(arguments):
     unknown = set(names) - {system["name"] for system in systems}
     if unknown:
         sys.exit(f"no system {sorted(unknown)} in input/systems.toml")
-    changed = [path for case in cases(systems, names) for path in [write(case, check)] if path]
+    wanted = list(cases(systems, names))
+    changed = [path for case in wanted for path in [write(case, check)] if path]
+    stray = {path.stem for path in HERE.glob("*.toml")} - {file_name(case) for case in wanted}
+    if stray and not names:
+        sys.exit(f"no entry of input/systems.toml gives {sorted(stray)}")
     print(f"{len(changed)} files differ" if check else f"{len(changed)} files changed")
     return 1 if check and changed else 0
 
