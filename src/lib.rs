@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(missing_docs))]
 
 pub mod error;
+pub mod files;
 pub mod number;
 pub mod watch;
 
