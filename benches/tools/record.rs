@@ -194,7 +194,7 @@ mod tests {
         fs::write(new.join("benchmark.json"), r#"{"full_id":"group/solve, all"}"#).unwrap();
         fs::write(new.join("estimates.json"), format!(r#"{{"median":{median}}}"#)).unwrap();
         fs::write(new.join("sample.json"), r#"{"iters":[1,2,3],"times":[4,5,6]}"#).unwrap();
-        assert_eq!(measured(target.path()).unwrap(), [new.clone()]);
+        assert_eq!(measured(target.path()).unwrap(), vec![new.clone()]);
         let row = Measurement::read(&new).unwrap().row("2026-01-02", "cpu", "abc");
         assert_eq!(row, "2026-01-02,cpu,\"group/solve, all\",2.0,1.5,3.2,3,abc");
         fs::write(new.join("estimates.json"), "{}").unwrap();
