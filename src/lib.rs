@@ -3,6 +3,7 @@
 
 pub mod error;
 pub mod groebner;
+pub mod files;
 pub mod number;
 pub mod poly;
 pub mod roots;

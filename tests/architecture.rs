@@ -1,0 +1,206 @@
+//! The house rules of the design, enforced: who may use whom, sizes, what must not be left in the code.
+
+mod lexer;
+mod licences;
+mod scan;
+mod scanner;
+mod table;
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use scan::{Function, Reference};
+
+const MAX_FILE_LINES: usize = 800;
+const GOOD_FILE_LINES: usize = 400;
+const MAX_FUNCTION_LINES: usize = 80;
+const GOOD_FUNCTION_LINES: usize = 35;
+
+/// One file of `src/`, scanned.
+struct Source {
+    /// Relative to the root of the repository.
+    file: String,
+    /// The path of its module; `["main"]` for `main.rs`, empty for `lib.rs`.
+    module: Vec<String>,
+    text: String,
+    tokens: Vec<lexer::Token>,
+}
+
+impl Source {
+    fn new(file: &str, text: String) -> Self {
+        Source { file: file.to_owned(), module: module_of(file), tokens: lexer::tokens(&text), text }
+    }
+
+    /// Generated files say so in one of their first lines; the limits of size are not for them.
+    fn is_generated(&self) -> bool {
+        self.text.lines().take(5).any(|line| line.contains("@generated"))
+    }
+
+    fn references(&self) -> Vec<Reference> {
+        scan::references(&self.tokens, &self.module)
+    }
+
+    fn functions(&self) -> Vec<Function> {
+        if self.is_generated() { Vec::new() } else { scan::functions(&self.tokens) }
+    }
+}
+
+/// `src/poly/ring.rs` is `poly::ring`, `src/poly/mod.rs` is `poly`.
+fn module_of(file: &str) -> Vec<String> {
+    let path = file.trim_start_matches("src/").trim_end_matches(".rs");
+    let path = path.strip_suffix("/mod").unwrap_or(path);
+    if path == "lib" { Vec::new() } else { path.split('/').map(str::to_owned).collect() }
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files below `folder`, relative to the root, without build output and hidden folders.
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(root().join(folder)).unwrap() {
+        let name = entry.as_ref().unwrap().file_name().into_string().unwrap();
+        let path = folder.join(&name);
+        if entry.unwrap().file_type().unwrap().is_file() {
+            files.push(path);
+        } else if !name.starts_with('.') && name != "target" && name != "node_modules" {
+            files.extend(files_below(&path));
+        }
+    }
+    files
+}
+
+fn sources() -> Vec<Source> {
+    let mut files: Vec<String> = files_below(Path::new("src")).iter().map(|path| slashed(path)).collect();
+    files.retain(|file| file.ends_with(".rs"));
+    files.sort();
+    files.iter().map(|file| Source::new(file, fs::read_to_string(root().join(file)).unwrap())).collect()
+}
+
+fn slashed(path: &Path) -> String {
+    path.to_str().unwrap().replace('\\', "/")
+}
+
+/// The files that git tracks, or all files where there is no git.
+fn tracked_files() -> Vec<PathBuf> {
+    match Command::new("git").args(["ls-files", "-z"]).current_dir(root()).output() {
+        Ok(output) if output.status.success() => {
+            String::from_utf8(output.stdout).unwrap().split_terminator('\0').map(PathBuf::from).collect()
+        }
+        _ => files_below(Path::new("")),
+    }
+}
+
+/// What breaks the table of dependencies in `sources`, one line for each place.
+fn forbidden_uses(sources: &[Source]) -> Vec<String> {
+    let exports: HashMap<String, Vec<String>> = (sources.iter().filter(|source| source.module.is_empty()))
+        .flat_map(|source| scan::exports(&source.tokens))
+        .collect();
+    let mut found = Vec::new();
+    for source in sources {
+        if source.module.first().is_some_and(|top| top != "main" && !table::knows(top)) {
+            let top = &source.module[0];
+            found.push(format!("{}: `{top}` is not in the table of tests/architecture/table.rs; add it", source.file));
+        }
+        for Reference { path, line } in source.references() {
+            let target = path.first().and_then(|name| exports.get(name)).unwrap_or(&path);
+            if let Some(objection) = table::objection(&source.module, target) {
+                found.push(format!("{}:{line}: {objection}", source.file));
+            }
+        }
+    }
+    found.dedup();
+    found
+}
+
+fn oversized(sources: &[Source]) -> Vec<String> {
+    let mut found = Vec::new();
+    for source in sources.iter().filter(|source| !source.is_generated()) {
+        let lines = source.text.lines().count();
+        if lines > MAX_FILE_LINES {
+            found.push(format!("{}: {lines} lines; at most {MAX_FILE_LINES}", source.file));
+        } else if lines > GOOD_FILE_LINES {
+            println!("{}: {lines} lines, over {GOOD_FILE_LINES}: think of splitting it", source.file);
+        }
+        for Function { name, line, lines } in source.functions() {
+            if lines > MAX_FUNCTION_LINES {
+                found.push(format!("{}:{line}: `{name}` has {lines} lines; at most {MAX_FUNCTION_LINES}", source.file));
+            }
+        }
+    }
+    found
+}
+
+fn leftovers(sources: &[Source]) -> Vec<String> {
+    let mut found = Vec::new();
+    for source in sources {
+        let mut names = vec!["todo", "unimplemented", "dbg"];
+        if !source.module.first().is_some_and(|top| top == "cli" || top == "main") {
+            names.extend(["print", "println", "eprint", "eprintln"]);
+        }
+        for (name, line) in scan::macro_calls(&source.tokens, &names) {
+            found.push(format!("{}:{line}: `{name}!` has no place here", source.file));
+        }
+    }
+    found
+}
+
+/// Files in which `needle` stands.
+fn mentions<'a>(files: &'a [(PathBuf, Vec<u8>)], needle: &str) -> Vec<&'a Path> {
+    let has_it = |bytes: &[u8]| bytes.windows(needle.len()).any(|window| window == needle.as_bytes());
+    files.iter().filter(|(_, bytes)| has_it(bytes)).map(|(path, _)| path.as_path()).collect()
+}
+
+fn assert_none(found: &[String]) {
+    assert!(found.is_empty(), "{} found:\n{}", found.len(), found.join("\n"));
+}
+
+#[test]
+fn dependencies_run_one_way() {
+    assert_none(&forbidden_uses(&sources()));
+}
+
+#[test]
+fn files_and_functions_are_small() {
+    assert_none(&oversized(&sources()));
+}
+
+#[test]
+fn nine_functions_of_ten_are_short() {
+    let mut sizes: Vec<usize> = sources().iter().flat_map(Source::functions).map(|function| function.lines).collect();
+    sizes.sort_unstable();
+    let (median, ninth) = (sizes[sizes.len() / 2], sizes[sizes.len() * 9 / 10]);
+    println!("{} functions: median {median} lines, nine of ten at most {ninth}", sizes.len());
+    assert!(median <= 10 && ninth <= GOOD_FUNCTION_LINES, "median {median}, nine of ten {ninth} lines");
+}
+
+#[test]
+fn no_stub_and_no_stray_print_is_left() {
+    assert_none(&leftovers(&sources()));
+}
+
+#[test]
+fn nothing_points_outside_the_repository() {
+    let read = |path: PathBuf| fs::read(root().join(&path)).ok().map(|bytes| (path, bytes));
+    let files: Vec<_> = tracked_files().into_iter().filter_map(read).collect();
+    assert!(files.iter().any(|(path, _)| path == Path::new("Cargo.toml")), "the list of files is wrong");
+    for folder in ["..", "/work"] {
+        let needle = format!("{folder}/shared");
+        assert_eq!(mentions(&files, &needle), [] as [&Path; 0], "no clone has `{needle}`");
+    }
+}
+
+#[test]
+fn every_test_module_is_part_of_the_one_binary() {
+    let main = fs::read_to_string(root().join("tests/main.rs")).unwrap();
+    let declared = scan::file_modules(&lexer::tokens(&main));
+    for path in files_below(Path::new("tests")) {
+        let file = slashed(&path);
+        let name = file.trim_start_matches("tests/").trim_end_matches("/mod.rs").trim_end_matches(".rs");
+        let is_module = file.ends_with(".rs") && !name.contains('/') && name != "main";
+        assert!(!is_module || declared.iter().any(|module| module == name), "tests/main.rs does not declare `{name}`");
+    }
+}

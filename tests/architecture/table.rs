@@ -1,0 +1,93 @@
+//! Who may use whom.
+
+/// Modules at the root of the crate that every module may use. They use only one another.
+const ROOT: [&str; 4] = ["error", "watch", "document", "files"];
+
+/// Every other module with the modules that it may use, each of which stands above it.
+const TABLE: [(&str, Uses); 16] = [
+    ("number", Uses::Only(&[])),
+    ("poly", Uses::Only(&["number"])),
+    ("groebner", Uses::Only(&["number", "poly"])),
+    ("roots", Uses::Only(&["number", "poly"])),
+    ("spatial", Uses::Only(&[])),
+    ("kinematics", Uses::Only(&["spatial", "number", "roots"])),
+    ("dynamics", Uses::Only(&["spatial", "kinematics"])),
+    ("solver", Uses::Only(&["number", "poly", "roots"])),
+    ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "kinematics", "solver"])),
+    ("codegen", Uses::Only(&["number", "solver"])),
+    ("robots", Uses::Only(&["spatial", "kinematics", "solver"])),
+    ("gait", Uses::Only(&["number", "poly", "roots", "spatial", "kinematics", "dynamics", "solver", "robots"])),
+    ("nav", Uses::Only(&["spatial"])),
+    ("sim", Uses::AllAbove),
+    ("serve", Uses::Only(&["sim"])),
+    ("cli", Uses::AllAbove),
+];
+
+/// Pairs that hold whatever the table says: the screw solver and the derived solver are two witnesses.
+const NEVER: [(&str, &str); 7] = [
+    ("kinematics::screw", "poly"),
+    ("kinematics::screw", "groebner"),
+    ("kinematics::screw", "derive"),
+    ("kinematics::screw", "solver"),
+    ("groebner", "kinematics::screw"),
+    ("derive", "kinematics::screw"),
+    ("solver", "kinematics::screw"),
+];
+
+enum Uses {
+    Only(&'static [&'static str]),
+    AllAbove,
+}
+
+/// Whether `name` is a module of the crate root that this page knows.
+pub fn knows(name: &str) -> bool {
+    ROOT.contains(&name) || row(name).is_some()
+}
+
+/// Why code in the module `from` may not use `to`, both as paths from the crate root; `None` when it may.
+/// An empty `from` is the crate root itself (`lib.rs`), which may name every module; `main` is `main.rs`.
+pub fn objection(from: &[String], to: &[String]) -> Option<String> {
+    let (Some(source), Some(target)) = (from.first(), to.first()) else {
+        return to.is_empty().then(|| "names the whole crate; name a module of it".to_owned());
+    };
+    if let Some((_, never)) = NEVER.iter().find(|(a, b)| is_inside(from, a) && is_inside(to, b)) {
+        return Some(format!("the two solvers are separate witnesses: never uses `{never}`"));
+    }
+    if source == target || ROOT.contains(&target.as_str()) {
+        return None;
+    }
+    let allowed = allowed(source);
+    (!allowed.contains(&target.as_str())).then(|| {
+        let list = if allowed.is_empty() { "nothing else".to_owned() } else { allowed.join(", ") };
+        format!("`{source}` may not use `{target}`; it may use {} and {list}", ROOT.join(", "))
+    })
+}
+
+fn allowed(source: &str) -> Vec<&'static str> {
+    match (source, row(source)) {
+        ("main", _) => vec!["cli"],
+        (_, Some(i)) => match TABLE[i].1 {
+            Uses::Only(modules) => modules.to_vec(),
+            Uses::AllAbove => TABLE[..i].iter().map(|(name, _)| *name).collect(),
+        },
+        (_, None) => Vec::new(),
+    }
+}
+
+fn row(name: &str) -> Option<usize> {
+    TABLE.iter().position(|(module, _)| *module == name)
+}
+
+fn is_inside(path: &[String], module: &str) -> bool {
+    let segments: Vec<&str> = module.split("::").collect();
+    path.len() >= segments.len() && path.iter().zip(segments).all(|(a, b)| a == b)
+}
+
+#[test]
+fn the_table_has_no_cycle() {
+    for (i, (name, _)) in TABLE.iter().enumerate() {
+        for used in allowed(name) {
+            assert!(row(used).is_some_and(|j| j < i), "`{name}` uses `{used}`, which does not stand above it");
+        }
+    }
+}
