@@ -2,15 +2,20 @@
 #![cfg_attr(test, allow(missing_docs))]
 
 pub mod error;
-pub mod groebner;
 pub mod files;
+pub mod watch;
+
 pub mod number;
 pub mod poly;
+
+pub mod groebner;
 pub mod roots;
-pub mod kinematics;
-pub mod number;
+
 pub mod spatial;
-pub mod watch;
+
+pub mod kinematics;
+
+pub mod solver;
 
 pub use error::{Error, ErrorKind, Result};
 pub use watch::Watch;

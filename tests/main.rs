@@ -1,8 +1,8 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
-mod kinematics;
 mod architecture;
 mod files;
+mod kinematics;
 mod number;
 mod poly;
 mod roots;

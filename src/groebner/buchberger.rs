@@ -10,7 +10,9 @@ use crate::{Result, Watch};
 /// # Errors
 /// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes; what `watch` stops with.
 pub fn buchberger<F: Field>(
-    ring: &PolynomialRing<F>, generators: &[Polynomial<F::Element>], watch: &Watch,
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    watch: &Watch,
 ) -> Result<Vec<Polynomial<F::Element>>> {
     let mut basis: Vec<_> = generators.iter().filter(|f| !f.is_zero()).cloned().collect();
     loop {

@@ -18,7 +18,9 @@ pub struct Division<E> {
 /// # Errors
 /// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes.
 pub fn divide<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, divisors: &[Polynomial<F::Element>],
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    divisors: &[Polynomial<F::Element>],
 ) -> Result<Division<F::Element>> {
     let mut quotients = vec![Vec::new(); divisors.len()];
     let mut remainder = Vec::new();
@@ -41,7 +43,9 @@ pub fn divide<F: Field>(
 
 /// The first divisor whose leading monomial divides `lead`, and `lead` divided by its leading term.
 fn find_divisor<F: Field>(
-    ring: &PolynomialRing<F>, lead: &Term<F::Element>, divisors: &[Polynomial<F::Element>],
+    ring: &PolynomialRing<F>,
+    lead: &Term<F::Element>,
+    divisors: &[Polynomial<F::Element>],
 ) -> Option<(usize, Term<F::Element>)> {
     divisors.iter().enumerate().find_map(|(index, divisor)| {
         let top = divisor.leading()?;
@@ -56,7 +60,9 @@ fn find_divisor<F: Field>(
 /// # Errors
 /// As [`divide`].
 pub fn normal_form<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, basis: &[Polynomial<F::Element>],
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    basis: &[Polynomial<F::Element>],
 ) -> Result<Polynomial<F::Element>> {
     Ok(divide(ring, f, basis)?.remainder)
 }
@@ -66,7 +72,9 @@ pub fn normal_form<F: Field>(
 /// # Errors
 /// As [`divide`].
 pub fn s_polynomial<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
 ) -> Result<Polynomial<F::Element>> {
     match s_factors(ring, f, g)? {
         None => Ok(ring.zero()),
@@ -77,10 +85,14 @@ pub fn s_polynomial<F: Field>(
     }
 }
 
+type Lifts<E> = (Term<E>, Term<E>);
+
 /// The two terms that lift the leading terms of `f` and `g` to their least common multiple.
 pub(super) fn s_factors<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
-) -> Result<Option<(Term<F::Element>, Term<F::Element>)>> {
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
+) -> Result<Option<Lifts<F::Element>>> {
     let (Some(a), Some(b)) = (f.leading(), g.leading()) else { return Ok(None) };
     let lcm = ring.lcm(&a.monomial, &b.monomial)?;
     let lift = |term: &Term<F::Element>| {

@@ -41,7 +41,10 @@ pub(super) struct Tracked<E> {
 /// # Errors
 /// [`ErrorKind::Overflow`] when a degree outgrows even 31 bits; what `watch` stops with.
 pub fn basis<F: Field>(
-    ring: &PolynomialRing<F>, generators: &[Polynomial<F::Element>], options: &Options, watch: &Watch,
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    options: &Options,
+    watch: &Watch,
 ) -> Result<Basis<F>> {
     let mut width = Width::Bits8;
     loop {
@@ -55,7 +58,10 @@ pub fn basis<F: Field>(
 }
 
 fn basis_in_width<F: Field>(
-    ring: &PolynomialRing<F>, source: &PolynomialRing<F>, generators: &[Polynomial<F::Element>], options: &Options,
+    ring: &PolynomialRing<F>,
+    source: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    options: &Options,
     watch: &Watch,
 ) -> Result<Basis<F>> {
     let generators: Vec<_> = generators.iter().map(|f| source.transfer(f, ring)).collect::<Result<_>>()?;
@@ -90,7 +96,10 @@ impl<F: Field> Basis<F> {
 
 /// Buchberger's loop: select a pair, reduce its S-polynomial, update the pairs with what remains.
 fn complete<F: Field>(
-    ring: &PolynomialRing<F>, generators: &[Polynomial<F::Element>], options: &Options, watch: &Watch,
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    options: &Options,
+    watch: &Watch,
 ) -> Result<Vec<Tracked<F::Element>>> {
     let mut elements = Vec::new();
     let mut heads = Vec::new();
@@ -122,7 +131,11 @@ fn term_count<E>(element: &Tracked<E>) -> usize {
 
 /// Generator number `index` with its unit vector of cofactors.
 fn generator<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, index: usize, count: usize, track: bool,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    index: usize,
+    count: usize,
+    track: bool,
 ) -> Tracked<F::Element> {
     let unit = |k: usize| if k == index { ring.one() } else { ring.zero() };
     let cofactors = if track { (0..count).map(unit).collect() } else { Vec::new() };
@@ -131,11 +144,16 @@ fn generator<F: Field>(
 
 /// Makes a nonzero remainder monic and takes it into the basis.
 fn adjoin<F: Field>(
-    ring: &PolynomialRing<F>, element: Tracked<F::Element>, sugar: u32, elements: &mut Vec<Tracked<F::Element>>,
-    heads: &mut Vec<Head>, pairs: &mut Pairs,
+    ring: &PolynomialRing<F>,
+    element: Tracked<F::Element>,
+    sugar: u32,
+    elements: &mut Vec<Tracked<F::Element>>,
+    heads: &mut Vec<Head>,
+    pairs: &mut Pairs,
 ) -> Result<()> {
     let Some(lead) = element.polynomial.leading() else { return Ok(()) };
-    let head = Head { monomial: lead.monomial.clone(), sugar: sugar.max(ring.degree(&element.polynomial)), redundant: false };
+    let head =
+        Head { monomial: lead.monomial.clone(), sugar: sugar.max(ring.degree(&element.polynomial)), redundant: false };
     pairs.update(ring, heads, head)?;
     elements.push(monic(ring, element));
     Ok(())
@@ -156,7 +174,9 @@ pub(super) fn monic<F: Field>(ring: &PolynomialRing<F>, element: Tracked<F::Elem
 
 /// The S-polynomial of a pair with its cofactors.
 fn s_element<F: Field>(
-    ring: &PolynomialRing<F>, pair: &Pair, elements: &[Tracked<F::Element>],
+    ring: &PolynomialRing<F>,
+    pair: &Pair,
+    elements: &[Tracked<F::Element>],
 ) -> Result<Tracked<F::Element>> {
     let (a, b) = (&elements[pair.left], &elements[pair.right]);
     let (left, right) = s_factors(ring, &a.polynomial, &b.polynomial)?.expect("basis elements are not zero");
@@ -170,7 +190,9 @@ fn s_element<F: Field>(
 
 /// The normal form of `element` by `divisors`, cofactors carried along.
 pub(super) fn reduce<F: Field>(
-    ring: &PolynomialRing<F>, element: Tracked<F::Element>, divisors: &[Tracked<F::Element>],
+    ring: &PolynomialRing<F>,
+    element: Tracked<F::Element>,
+    divisors: &[Tracked<F::Element>],
 ) -> Result<Tracked<F::Element>> {
     let polynomials: Vec<_> = divisors.iter().map(|divisor| divisor.polynomial.clone()).collect();
     let division = divide(ring, &element.polynomial, &polynomials)?;
@@ -187,7 +209,9 @@ pub(super) fn reduce<F: Field>(
 
 /// Whether the leading monomial of `a` divides that of `b`.
 pub(super) fn leads_divide<F: Field>(
-    ring: &PolynomialRing<F>, a: &Polynomial<F::Element>, b: &Polynomial<F::Element>,
+    ring: &PolynomialRing<F>,
+    a: &Polynomial<F::Element>,
+    b: &Polynomial<F::Element>,
 ) -> bool {
     let lead = |f: &Polynomial<F::Element>| f.leading().map(|Term { monomial, .. }| monomial.clone());
     lead(a).zip(lead(b)).is_some_and(|(a, b)| ring.layout().divides(&a, &b))

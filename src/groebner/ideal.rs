@@ -80,7 +80,11 @@ impl<F: Field> Basis<F> {
 
 /// Walks all exponent vectors below `bounds` that no leading monomial divides.
 fn collect_standard<F: Field>(
-    ring: &PolynomialRing<F>, leads: &[&Monomial], bounds: &[u32], variable: usize, exponents: &mut Vec<u32>,
+    ring: &PolynomialRing<F>,
+    leads: &[&Monomial],
+    bounds: &[u32],
+    variable: usize,
+    exponents: &mut Vec<u32>,
     standard: &mut Vec<Monomial>,
 ) {
     for power in 0..bounds.get(variable).copied().unwrap_or(1) {
@@ -123,7 +127,10 @@ fn largest_independent(supports: &[Vec<usize>], count: usize, chosen: Vec<usize>
 /// # Errors
 /// [`ErrorKind::UnknownName`] for a name that is no variable; [`ErrorKind::Overflow`]; what `watch` stops with.
 pub fn eliminate<F: Field>(
-    ring: &PolynomialRing<F>, generators: &[Polynomial<F::Element>], eliminated: &[&str], watch: &Watch,
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    eliminated: &[&str],
+    watch: &Watch,
 ) -> Result<Basis<F>> {
     if let Some(name) = eliminated.iter().find(|name| ring.index_of(name).is_none()) {
         let known = ring.variables().join(", ");

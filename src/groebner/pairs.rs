@@ -69,9 +69,7 @@ impl Pairs {
 
     /// Adds the element with index `heads.len()`: drops old pairs by the chain criterion, keeps of the new ones those that no other
     /// new pair covers and whose heads are not coprime, and marks redundant elements.
-    pub fn update<F: Field>(
-        &mut self, ring: &PolynomialRing<F>, heads: &mut Vec<Head>, new: Head,
-    ) -> Result<()> {
+    pub fn update<F: Field>(&mut self, ring: &PolynomialRing<F>, heads: &mut Vec<Head>, new: Head) -> Result<()> {
         let layout = ring.layout();
         let index = heads.len();
         let lcms: Vec<Monomial> =

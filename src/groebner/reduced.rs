@@ -7,7 +7,8 @@ use crate::poly::PolynomialRing;
 
 /// Drops elements whose leading monomial another divides, reduces the tails, makes monic and sorts from the smallest.
 pub(super) fn interreduce<F: Field>(
-    ring: &PolynomialRing<F>, elements: Vec<Tracked<F::Element>>,
+    ring: &PolynomialRing<F>,
+    elements: Vec<Tracked<F::Element>>,
 ) -> Result<Vec<Tracked<F::Element>>> {
     let mut minimal: Vec<Tracked<F::Element>> = Vec::new();
     let mut sorted = elements;
@@ -27,7 +28,9 @@ pub(super) fn interreduce<F: Field>(
 }
 
 fn compare_leads<F: Field>(
-    ring: &PolynomialRing<F>, a: &Tracked<F::Element>, b: &Tracked<F::Element>,
+    ring: &PolynomialRing<F>,
+    a: &Tracked<F::Element>,
+    b: &Tracked<F::Element>,
 ) -> std::cmp::Ordering {
     match (a.polynomial.leading(), b.polynomial.leading()) {
         (Some(x), Some(y)) => ring.layout().compare(&x.monomial, &y.monomial),

@@ -78,7 +78,8 @@ fn check_cofactors<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Elem
     }
     for (index, (g, row)) in claim.basis.iter().zip(claim.cofactors).enumerate() {
         if row.len() != claim.generators.len() {
-            let text = format!("element {} has {} cofactors for {} generators", index + 1, row.len(), claim.generators.len());
+            let text =
+                format!("element {} has {} cofactors for {} generators", index + 1, row.len(), claim.generators.len());
             return Err(refuse(text));
         }
         let mut sum = ring.zero();
@@ -104,7 +105,11 @@ fn check_pairs<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Elemen
             };
             let difference = ring.sub(&lift(f)?, &lift(g)?);
             if !remainder(ring, &difference, basis)?.is_zero() {
-                return Err(refuse(format!("the S-pair of basis elements {} and {} does not reduce to zero", i + 1, j + 1)));
+                return Err(refuse(format!(
+                    "the S-pair of basis elements {} and {} does not reduce to zero",
+                    i + 1,
+                    j + 1
+                )));
             }
             pairs += 1;
         }
@@ -114,7 +119,9 @@ fn check_pairs<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Elemen
 
 /// The remainder of `f` by the monic `basis`, whole terms cancelled one at a time.
 fn remainder<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, basis: &[Polynomial<F::Element>],
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    basis: &[Polynomial<F::Element>],
 ) -> Result<Polynomial<F::Element>> {
     let (mut rest, mut kept) = (f.clone(), ring.zero());
     'terms: while let Some(top) = rest.leading().cloned() {

@@ -7,7 +7,8 @@ use crate::number::{Field, Ring};
 /// Pairwise coprime, monic, square-free, non-constant factors with the same zero set as `f`, over a field of
 /// characteristic zero: single variables, contents in each variable, and the square-free rest.
 pub fn square_free_factors<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
 ) -> Vec<Polynomial<F::Element>> {
     let mut factors = Vec::new();
     if f.is_zero() || ring.as_constant(f).is_some() {
@@ -38,7 +39,8 @@ fn square_free_part<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Elemen
 /// Pairwise coprime, monic, non-constant polynomials whose products give every polynomial of `polynomials` up to
 /// constants and multiplicities: a gcd-free basis (Bach, Driscoll and Shallit 1993, the simple quadratic form).
 pub fn refine_factors<F: Field>(
-    ring: &PolynomialRing<F>, polynomials: &[Polynomial<F::Element>],
+    ring: &PolynomialRing<F>,
+    polynomials: &[Polynomial<F::Element>],
 ) -> Vec<Polynomial<F::Element>> {
     let mut basis: Vec<Polynomial<F::Element>> = Vec::new();
     let mut queue: Vec<_> = polynomials.iter().rev().map(|f| ring.monic(f)).collect();

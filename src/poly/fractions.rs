@@ -105,7 +105,9 @@ impl<F: Field> Fractions<F> {
 
     /// `numerator / denominator` in canonical form; `None` when the denominator is zero.
     pub fn fraction(
-        &self, numerator: &Polynomial<F::Element>, denominator: &Polynomial<F::Element>,
+        &self,
+        numerator: &Polynomial<F::Element>,
+        denominator: &Polynomial<F::Element>,
     ) -> Option<Fraction<F::Element>> {
         let (mut top, mut bottom) = (self.reduce(numerator), self.reduce(denominator));
         for relation in self.relations.iter().rev() {
@@ -127,7 +129,9 @@ impl<F: Field> Fractions<F> {
 
     /// Divides by the common factor of the denominator and all coefficients of the numerator in the roots.
     fn lowest_terms(
-        &self, numerator: Polynomial<F::Element>, denominator: Polynomial<F::Element>,
+        &self,
+        numerator: Polynomial<F::Element>,
+        denominator: Polynomial<F::Element>,
     ) -> Fraction<F::Element> {
         let mut common = denominator.clone();
         for part in self.parts_over_roots(&numerator) {

@@ -6,7 +6,9 @@ use crate::number::{BigInt, Field, Ring};
 
 /// The monic greatest common divisor of `f` and `g`; zero only for two zeros.
 pub fn gcd<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
 ) -> Polynomial<F::Element> {
     if f.is_zero() || g.is_zero() || f == g {
         return ring.monic(if f.is_zero() { g } else { f });
@@ -27,7 +29,8 @@ fn leading<E>(f: &Polynomial<E>) -> &Term<E> {
 
 /// Splits `f` into the greatest monomial that divides it, and the rest.
 pub(super) fn split_monomial<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
 ) -> (Polynomial<F::Element>, Polynomial<F::Element>) {
     let layout = ring.layout();
     let first = leading(f).monomial.clone();
@@ -41,7 +44,9 @@ pub(super) fn split_monomial<F: Field>(
 }
 
 fn gcd_without_monomials<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
 ) -> Polynomial<F::Element> {
     if ring.as_constant(f).is_some() || ring.as_constant(g).is_some() {
         return ring.one();
@@ -66,7 +71,9 @@ fn gcd_without_monomials<F: Field>(
 
 /// The gcd of the coefficients of `f` as a polynomial in `variable`.
 pub(super) fn content<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, variable: usize,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    variable: usize,
 ) -> Polynomial<F::Element> {
     let mut coefficients = ring.coefficients_in(f, variable);
     coefficients.sort_by_key(|c| c.terms().len());
@@ -81,7 +88,9 @@ pub(super) fn content<F: Field>(
 }
 
 fn primitive_part<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, variable: usize,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    variable: usize,
 ) -> Polynomial<F::Element> {
     let content = content(ring, f, variable);
     ring.monic(&ring.exact_div(f, &content).expect("a content divides"))
@@ -89,7 +98,10 @@ fn primitive_part<F: Field>(
 
 /// The primitive gcd of two polynomials that are primitive in `main`.
 fn primitive_remainders<F: Field>(
-    ring: &PolynomialRing<F>, f: Polynomial<F::Element>, g: Polynomial<F::Element>, main: usize,
+    ring: &PolynomialRing<F>,
+    f: Polynomial<F::Element>,
+    g: Polynomial<F::Element>,
+    main: usize,
 ) -> Polynomial<F::Element> {
     let (mut a, mut b) = if ring.degree_in(&f, main) >= ring.degree_in(&g, main) { (f, g) } else { (g, f) };
     loop {
@@ -106,7 +118,10 @@ fn primitive_remainders<F: Field>(
 
 /// The remainder of `lc(b)^k a` by `b` in the variable `main`.
 fn pseudo_remainder<F: Field>(
-    ring: &PolynomialRing<F>, a: &Polynomial<F::Element>, b: &Polynomial<F::Element>, main: usize,
+    ring: &PolynomialRing<F>,
+    a: &Polynomial<F::Element>,
+    b: &Polynomial<F::Element>,
+    main: usize,
 ) -> Polynomial<F::Element> {
     let divisor_degree = ring.degree_in(b, main);
     let lead = ring.coefficients_in(b, main).pop().expect("a degree has a coefficient");
@@ -124,7 +139,10 @@ fn pseudo_remainder<F: Field>(
 /// Proves that the gcd has degree 0 in `main` by putting numbers for the other variables: the degree of
 /// a gcd cannot fall where a leading coefficient stays nonzero. `false` means that nothing was proved.
 fn coprime_at_a_point<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>, main: usize,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
+    main: usize,
 ) -> bool {
     (0..2).any(|attempt| {
         let f_line = restrict(ring, f, main, attempt);
@@ -139,7 +157,10 @@ fn coprime_at_a_point<F: Field>(
 
 /// The coefficients in `main`, low degree first, with small numbers put for the other variables.
 fn restrict<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, main: usize, attempt: usize,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    main: usize,
+    attempt: usize,
 ) -> Vec<F::Element> {
     let field = ring.field();
     let number = |v: usize| field.from_integer(&BigInt::from(3 + 7 * attempt + (v * v + 5 * v) % 11));

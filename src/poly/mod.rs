@@ -16,6 +16,7 @@ mod parse;
 mod print;
 mod ring;
 mod token;
+pub mod univariate;
 
 pub use expression::Expression;
 pub use factor::{refine_factors, square_free_factors};
@@ -28,6 +29,3 @@ pub use order::{Block, Order};
 pub use parse::{is_identifier, parse, parse_equation};
 pub use ring::{Polynomial, PolynomialRing, Term};
 pub use token::MAX_LENGTH;
-//! Polynomials over any [`crate::number::Field`].
-
-pub mod univariate;

@@ -144,7 +144,7 @@ impl Layout {
     /// The exponent of `variable` in `m`.
     pub fn exponent(&self, m: &Monomial, variable: usize) -> u32 {
         let (word, shift) = self.place(self.lane(variable));
-        (m.words[word] >> shift & self.lane_mask()) as u32
+        ((m.words[word] >> shift) & self.lane_mask()) as u32
     }
 
     /// All exponents of `m`.
@@ -166,7 +166,7 @@ impl Layout {
     /// Whether `a` divides `b`.
     pub fn divides(&self, a: &Monomial, b: &Monomial) -> bool {
         let guard = self.guard_bits();
-        a.words.iter().zip(&b.words).all(|(x, y)| (y | guard) - x & guard == guard)
+        a.words.iter().zip(&b.words).all(|(x, y)| ((y | guard) - x) & guard == guard)
     }
 
     /// `b / a`, or `None` when `a` does not divide `b`.

@@ -6,7 +6,9 @@ use crate::number::{Field, Style};
 
 /// `f` as a sum, greatest term first: `3/2*x^2*y - x + 1`.
 pub(super) fn format_polynomial<F: Field>(
-    ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, style: Style,
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    style: Style,
 ) -> String {
     let mut text = String::new();
     for term in f.terms() {

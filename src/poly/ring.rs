@@ -172,9 +172,7 @@ impl<F: Field> PolynomialRing<F> {
     ///
     /// # Errors
     /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
-    pub fn mul_term(
-        &self, f: &Polynomial<F::Element>, c: &F::Element, m: &Monomial,
-    ) -> Result<Polynomial<F::Element>> {
+    pub fn mul_term(&self, f: &Polynomial<F::Element>, c: &F::Element, m: &Monomial) -> Result<Polynomial<F::Element>> {
         let product = |term: &Term<F::Element>| {
             let monomial = self.layout.checked_mul(&term.monomial, m).ok_or_else(|| self.overflow())?;
             Ok(Term { coefficient: self.field.mul(&term.coefficient, c), monomial })
@@ -187,7 +185,11 @@ impl<F: Field> PolynomialRing<F> {
     /// # Errors
     /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
     pub fn sub_mul_term(
-        &self, f: &Polynomial<F::Element>, c: &F::Element, m: &Monomial, g: &Polynomial<F::Element>,
+        &self,
+        f: &Polynomial<F::Element>,
+        c: &F::Element,
+        m: &Monomial,
+        g: &Polynomial<F::Element>,
     ) -> Result<Polynomial<F::Element>> {
         Ok(self.add(f, &self.mul_term(g, &self.field.neg(c), m)?))
     }
@@ -197,7 +199,9 @@ impl<F: Field> PolynomialRing<F> {
     /// # Errors
     /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
     pub fn checked_mul(
-        &self, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
+        &self,
+        f: &Polynomial<F::Element>,
+        g: &Polynomial<F::Element>,
     ) -> Result<Polynomial<F::Element>> {
         let (short, long) = if f.terms.len() <= g.terms.len() { (f, g) } else { (g, f) };
         match short.terms.as_slice() {
@@ -222,9 +226,7 @@ impl<F: Field> PolynomialRing<F> {
     }
 
     /// `f / g` when `g` divides `f` exactly, else `None`; `None` for `g = 0`.
-    pub fn exact_div(
-        &self, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>,
-    ) -> Option<Polynomial<F::Element>> {
+    pub fn exact_div(&self, f: &Polynomial<F::Element>, g: &Polynomial<F::Element>) -> Option<Polynomial<F::Element>> {
         let lead = g.leading()?;
         let inverse = self.field.inverse(&lead.coefficient)?;
         if g.terms.len() == 1 && self.layout.degree(&lead.monomial) == 0 {
@@ -253,7 +255,9 @@ impl<F: Field> PolynomialRing<F> {
     /// # Errors
     /// [`ErrorKind::UnknownName`] when `f` uses a variable that `target` lacks; [`ErrorKind::Overflow`].
     pub fn transfer<G: Field<Element = F::Element>>(
-        &self, f: &Polynomial<F::Element>, target: &PolynomialRing<G>,
+        &self,
+        f: &Polynomial<F::Element>,
+        target: &PolynomialRing<G>,
     ) -> Result<Polynomial<F::Element>> {
         self.map_into(f, target, |coefficient| Ok(coefficient.clone()))
     }
@@ -263,7 +267,9 @@ impl<F: Field> PolynomialRing<F> {
     /// # Errors
     /// As [`PolynomialRing::transfer`], and what `map` fails with.
     pub fn map_into<G: Field>(
-        &self, f: &Polynomial<F::Element>, target: &PolynomialRing<G>,
+        &self,
+        f: &Polynomial<F::Element>,
+        target: &PolynomialRing<G>,
         map: impl Fn(&F::Element) -> Result<G::Element>,
     ) -> Result<Polynomial<G::Element>> {
         let indices: Vec<Option<usize>> = self.variables.iter().map(|name| target.index_of(name)).collect();
@@ -286,14 +292,17 @@ impl<F: Field> PolynomialRing<F> {
 
     /// `f` with the ring elements `values` put in place of all variables, in ring `target`.
     pub fn substitute<R: Ring>(
-        &self, f: &Polynomial<F::Element>, target: &R, values: &[R::Element],
+        &self,
+        f: &Polynomial<F::Element>,
+        target: &R,
+        values: &[R::Element],
         map: impl Fn(&F::Element) -> R::Element,
     ) -> R::Element {
         f.terms.iter().fold(target.zero(), |sum, term| {
             let powers = values.iter().enumerate().map(|(v, value)| (value, self.layout.exponent(&term.monomial, v)));
-            let product = powers.filter(|(_, exponent)| *exponent > 0).fold(map(&term.coefficient), |product, power| {
-                target.mul(&product, &target.pow(power.0, power.1))
-            });
+            let product = powers
+                .filter(|(_, exponent)| *exponent > 0)
+                .fold(map(&term.coefficient), |product, power| target.mul(&product, &target.pow(power.0, power.1)));
             target.add(&sum, &product)
         })
     }
@@ -325,8 +334,7 @@ impl<F: Field> PolynomialRing<F> {
 
     /// Whether the invariants of a polynomial of this ring hold: descending, no zero coefficient.
     pub fn is_well_formed(&self, f: &Polynomial<F::Element>) -> bool {
-        let descending =
-            |pair: &[Term<F::Element>]| self.layout.compare(&pair[0].monomial, &pair[1].monomial).is_gt();
+        let descending = |pair: &[Term<F::Element>]| self.layout.compare(&pair[0].monomial, &pair[1].monomial).is_gt();
         f.terms.windows(2).all(descending) && f.terms.iter().all(|term| !self.field.is_zero(&term.coefficient))
     }
 
@@ -365,7 +373,8 @@ impl<F: Field> Ring for PolynomialRing<F> {
                     if !self.field.is_zero(&coefficient) {
                         terms.push(Term { coefficient, monomial: a.monomial.clone() });
                     }
-                    (left.next(), right.next());
+                    left.next();
+                    right.next();
                 }
             }
         }

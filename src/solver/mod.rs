@@ -9,7 +9,9 @@ mod refine;
 
 pub use evaluate::Solution;
 pub use instruction::{Instruction, Operand, Operation};
-pub use program::{Chart, Checks, Guard, Input, Joint, JointValue, ParameterRule, Preference, Program, Rule, Step, Unit};
+pub use program::{
+    Chart, Checks, Guard, Input, Joint, JointValue, ParameterRule, Preference, Program, Rule, Step, Unit,
+};
 
 /// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
 pub const ACCEPT: f64 = 1e-12;

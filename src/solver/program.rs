@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::instruction::{Instruction, Operand};
 use super::MAX_JOINTS;
+use super::instruction::{Instruction, Operand};
 use crate::{Error, ErrorKind, Result};
 
 /// The unit of an input or joint.
@@ -221,14 +221,17 @@ impl Program {
     /// [`ErrorKind::BadValue`] saying which part is wrong.
     pub fn validate(&self) -> Result<()> {
         self.validate_names()?;
-        let mut context = Context { program: self, parameters: 0, registers: 0, unknowns: Vec::new(), magnitude: false };
+        let mut context =
+            Context { program: self, parameters: 0, registers: 0, unknowns: Vec::new(), magnitude: false };
         for (index, parameter) in self.parameters.iter().enumerate() {
             context.parameters = index;
             context.registers = 0;
             let place = format!("parameter `{}`", parameter.name);
             match &parameter.rule {
                 Rule::Input(i) | Rule::Cosine(i) | Rule::Sine(i) => ensure(*i < self.inputs.len(), &place)?,
-                Rule::Root { code, value } => context.code(code, &place).and_then(|()| context.operand(*value, &place))?,
+                Rule::Root { code, value } => {
+                    context.code(code, &place).and_then(|()| context.operand(*value, &place))?
+                }
             }
         }
         context.parameters = self.parameters.len();

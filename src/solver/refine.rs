@@ -118,8 +118,9 @@ fn solve_linear(system: &mut Square, size: usize) -> Option<[f64; MAX_JOINTS]> {
         }
         for row in column + 1..size {
             let factor = system[row][column] / pivot;
-            for k in column..=size {
-                system[row][k] -= factor * system[column][k];
+            let top = system[column];
+            for (entry, above) in system[row][column..=size].iter_mut().zip(&top[column..=size]) {
+                *entry -= factor * above;
             }
         }
     }

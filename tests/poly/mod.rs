@@ -4,6 +4,4 @@ mod expression;
 mod latex;
 mod parse;
 mod trees;
-//! Polynomials.
-
 mod univariate;
