@@ -1,0 +1,11 @@
+//! From a description to polynomial equations, and on to a solver: the stages between kinematics and the solver.
+
+mod check;
+mod print;
+mod radicals;
+mod system;
+
+pub use system::{
+    Choice, Equation, Input, JointKindUnknown, JointUnknown, LengthUnit, MAX_EXPANSION, MAX_UNKNOWNS, Parameter,
+    ParameterSource, Quantity, Root, System, SystemParts,
+};

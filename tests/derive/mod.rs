@@ -1,0 +1,3 @@
+//! Tests of `groebot::derive`.
+
+mod system;
