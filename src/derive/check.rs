@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::radicals::check_root;
 use super::system::{
-    Input, JointKindUnknown, JointUnknown, MAX_EXPANSION, MAX_UNKNOWNS, Parameter, ParameterSource, Quantity,
+    Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_TERMS, MAX_UNKNOWNS, Parameter, ParameterSource, Quantity,
     SystemParts, are_partners, complement, is_circle,
 };
 use crate::poly::{Expression, is_identifier};
@@ -227,10 +227,14 @@ fn check_names(
 }
 
 fn check_size(expression: &Expression, part: Part, context: &str) -> Checked {
-    if expression.expansion_bound() <= MAX_EXPANSION {
+    let bound = expression.expansion_bound();
+    if bound.terms <= MAX_TERMS && bound.bits <= MAX_BITS {
         return Ok(());
     }
-    let text = format!("{context}: its expansion may take more than {MAX_EXPANSION:.0} bits; lower its powers");
+    let text = format!(
+        "{context}: its expansion may take more than {MAX_TERMS:.0} terms or {MAX_BITS:.0} bits in a coefficient; \
+         lower its powers"
+    );
     Err(mistake(part, ErrorKind::Overflow, text))
 }
 

@@ -6,6 +6,6 @@ mod radicals;
 mod system;
 
 pub use system::{
-    Choice, Equation, Input, JointKindUnknown, JointUnknown, LengthUnit, MAX_EXPANSION, MAX_UNKNOWNS, Parameter,
+    Choice, Equation, Input, JointKindUnknown, JointUnknown, LengthUnit, MAX_BITS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
     ParameterSource, Quantity, Root, System, SystemParts,
 };

@@ -10,8 +10,10 @@ use crate::poly::Expression;
 
 /// The most unknowns that a system may have.
 pub const MAX_UNKNOWNS: usize = 16;
-/// The largest [`Expression::expansion_bound`] of an equation or a square, in bits.
-pub const MAX_EXPANSION: f64 = 1e7;
+/// The most terms that the expansion of an equation or a square may take, by [`Expression::expansion_bound`].
+pub const MAX_TERMS: f64 = 1e5;
+/// The most bits that a coefficient of such an expansion may take.
+pub const MAX_BITS: f64 = 2e5;
 
 /// The unit of all lengths of a system.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -7,6 +7,7 @@ mod latex;
 mod parse;
 mod token;
 
+pub use evaluate::ExpansionBound;
 pub use expression::Expression;
 pub use grammar::{MAX_DEPTH, MAX_EXPONENT};
 pub use latex::{latex_name, parse_latex};
