@@ -2,6 +2,7 @@
 #![cfg_attr(test, allow(missing_docs))]
 
 pub mod derive;
+pub mod document;
 pub mod error;
 pub mod number;
 pub mod poly;

@@ -4,8 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use super::radicals::check_root;
 use super::system::{
-    Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_TERMS, MAX_UNKNOWNS, Parameter, ParameterSource, Quantity,
-    SystemParts, are_partners, complement, is_circle,
+    Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
+    ParameterSource, Quantity, SystemParts, are_partners, complement, is_circle,
 };
 use crate::poly::{Expression, is_identifier};
 use crate::{Error, ErrorKind};
@@ -38,6 +38,7 @@ fn mistake(part: Part, kind: ErrorKind, message: impl Into<String>) -> Mistake {
 /// Finds the first mistake of `parts`.
 pub(super) fn check(parts: &SystemParts) -> Checked {
     let mut names = Names::default();
+    check_length(parts)?;
     check_identifier(&parts.name, Part::Name, "the system")?;
     for (i, input) in parts.inputs.iter().enumerate() {
         names.declare(&input.name, Part::Input(i), "an input")?;
@@ -153,6 +154,14 @@ fn check_joint<'a>(i: usize, joint: &'a JointUnknown, names: &mut Names<'a>) -> 
         names.declare(unknown, Part::Joint(i), "an unknown")?;
     }
     Ok(())
+}
+
+fn check_length(parts: &SystemParts) -> Checked {
+    if parts.inputs.len().max(parts.parameters.len()) <= MAX_PARAMETERS {
+        return Ok(());
+    }
+    let text = format!("more than {MAX_PARAMETERS} inputs or parameters; turn some into constants");
+    Err(mistake(Part::Parameter(MAX_PARAMETERS), ErrorKind::Unsupported, text))
 }
 
 fn check_count(count: usize) -> Checked {

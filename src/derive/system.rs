@@ -4,12 +4,14 @@ use std::ops::Deref;
 
 use serde::{Deserialize, Serialize};
 
-use super::check::check;
+use super::check::{Mistake, check};
 use crate::Result;
 use crate::poly::Expression;
 
 /// The most unknowns that a system may have.
 pub const MAX_UNKNOWNS: usize = 16;
+/// The most inputs, and the most parameters, that a system may have.
+pub const MAX_PARAMETERS: usize = 64;
 /// The most terms that the expansion of an equation or a square may take, by [`Expression::expansion_bound`].
 pub const MAX_TERMS: f64 = 1e5;
 /// The most bits that a coefficient of such an expansion may take.
@@ -264,9 +266,14 @@ impl System {
     /// [`MissingKey`](crate::ErrorKind::MissingKey), [`BadValue`](crate::ErrorKind::BadValue),
     /// [`Overflow`](crate::ErrorKind::Overflow) for an equation whose expansion is hopeless, or
     /// [`Unsupported`](crate::ErrorKind::Unsupported) for more than [`MAX_UNKNOWNS`] unknowns.
-    pub fn new(mut parts: SystemParts) -> Result<Self> {
+    pub fn new(parts: SystemParts) -> Result<Self> {
+        System::build(parts).map_err(|mistake| mistake.error)
+    }
+
+    /// As [`System::new`], but a mistake says in which part it stands.
+    pub(super) fn build(mut parts: SystemParts) -> std::result::Result<Self, Mistake> {
         parts.complete_squares();
-        check(&parts).map_err(|mistake| mistake.error)?;
+        check(&parts)?;
         parts.complete_circles();
         Ok(System(parts))
     }
