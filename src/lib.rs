@@ -1,6 +1,7 @@
 //! groebot: closed-form, complete and proven inverse kinematics from Groebner bases.
 #![cfg_attr(test, allow(missing_docs))]
 
+pub mod document;
 pub mod error;
 pub mod number;
 pub mod watch;

@@ -1,7 +1,7 @@
 //! The fields obey their axioms, and decimals are read exactly.
 
-use groebot::number::{BigInt, BigRational, Field, Rationals, Ring, Zp, laws, parse_rational};
 use groebot::ErrorKind;
+use groebot::number::{BigInt, BigRational, Field, Rationals, Ring, Zp, laws, parse_rational};
 use proptest::prelude::*;
 
 fn rational(n: i64, d: i64) -> BigRational {
@@ -45,9 +45,16 @@ proptest! {
 
 #[test]
 fn a_decimal_is_a_fraction() {
-    for (text, n, d) in [("0.1029", 1029, 10000), ("102.9", 1029, 10), ("-3/4", -3, 4), ("1.5e-3", 15, 10000),
-        (".5", 1, 2), ("2E2", 200, 1), ("+7", 7, 1), ("0.5/0.25", 2, 1)]
-    {
+    for (text, n, d) in [
+        ("0.1029", 1029, 10000),
+        ("102.9", 1029, 10),
+        ("-3/4", -3, 4),
+        ("1.5e-3", 15, 10000),
+        (".5", 1, 2),
+        ("2E2", 200, 1),
+        ("+7", 7, 1),
+        ("0.5/0.25", 2, 1),
+    ] {
         assert_eq!(parse_rational(text).unwrap(), rational(n, d), "{text}");
     }
 }
