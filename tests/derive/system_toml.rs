@@ -54,6 +54,32 @@ fn the_arm_is_read() {
 }
 
 #[test]
+fn the_documented_example_is_this_arm() {
+    let page = include_str!("../../docs/system_toml.md");
+    let example = page.split("```").nth(1).and_then(|block| block.strip_prefix("toml")).unwrap();
+    let (example, arm) = (System::from_toml(example).unwrap(), System::from_toml(ARM).unwrap());
+    assert_eq!((&example.equations, &example.order, &example.choice), (&arm.equations, &arm.order, &arm.choice));
+}
+
+/// A pose of the arm, by trigonometry alone, satisfies all equations.
+#[test]
+fn a_pose_of_the_arm_satisfies_the_equations() {
+    let (q2, q4) = (0.3_f64, -1.1_f64);
+    let pose = |name: &str| match name {
+        "c2" => Some(q2.cos()),
+        "s2" => Some(q2.sin()),
+        "c4" => Some(q4.cos()),
+        "s4" => Some(q4.sin()),
+        "pz" => Some(105.0 * q2.cos() + (55.95 + 57.75) * q4.sin()),
+        "py" => Some(105.0 * q2.sin() + (55.95 + 57.75) * q4.cos()),
+        _ => None,
+    };
+    for equation in &System::from_toml(ARM).unwrap().equations {
+        assert!(equation.expression.evaluate_f64(&pose).unwrap().abs() < 1e-12, "{}", equation.label);
+    }
+}
+
+#[test]
 fn what_is_optional_has_defaults() {
     let text = r#"
         name = "rail"
