@@ -1,6 +1,8 @@
 //! groebot: closed-form, complete and proven inverse kinematics from Groebner bases.
 #![cfg_attr(test, allow(missing_docs))]
 
+pub mod derive;
+pub mod document;
 pub mod error;
 pub mod files;
 pub mod watch;

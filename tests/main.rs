@@ -3,6 +3,8 @@
 mod architecture;
 mod files;
 mod kinematics;
+mod derive;
+mod document;
 mod number;
 mod poly;
 mod roots;

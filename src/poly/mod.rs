@@ -18,6 +18,7 @@ mod ring;
 mod token;
 pub mod univariate;
 
+pub use evaluate::ExpansionBound;
 pub use expression::Expression;
 pub use factor::{refine_factors, square_free_factors};
 pub use fractions::{Fraction, Fractions};

@@ -1,0 +1,4 @@
+//! Tests of `groebot::derive`.
+
+mod system;
+mod system_toml;
