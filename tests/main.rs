@@ -1,10 +1,10 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
 mod architecture;
-mod files;
-mod kinematics;
 mod derive;
 mod document;
+mod files;
+mod kinematics;
 mod number;
 mod poly;
 mod roots;
