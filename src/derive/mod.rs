@@ -4,6 +4,8 @@ mod check;
 mod constants;
 mod print;
 mod radicals;
+pub mod setting;
+pub mod strata;
 mod system;
 pub mod system_toml;
 

@@ -6,7 +6,7 @@ use num_traits::{One, Signed};
 
 use super::system::{Parameter, ParameterSource};
 use crate::number::Rationals;
-use crate::poly::Expression;
+use crate::poly::{Expression, rational_root};
 use crate::{Error, ErrorKind, Result};
 
 /// The most square roots of rational numbers in one system.
@@ -14,14 +14,6 @@ pub(super) const MAX_ROOTS: usize = 8;
 
 /// The longest square of a root, numerator and denominator together.
 const MAX_BITS: u64 = 10_000;
-
-/// The positive root of `q` when it is rational.
-pub(super) fn rational_root(q: &BigRational) -> Option<BigRational> {
-    let root = |n: &BigUint| Some(n.sqrt()).filter(|root| root * root == *n);
-    let positive = !q.is_negative();
-    let (top, bottom) = (root(q.numer().magnitude())?, root(q.denom().magnitude())?);
-    positive.then(|| BigRational::new(top.into(), bottom.into()))
-}
 
 /// Checks the last of `parameters` against those before it.
 ///

@@ -15,6 +15,7 @@ mod order;
 mod parse;
 mod print;
 mod ring;
+mod root;
 mod token;
 pub mod univariate;
 
@@ -29,4 +30,5 @@ pub use monomial::{Layout, Monomial, Width};
 pub use order::{Block, Order};
 pub use parse::{is_identifier, parse, parse_equation};
 pub use ring::{Polynomial, PolynomialRing, Term};
+pub use root::{rational_root, split_quadratic, square_root};
 pub use token::MAX_LENGTH;
