@@ -4,11 +4,10 @@ use std::collections::HashMap;
 
 use num_traits::Signed;
 
-use super::radicals::rational_root;
 use super::system::{Parameter, ParameterSource};
 use crate::document::Node;
 use crate::number::{BigRational, Rationals};
-use crate::poly::{Expression, is_identifier, parse};
+use crate::poly::{Expression, is_identifier, parse, rational_root};
 use crate::{Error, ErrorKind, Result};
 
 /// The most bits that a rational constant may take.

@@ -1,6 +1,5 @@
 //! Square roots of constants: each must be real and positive, and none may follow from the others.
 
-use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 

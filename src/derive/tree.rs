@@ -1,13 +1,13 @@
 //! The derivation proper: a proved basis at every stratum of the parameters ([`Node`]), found by recursion.
 
 use super::certify::{self, Certified};
-use super::setting::{ParameterPoly, Poly, Setting, Substitution, Unknowns, expression_of};
+use super::setting::{ParameterPoly, Poly, Setting, Substitution, expression_of};
 use super::strata::{self, ZeroSet};
 use super::triangular::{Triangular, triangularise};
 use super::{JointKindUnknown, System};
 use crate::groebner::{Basis, Options, Quotient, Strategy, basis};
-use crate::number::{Ring, Style};
-use crate::poly::{Expression, Order};
+use crate::number::{Rationals, Ring};
+use crate::poly::{Expression, Order, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The deepest nesting of strata.
@@ -126,8 +126,14 @@ impl Builder<'_> {
     fn node(&mut self, place: Place, setting: Setting, parent: Option<&Solved>, depth: usize) -> Result<Node> {
         self.watch.check()?;
         let outcome = self.outcome(&setting, parent)?;
-        let mut node =
-            Node { label: place.label, factors: place.factors, setting, outcome, children: Vec::new(), excluded: Vec::new() };
+        let mut node = Node {
+            label: place.label,
+            factors: place.factors,
+            setting,
+            outcome,
+            children: Vec::new(),
+            excluded: Vec::new(),
+        };
         let denominators = node.denominators()?;
         let ground = node.setting.field()?.ring().clone();
         for factor in strata::factors(&ground, &denominators) {
@@ -153,7 +159,11 @@ impl Builder<'_> {
     }
 
     fn solved(
-        &self, setting: &Setting, graded: &Basis<super::setting::Coefficients>, generators: &[Poly], parent: Option<&Solved>,
+        &self,
+        setting: &Setting,
+        graded: &Basis<super::setting::Coefficients>,
+        generators: &[Poly],
+        parent: Option<&Solved>,
     ) -> Result<Outcome> {
         let quotient = Quotient::new(graded)?;
         let in_order = |names: &[String]| quotient.basis_in(&setting.ring(names, Order::Lex)?, self.watch);
@@ -176,7 +186,11 @@ impl Builder<'_> {
 
     /// Frees the joints of the independent unknowns and solves the member that has them at zero.
     fn family(
-        &self, setting: &Setting, graded: &Basis<super::setting::Coefficients>, generators: &[Poly], free: &[usize],
+        &self,
+        setting: &Setting,
+        graded: &Basis<super::setting::Coefficients>,
+        generators: &[Poly],
+        free: &[usize],
     ) -> Result<Outcome> {
         let names: Vec<&str> = free.iter().map(|&v| graded.ring.variables()[v].as_str()).collect();
         let joints: Vec<usize> = (0..self.system.joints.len())
@@ -260,7 +274,9 @@ fn open_node(node: &Node, factor: Expression, reason: String) -> Node {
 
 /// Whether the parent's basis, with this setting's new substitutions put in, is `lex`: its formulas hold on.
 pub(super) fn specialises(
-    parent: &Solved, setting: &Setting, lex: &Basis<super::setting::Coefficients>,
+    parent: &Solved,
+    setting: &Setting,
+    lex: &Basis<super::setting::Coefficients>,
 ) -> Result<bool> {
     let source = &parent.triangular.ring;
     if parent.certified.basis.len() != lex.polynomials.len() {
@@ -304,10 +320,10 @@ impl Node {
     pub fn denominators(&self) -> Result<Vec<ParameterPoly>> {
         let mut found = Vec::new();
         for (setting, certified) in self.proofs() {
-            let ring = setting.ring(&certified.order, Order::Lex)?;
+            let ring = certified.ring(setting)?;
             let generators = setting.generators(&ring)?;
             let polynomials = generators.iter().chain(&certified.basis).chain(certified.cofactors.iter().flatten());
-            collect_denominators(polynomials, &mut found);
+            collect_denominators(ring.field().ring(), polynomials, &mut found);
         }
         Ok(found)
     }
@@ -328,24 +344,16 @@ impl Node {
     }
 }
 
-/// The distinct denominators other than one.
-pub(super) fn collect_denominators<'a>(polynomials: impl Iterator<Item = &'a Poly>, found: &mut Vec<ParameterPoly>) {
+/// Adds to `found` the denominators other than one that are not there yet.
+pub(super) fn collect_denominators<'a>(
+    ground: &PolynomialRing<Rationals>,
+    polynomials: impl Iterator<Item = &'a Poly>,
+    found: &mut Vec<ParameterPoly>,
+) {
     for term in polynomials.flat_map(|f| f.terms()) {
         let denominator = term.coefficient.denominator();
-        if denominator.terms().len() + denominator.leading().map_or(0, |t| usize::from(!is_number(t))) > 1
-            && !found.contains(denominator)
-        {
+        if !ground.is_one(denominator) && !found.contains(denominator) {
             found.push(denominator.clone());
         }
     }
-}
-
-fn is_number<E>(term: &crate::poly::Term<E>) -> bool {
-    let _ = term;
-    false
-}
-
-/// A polynomial's text, for reports.
-pub(super) fn text(ring: &Unknowns, f: &Poly) -> String {
-    ring.format(f, Style::Text)
 }

@@ -7,7 +7,7 @@
 use std::fmt;
 
 use super::setting::{ParameterPoly, Poly, Unknowns};
-use crate::number::{BigInt, BigRational, Ring, Style};
+use crate::number::{BigInt, BigRational, Field, Ring, Style};
 use crate::poly::{Fraction, Polynomial, gcd};
 use crate::{Error, ErrorKind, Result};
 
