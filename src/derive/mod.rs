@@ -1,7 +1,9 @@
 //! From a description to polynomial equations, and on to a solver: the stages between kinematics and the solver.
 
+mod assemble;
 pub mod certify;
 mod check;
+pub mod compile;
 mod constants;
 pub mod plan;
 mod print;

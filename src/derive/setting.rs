@@ -160,6 +160,11 @@ impl Setting {
         Ok(None)
     }
 
+    /// Whether the same parameters are left and the same equations hold, however they were come by.
+    pub fn same_equations(&self, other: &Setting) -> bool {
+        self.symbols == other.symbols && self.unknowns == other.unknowns && self.equations == other.equations
+    }
+
     /// Adds an algebraic parameter behind the others.
     #[must_use]
     pub fn with_symbol(&self, symbol: Symbol) -> Setting {

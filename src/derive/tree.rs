@@ -48,6 +48,8 @@ pub enum Outcome {
     Inconsistent(Box<Certified>),
     /// Infinitely many: some joints are free.
     Family(Box<Family>),
+    /// The same equations as at the stratum with this label, derived there.
+    Seen(String),
     /// Not derived, for this reason.
     Open(String),
 }
@@ -89,7 +91,7 @@ pub enum Orders {
 /// [`ErrorKind::Inconsistent`] and [`ErrorKind::PositiveDimensional`] (naming the free unknowns) when that is so for generic
 /// parameters; what `watch` stops with.
 pub fn derive_tree(system: &System, orders: Orders, watch: &Watch) -> Result<Node> {
-    let mut builder = Builder { system, orders, watch };
+    let mut builder = Builder { system, orders, watch, seen: Vec::new() };
     let place = Place { label: "generic".to_owned(), factors: Vec::new() };
     let node = builder.node(place, Setting::new(system), None, 0)?;
     match &node.outcome {
@@ -108,6 +110,7 @@ pub fn derive_tree(system: &System, orders: Orders, watch: &Watch) -> Result<Nod
             Err(Error::new(ErrorKind::PositiveDimensional, text))
         }
         Outcome::Open(reason) => Err(Error::new(ErrorKind::Unsupported, reason.clone())),
+        Outcome::Seen(_) => Ok(node),
     }
 }
 
@@ -120,12 +123,19 @@ struct Builder<'a> {
     system: &'a System,
     orders: Orders,
     watch: &'a Watch,
+    /// Settings that have been derived, with their labels.
+    seen: Vec<(Setting, String)>,
 }
 
 impl Builder<'_> {
     fn node(&mut self, place: Place, setting: Setting, parent: Option<&Solved>, depth: usize) -> Result<Node> {
         self.watch.check()?;
-        let outcome = self.outcome(&setting, parent)?;
+        let before = self.seen.iter().find(|(other, _)| other.same_equations(&setting));
+        let outcome = match before {
+            Some((_, label)) => Outcome::Seen(label.clone()),
+            None => self.outcome(&setting, parent)?,
+        };
+        self.seen.push((setting.clone(), place.label.clone()));
         let mut node = Node {
             label: place.label,
             factors: place.factors,
@@ -309,7 +319,7 @@ impl Node {
                 proofs.extend(family.member.proofs());
                 proofs
             }
-            Outcome::Open(_) => Vec::new(),
+            Outcome::Open(_) | Outcome::Seen(_) => Vec::new(),
         }
     }
 

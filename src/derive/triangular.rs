@@ -94,6 +94,19 @@ impl fmt::Display for Triangular {
 pub fn cleared(ring: &Unknowns, f: &Poly) -> Poly {
     let field = ring.field();
     let ground = field.ring();
+    let (f, _) = clear_denominators(ring, f);
+    let parts = f.terms().iter().flat_map(|term| field.parts_over_roots(term.coefficient.numerator()));
+    let content = parts.fold(ground.zero(), |content, part| gcd(ground, &content, &part));
+    match field.inverse(&field.embed(&content)) {
+        Some(inverse) => oriented(ring, &ring.scale(&f, &inverse)),
+        None => f,
+    }
+}
+
+/// `f` times the least common multiple of its coefficients' denominators, and that multiple.
+pub fn clear_denominators(ring: &Unknowns, f: &Poly) -> (Poly, ParameterPoly) {
+    let field = ring.field();
+    let ground = field.ring();
     let mut common = ground.one();
     for term in f.terms() {
         let denominator = term.coefficient.denominator();
@@ -101,15 +114,7 @@ pub fn cleared(ring: &Unknowns, f: &Poly) -> Poly {
         let rest = ground.exact_div(denominator, &shared).expect("a gcd divides");
         common = ground.mul(&common, &rest);
     }
-    let f = ring.scale(f, &field.embed(&common));
-    let parts = f.terms().iter().flat_map(|term| field.parts_over_roots(term.coefficient.numerator()));
-    let content = parts.fold(ground.zero(), |content, part| gcd(ground, &content, &part));
-    let numbers = number_content(f.terms().iter().map(|term| term.coefficient.numerator()));
-    let factor = ground.scale(&content, &numbers);
-    match field.inverse(&field.embed(&factor)) {
-        Some(inverse) => oriented(ring, &ring.scale(&f, &inverse)),
-        None => f,
-    }
+    (ring.scale(f, &field.embed(&common)), common)
 }
 
 /// With integer coefficients without common factor, and a positive leading number.
