@@ -3,6 +3,7 @@
 
 pub mod document;
 pub mod error;
+pub mod kinematics;
 pub mod number;
 pub mod watch;
 
