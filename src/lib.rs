@@ -5,6 +5,8 @@ pub mod derive;
 pub mod document;
 pub mod error;
 pub mod files;
+pub mod kinematics;
+pub mod number;
 pub mod watch;
 
 pub mod number;

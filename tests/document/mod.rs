@@ -78,6 +78,13 @@ fn lines_count_from_one() {
 }
 
 #[test]
+fn a_line_ends_with_its_newline() {
+    let document = Document::parse("a = [\n1\n,\n2]").unwrap();
+    let elements = document.root().required("a").unwrap().array().unwrap();
+    assert_eq!(elements.iter().map(Node::line).collect::<Vec<_>>(), [2, 4]);
+}
+
+#[test]
 fn every_wrong_type_says_what_is_allowed() {
     type Read = fn(Node<'_>) -> Result<()>;
     let cases: [(&str, Read, usize, &str); 11] = [
@@ -123,7 +130,9 @@ fn keys_are_checked() {
 
 #[test]
 fn bad_toml_has_a_line() {
-    for (text, line) in [("a = 1\nb = ", 2), ("a = 1\n\na = 2", 3), ("[t]\n[t]", 2), ("\n\n=", 3), ("a = 'x", 1)] {
+    for (text, line) in
+        [("a = 1\nb = ", 2), ("a = 1\n\na = 2", 3), ("[t]\n[t]", 2), ("\n\n=", 3), ("a = 'x", 1), ("a =\nb = 1", 1)]
+    {
         assert_error(&Document::parse(text).unwrap_err(), ErrorKind::Syntax, Some(line), "not TOML");
     }
 }
