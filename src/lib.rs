@@ -1,12 +1,8 @@
 //! groebot: closed-form, complete and proven inverse kinematics from Groebner bases.
 #![cfg_attr(test, allow(missing_docs))]
 
-pub mod derive;
-pub mod document;
 pub mod error;
 pub mod files;
-pub mod kinematics;
-pub mod number;
 pub mod watch;
 
 pub mod number;
@@ -15,9 +11,13 @@ pub mod poly;
 pub mod groebner;
 pub mod roots;
 
+pub mod document;
+
 pub mod spatial;
 
 pub mod kinematics;
+
+pub mod derive;
 
 pub mod solver;
 

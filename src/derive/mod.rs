@@ -5,6 +5,8 @@ pub mod certify;
 mod check;
 pub mod compile;
 mod constants;
+pub mod derivation;
+pub mod formulate;
 pub mod plan;
 mod print;
 mod radicals;
@@ -15,7 +17,10 @@ pub mod system_toml;
 pub mod tree;
 pub mod triangular;
 
+pub use crate::kinematics::{Choice, LengthUnit, Root};
+pub use derivation::Derivation;
+pub use formulate::formulate;
 pub use system::{
-    Choice, Equation, Input, JointKindUnknown, JointUnknown, LengthUnit, MAX_BITS, MAX_PARAMETERS, MAX_TERMS,
-    MAX_UNKNOWNS, Parameter, ParameterSource, Quantity, Root, System, SystemParts,
+    Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
+    ParameterSource, Quantity, System, SystemParts,
 };

@@ -2,27 +2,9 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::system::{
-    Input, JointKindUnknown, JointUnknown, LengthUnit, Parameter, ParameterSource, Quantity, Root, System,
-};
+use crate::kinematics::Root;
 
-impl Display for LengthUnit {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            LengthUnit::Metre => "m",
-            LengthUnit::Millimetre => "mm",
-        })
-    }
-}
-
-impl Display for Root {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Root::Minus => "minus",
-            Root::Plus => "plus",
-        })
-    }
-}
+use super::system::{Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, System};
 
 impl Display for Input {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -84,7 +66,7 @@ impl Display for System {
                 writeln!(f, "{text}")?;
             }
         }
-        writeln!(f, "lengths in {}, angles in rad", self.length_unit)?;
+        writeln!(f, "lengths in {}, angles in rad", self.length_unit.symbol())?;
         write_list(f, "inputs", &self.inputs, |f, input| write!(f, "{input}"))?;
         write_list(f, "parameters", &self.parameters, |f, parameter| write_parameter(f, parameter, &self.inputs))?;
         write_list(f, "joints", &self.joints, |f, joint| write!(f, "{joint}"))?;
@@ -94,7 +76,12 @@ impl Display for System {
             write!(f, "{}{space}{} = 0", equation.label, equation.expression)
         })?;
         match &self.choice {
-            Some(choice) => writeln!(f, "\nchoice of root\n      {}: {}", choice.unknown, choice.root),
+            Some(choice) => writeln!(
+                f,
+                "\nchoice of root\n      {}: {}",
+                choice.unknown,
+                if choice.root == Root::Minus { "minus" } else { "plus" }
+            ),
             None => Ok(()),
         }
     }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::check::{Mistake, check};
 use crate::Result;
+use crate::kinematics::{Choice, LengthUnit};
 use crate::poly::Expression;
 
 /// The most unknowns that a system may have.
@@ -16,18 +17,6 @@ pub const MAX_PARAMETERS: usize = 64;
 pub const MAX_TERMS: f64 = 1e5;
 /// The most bits that a coefficient of such an expansion may take.
 pub const MAX_BITS: f64 = 2e5;
-
-/// The unit of all lengths of a system.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum LengthUnit {
-    /// Metres.
-    #[default]
-    #[serde(rename = "m")]
-    Metre,
-    /// Millimetres.
-    #[serde(rename = "mm")]
-    Millimetre,
-}
 
 /// What an input measures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -123,25 +112,6 @@ pub struct Equation {
     pub label: String,
     /// What is zero.
     pub expression: Expression,
-}
-
-/// The sign of a square root.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Root {
-    /// The root with `-`.
-    Minus,
-    /// The root with `+`.
-    Plus,
-}
-
-/// The root that the source takes; every solution is returned, those of this root are marked.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Choice {
-    /// The unknown whose quadratic equation has the root.
-    pub unknown: String,
-    /// The root.
-    pub root: Root,
 }
 
 /// What a [`System`] is made of, not yet checked.

@@ -61,10 +61,10 @@ use std::path::Path;
 use super::check::{Mistake, Part};
 use super::constants::Constants;
 use super::system::{
-    Choice, Equation, Input, JointKindUnknown, JointUnknown, LengthUnit, Parameter, ParameterSource, Quantity, Root,
-    System, SystemParts,
+    Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, System, SystemParts,
 };
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text};
+use crate::kinematics::{Choice, LengthUnit, Root};
 use crate::poly::parse_equation;
 use crate::{Error, ErrorKind, Result};
 

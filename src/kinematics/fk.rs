@@ -1,14 +1,12 @@
 //! Numeric forward kinematics as a product of exponentials (Brockett 1984; RH0 2.1.4).
 
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use num_traits::{Signed, ToPrimitive};
 
 use super::{Chain, ChainParts, ExactMatrix, ExactVector, Joint, JointKind};
 use crate::number::BigRational;
+use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
-
-/// A rigid transform: unit quaternion and translation, the latter in the length unit of its chain.
-pub type Pose = Isometry3<f64>;
 
 /// The joint axes and the tip of a chain in doubles, in the base frame at the zero configuration.
 #[derive(Clone, Debug, PartialEq)]
