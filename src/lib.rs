@@ -5,8 +5,6 @@ pub mod derive;
 pub mod document;
 pub mod error;
 pub mod files;
-pub mod kinematics;
-pub mod number;
 pub mod watch;
 
 pub mod number;

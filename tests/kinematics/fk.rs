@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use groebot::ErrorKind;
-use groebot::kinematics::{Chain, Pose};
+use groebot::kinematics::Chain;
+use groebot::spatial::Pose;
 use nalgebra::{Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 

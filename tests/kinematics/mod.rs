@@ -1,12 +1,10 @@
-//! Kinematics.
-
-mod oracle;
-mod screw;
-//! The chain model, its file format and forward kinematics.
+//! The chain model, its file format, forward kinematics, the screw solver and the numeric oracle.
 
 mod chain;
 mod chain_toml;
 mod fk;
+mod oracle;
+mod screw;
 
 use groebot::number::{BigRational, parse_rational};
 
