@@ -323,8 +323,10 @@ impl<'a> Compiler<'a> {
             term.coefficient = term.coefficient.abs();
             term.powers.retain(|&(symbol, _)| symbol < parameters || plain(symbol));
         }
-        let sizes: Vec<Operand> = symbols.iter().map(|&symbol| assembler.abs(symbol)).collect();
         let grouped = merge_like(terms);
+        let used = |s: usize| grouped.iter().any(|term| term.powers.iter().any(|&(symbol, _)| symbol == s));
+        let mut magnitude = |(s, &symbol)| if used(s) { assembler.abs(symbol) } else { symbol };
+        let sizes: Vec<Operand> = symbols.iter().enumerate().map(&mut magnitude).collect();
         assembler.horner(&grouped, &sizes)
     }
 }

@@ -89,7 +89,8 @@ fn orders(unknowns: &[String]) -> Vec<Vec<String>> {
 
 fn permute(names: &[String], chosen: &mut Vec<String>, orders: &mut Vec<Vec<String>>) {
     if chosen.len() == names.len() {
-        return orders.push(chosen.clone());
+        orders.push(chosen.clone());
+        return;
     }
     for name in names {
         if !chosen.contains(name) {

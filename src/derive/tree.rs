@@ -235,16 +235,23 @@ impl Builder<'_> {
                 node.excluded.push(Excluded { factor: expression, reason });
                 return Ok(());
             }
-            ZeroSet::Open(reason) => return Ok(node.children.push(open_node(node, expression, reason))),
+            ZeroSet::Open(reason) => {
+                node.children.push(open_node(node, expression, reason));
+                return Ok(());
+            }
             ZeroSet::Graph(substitutions) => apply(&node.setting, &substitutions),
             ZeroSet::Root { substitution, symbol } => node.setting.with_symbol(symbol).substitute(&substitution),
         };
         let settings = match substitutions.and_then(|setting| setting.split_roots()) {
             Ok(_) if depth >= MAX_DEPTH => {
-                return Ok(node.children.push(open_node(node, expression, "strata nest too deep".to_owned())));
+                node.children.push(open_node(node, expression, "strata nest too deep".to_owned()));
+                return Ok(());
             }
             Ok(settings) => settings,
-            Err(error) => return Ok(node.children.push(open_node(node, expression, error.message().to_owned()))),
+            Err(error) => {
+                node.children.push(open_node(node, expression, error.message().to_owned()));
+                return Ok(());
+            }
         };
         for setting in settings {
             let place = place_of(node, &expression, &setting);

@@ -8,8 +8,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::exact_serde;
-use super::fk::Screws;
-use super::validate::{self, Fault};
+use super::fk::Numeric;
+use super::validate::{self, Fault, Part};
 use crate::Result;
 use crate::number::BigRational;
 
@@ -227,7 +227,7 @@ pub struct ChainParts {
 #[serde(try_from = "ChainParts", into = "ChainParts")]
 pub struct Chain {
     parts: ChainParts,
-    pub(super) screws: Screws,
+    pub(super) numeric: Numeric,
 }
 
 impl Chain {
@@ -245,8 +245,8 @@ impl Chain {
 
     pub(super) fn assemble(parts: ChainParts) -> std::result::Result<Self, Fault> {
         validate::check(&parts)?;
-        let screws = Screws::of(&parts);
-        Ok(Chain { parts, screws })
+        let numeric = Numeric::of(&parts).map_err(|error| Fault { part: Part::Chain, key: "joint", error })?;
+        Ok(Chain { parts, numeric })
     }
 
     /// The plain data of this chain.

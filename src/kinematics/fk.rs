@@ -5,22 +5,21 @@ use num_traits::{Signed, ToPrimitive};
 
 use super::{Chain, ChainParts, ExactMatrix, ExactVector, Joint, JointKind};
 use crate::number::BigRational;
-use crate::spatial::Pose;
+use crate::spatial::{Pose, Screw};
 use crate::{Error, ErrorKind, Result};
 
-/// The joint axes and the tip of a chain in doubles, in the base frame at the zero configuration.
+/// The screws and the tip of a chain in doubles, in the base frame at the zero configuration.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Screws {
-    joints: Vec<(JointKind, Unit<Vector3<f64>>, Point3<f64>)>,
+pub struct Numeric {
+    screws: Vec<Screw>,
     base_from_tip: Pose,
 }
 
-impl Screws {
-    pub(super) fn of(parts: &ChainParts) -> Self {
-        let screw = |joint: &Joint| (joint.kind, joint.direction(), joint.location());
+impl Numeric {
+    pub(super) fn of(parts: &ChainParts) -> Result<Self> {
+        let screws = parts.joints.iter().map(Joint::screw).collect::<Result<_>>()?;
         let translation = Translation3::from(point(&parts.tip.point).coords);
-        let base_from_tip = Pose::from_parts(translation, rotation(&parts.tip.rotation));
-        Screws { joints: parts.joints.iter().map(screw).collect(), base_from_tip }
+        Ok(Numeric { screws, base_from_tip: Pose::from_parts(translation, rotation(&parts.tip.rotation)) })
     }
 }
 
@@ -36,45 +35,53 @@ impl Joint {
     pub fn location(&self) -> Point3<f64> {
         point(&self.point)
     }
+
+    fn screw(&self) -> Result<Screw> {
+        match self.kind {
+            JointKind::Revolute => Screw::revolute(self.direction().into_inner(), self.location()),
+            JointKind::Prismatic => Screw::prismatic(self.direction().into_inner()),
+        }
+    }
 }
 
 impl Chain {
-    /// The pose base_from_tip of the tip for the joint values `q`, base to tip: radians (revolute) or the chain's
-    /// length unit (prismatic). `e^(S1 q1) ... e^(Sn qn) M`, RH0 (2-20) and (2-27); limits are not looked at.
+    /// The joints' screws from base to tip, in the base frame at the zero configuration and the chain's length unit.
+    pub fn screws(&self) -> &[Screw] {
+        &self.numeric.screws
+    }
+
+    /// The pose of the tip at the zero configuration, in the chain's length unit.
+    pub fn base_from_tip(&self) -> Pose {
+        self.numeric.base_from_tip
+    }
+
+    /// The pose base_from_tip of the tip, in the chain's length unit, for the joint values `q`, base to tip: radians
+    /// (revolute) or the chain's length unit (prismatic). `e^(S1 q1) ... e^(Sn qn) M`, RH0 (2-20) and (2-27); limits
+    /// are not looked at.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `q` has not one finite value per joint.
     pub fn forward(&self, q: &[f64]) -> Result<Pose> {
-        let joints = &self.screws.joints;
-        if q.len() != joints.len() {
-            let message = format!("{} joint values are given; the chain has {} joints", q.len(), joints.len());
+        let screws = self.screws();
+        if q.len() != screws.len() {
+            let message = format!("{} joint values are given; the chain has {} joints", q.len(), screws.len());
             return Err(Error::new(ErrorKind::BadValue, message));
         }
         if let Some(index) = q.iter().position(|value| !value.is_finite()) {
             let message = format!("joint `{}`: the value {} is not finite", self.joints()[index].name, q[index]);
             return Err(Error::new(ErrorKind::BadValue, message));
         }
-        let screws = joints.iter().zip(q).rev();
-        Ok(screws.fold(self.screws.base_from_tip, |pose, ((kind, axis, point), &q)| match kind {
-            JointKind::Revolute => rotate(axis, point, q, &pose),
-            JointKind::Prismatic => Translation3::from(axis.into_inner() * q) * pose,
-        }))
+        let steps = screws.iter().zip(q).rev();
+        Ok(steps.fold(self.base_from_tip(), |pose, (screw, &q)| screw.exp(q) * pose))
     }
 
     /// The length of the zigzag from the first joint's point over the other joints' points to the tip, in the chain's
     /// length unit. While prismatic joints stand at zero, the tip is never further from the first joint's point.
     pub fn reach(&self) -> f64 {
-        let tip = Point3::from(self.screws.base_from_tip.translation.vector);
-        let points: Vec<Point3<f64>> = self.screws.joints.iter().map(|joint| joint.2).chain([tip]).collect();
+        let tip = Point3::from(self.base_from_tip().translation.vector);
+        let points: Vec<Point3<f64>> = self.joints().iter().map(Joint::location).chain([tip]).collect();
         points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
     }
-}
-
-/// `pose` after the rotation by `angle` about the line through `point` along `axis`.
-fn rotate(axis: &Unit<Vector3<f64>>, point: &Point3<f64>, angle: f64, pose: &Pose) -> Pose {
-    let rotation = UnitQuaternion::from_axis_angle(axis, angle);
-    let position = point + rotation * (pose.translation.vector - point.coords);
-    Pose::from_parts(Translation3::from(position.coords), rotation * pose.rotation)
 }
 
 fn double(exact: &BigRational) -> f64 {

@@ -1,5 +1,5 @@
-//! Kinematics of serial chains: the validated exact model [`Chain`], its file format ([`chain_toml`]) and numeric
-//! forward kinematics ([`fk`]).
+//! Kinematics of serial chains: the validated exact model [`Chain`], its file format ([`chain_toml`]), forward
+//! kinematics ([`fk`]), the screw solver ([`screw`]) and a numeric inverse ([`oracle`]).
 
 pub mod chain;
 pub mod chain_toml;

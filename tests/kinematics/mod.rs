@@ -1,4 +1,4 @@
-//! Chains, their files, forward kinematics; the screw witness and the numeric oracle.
+//! The chain model, its file format, forward kinematics, the screw solver and the numeric oracle.
 
 mod chain;
 mod chain_toml;
