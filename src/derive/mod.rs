@@ -7,6 +7,7 @@ pub mod compile;
 mod constants;
 pub mod derivation;
 pub mod formulate;
+pub mod input;
 pub mod plan;
 mod print;
 mod radicals;
@@ -20,6 +21,7 @@ pub mod triangular;
 pub use crate::kinematics::{Choice, LengthUnit, Root};
 pub use derivation::Derivation;
 pub use formulate::formulate;
+pub use input::Source;
 pub use system::{
     Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
     ParameterSource, Quantity, System, SystemParts,
