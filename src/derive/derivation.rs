@@ -1,8 +1,8 @@
 //! The whole way from a system to its proved solver.
 
-use super::System;
 use super::compile::compile;
-use super::tree::{Node, Orders, derive_tree};
+use super::tree::Node;
+use super::{Orders, System, derive_tree};
 use crate::solver::Program;
 use crate::{Result, Watch};
 
