@@ -10,6 +10,7 @@ mod fractions;
 mod gcd;
 mod grammar;
 mod latex;
+mod maps;
 mod monomial;
 mod order;
 mod parse;
