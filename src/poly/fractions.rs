@@ -207,7 +207,7 @@ impl<F: Field> Ring for Fractions<F> {
         }
         let denominator = self.ring.format(&a.denominator, style);
         match style {
-            Style::Text => format!("({numerator})/({denominator})"),
+            Style::Text | Style::Decimal => format!("({numerator})/({denominator})"),
             Style::Latex => format!("\\frac{{{numerator}}}{{{denominator}}}"),
         }
     }

@@ -1,4 +1,6 @@
 //! Tests of `groebot::derive`.
 
+mod renamed;
+mod seed;
 mod system;
 mod system_toml;
