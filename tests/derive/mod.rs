@@ -1,6 +1,8 @@
 //! Tests of `groebot::derive`.
 
+mod certificate;
 mod renamed;
 mod seed;
+mod strata;
 mod system;
 mod system_toml;
