@@ -1,6 +1,7 @@
 //! Tests of `groebot::derive`.
 
 mod certificate;
+mod chains;
 mod renamed;
 mod seed;
 mod strata;
