@@ -6,7 +6,7 @@ pub mod poly;
 use std::path::Path;
 
 use groebot::document::{Document, Table};
-use groebot::number::{Field, Rationals, Ring, Zp};
+use groebot::number::{Field, Rationals, Zp};
 use groebot::poly::{Fractions, Polynomial, PolynomialRing, parse};
 
 /// Something to do over whatever field a file names.
