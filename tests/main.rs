@@ -1,9 +1,11 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
 mod architecture;
+mod corpus;
 mod derive;
 mod document;
 mod files;
+mod groebner;
 mod kinematics;
 mod number;
 mod poly;

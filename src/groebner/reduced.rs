@@ -1,14 +1,15 @@
 //! From a Groebner basis to the reduced one.
 
 use super::engine::{Tracked, leads_divide, monic, reduce};
-use crate::Result;
 use crate::number::Field;
 use crate::poly::PolynomialRing;
+use crate::{Result, Watch};
 
 /// Drops elements whose leading monomial another divides, reduces the tails, makes monic and sorts from the smallest.
 pub(super) fn interreduce<F: Field>(
     ring: &PolynomialRing<F>,
     elements: Vec<Tracked<F::Element>>,
+    watch: &Watch,
 ) -> Result<Vec<Tracked<F::Element>>> {
     let mut minimal: Vec<Tracked<F::Element>> = Vec::new();
     let mut sorted = elements;
@@ -21,7 +22,7 @@ pub(super) fn interreduce<F: Field>(
     }
     for index in 0..minimal.len() {
         let element = minimal.remove(index);
-        let element = monic(ring, reduce(ring, element, &minimal)?);
+        let element = monic(ring, reduce(ring, element, &minimal, watch)?)?;
         minimal.insert(index, element);
     }
     Ok(minimal)
