@@ -7,10 +7,10 @@
 use super::setting::{Coefficients, Poly, Setting, Unknowns};
 use super::triangular::clear_denominators;
 use crate::Result;
+use crate::Watch;
 use crate::groebner::{Basis, Options, Strategy, basis, reduced_basis};
 use crate::number::{BigRational, Rationals, Ring};
 use crate::poly::{Block, Order, Polynomial, PolynomialRing, Term};
-use crate::Watch;
 
 type Flat = PolynomialRing<Rationals>;
 type FlatPoly = Polynomial<BigRational>;
@@ -20,7 +20,10 @@ type FlatPoly = Polynomial<BigRational>;
 /// # Errors
 /// [`crate::ErrorKind::Overflow`]; what `watch` stops with.
 pub(super) fn generic_basis(
-    setting: &Setting, ring: &Unknowns, generators: &[Poly], watch: &Watch,
+    setting: &Setting,
+    ring: &Unknowns,
+    generators: &[Poly],
+    watch: &Watch,
 ) -> Result<Basis<Coefficients>> {
     let flat = flat_ring(ring)?;
     let mut system = Vec::new();
@@ -48,7 +51,7 @@ pub(super) fn generic_basis(
             polynomials.push(polynomial);
         }
     }
-    reduced_basis(ring, polynomials, cofactors)
+    reduced_basis(ring, polynomials, cofactors, watch)
 }
 
 /// Q[unknowns, parameters] with the unknowns compared first.

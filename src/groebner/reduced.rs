@@ -1,9 +1,27 @@
 //! From a Groebner basis to the reduced one.
 
+use super::Basis;
 use super::engine::{Tracked, leads_divide, monic, reduce};
 use crate::number::Field;
-use crate::poly::PolynomialRing;
+use crate::poly::{Polynomial, PolynomialRing};
 use crate::{Result, Watch};
+
+/// The reduced basis of a Groebner basis that came about elsewhere, its cofactors (one row a polynomial) carried along.
+///
+/// # Errors
+/// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes; what `watch` stops with.
+pub fn reduced_basis<F: Field>(
+    ring: &PolynomialRing<F>,
+    polynomials: Vec<Polynomial<F::Element>>,
+    cofactors: Vec<Vec<Polynomial<F::Element>>>,
+    watch: &Watch,
+) -> Result<Basis<F>> {
+    let elements = polynomials.into_iter().zip(cofactors);
+    let elements = elements.map(|(polynomial, cofactors)| Tracked { polynomial, cofactors }).collect();
+    let reduced = interreduce(ring, elements, watch)?;
+    let (polynomials, cofactors) = reduced.into_iter().map(|e| (e.polynomial, e.cofactors)).unzip();
+    Ok(Basis { ring: ring.clone(), polynomials, cofactors })
+}
 
 /// Drops elements whose leading monomial another divides, reduces the tails, makes monic and sorts from the smallest.
 pub(super) fn interreduce<F: Field>(

@@ -268,6 +268,14 @@ impl<F: Field> PolynomialRing<F> {
         f.terms.windows(2).all(descending) && f.terms.iter().all(|term| !self.field.is_zero(&term.coefficient))
     }
 
+    /// The monomial with these exponents, one a variable.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
+    pub fn monomial(&self, exponents: &[u32]) -> Result<Monomial> {
+        self.layout.pack(exponents).ok_or_else(|| self.overflow())
+    }
+
     pub(super) fn overflow(&self) -> Error {
         let limit = self.layout.width().max_degree();
         Error::new(ErrorKind::Overflow, format!("a monomial's degree exceeds {limit}, the limit of this ring"))
