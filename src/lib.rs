@@ -17,5 +17,7 @@ pub mod kinematics;
 
 pub mod solver;
 
+pub mod codegen;
+
 pub use error::{Error, ErrorKind, Result};
 pub use watch::Watch;

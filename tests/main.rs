@@ -1,6 +1,7 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
 mod architecture;
+mod codegen;
 mod files;
 mod kinematics;
 mod number;
