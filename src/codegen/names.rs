@@ -6,12 +6,10 @@ use super::printer::Language;
 use crate::solver::Program;
 
 /// Names that the skeletons and the printed functions use themselves, beside `r0`, `i0`, `roots0` and `choice0`.
-const TAKEN: &str = "p q x target answers value size extra magnitude angle real_roots leads is_near is_away finish solve \
-    residual measure polish newton_step solve_linear equations jacobian parameters preference same same_angle same_length \
-    half_open wrap mark_choice in_order largest middle choose out count main self \
-    INPUTS JOINTS CAPACITY EQUATIONS EXTRAS DEGREE ACCEPT MERGE NEAR TINY PIVOT POLISH_STEPS SCALE TANGENT ROUNDING \
-    NEGLIGIBLE MAX_STEPS TAU PI MIN_POSITIVE EPSILON NONE_FREE INPUT_NAMES JOINT_NAMES TWO_PI \
-    Parameters Solution Answers Error Fit Equations Roots Polynomial Math";
+const TAKEN: &str = "p q target answers extra magnitude result angle real_roots leads is_near is_away finish \
+    INPUTS JOINTS CAPACITY EQUATIONS EXTRAS DEGREE ACCEPT MERGE NEAR TINY PIVOT POLISH_STEPS TANGENT ROUNDING \
+    NEGLIGIBLE MAX_STEPS TAU PI NONE_FREE INPUT_NAMES JOINT_NAMES \
+    Parameters Solution Answers Error Fit Equations Jacobian Roots Polynomial Math";
 
 /// Letters that a number follows in the printed functions.
 const NUMBERED: [&str; 4] = ["r", "i", "roots", "choice"];
@@ -39,6 +37,9 @@ fn unique(text: &str, language: &dyn Language, used: &mut HashSet<String>) -> St
     let mut name = word(text);
     while is_taken(&name, language) || used.contains(&name) {
         name.push('_');
+        if is_taken(&name, language) {
+            name.insert(0, 'x');
+        }
     }
     used.insert(name.clone());
     name
@@ -51,7 +52,10 @@ pub(super) fn word(text: &str) -> String {
 }
 
 fn is_taken(name: &str, language: &dyn Language) -> bool {
-    let is_number = |rest: &str| rest.starts_with(|c: char| c.is_ascii_digit());
+    let is_number = |rest: &str| {
+        let (first, last) = (rest.bytes().next(), rest.bytes().last());
+        first.zip(last).is_some_and(|(first, last)| first.is_ascii_digit() && last.is_ascii_digit())
+    };
     TAKEN.split_whitespace().any(|word| word == name)
         || NUMBERED.iter().any(|letters| name.strip_prefix(letters).is_some_and(is_number))
         || language.is_reserved(name)

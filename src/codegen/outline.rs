@@ -135,7 +135,7 @@ impl Outline {
             sizes,
             jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
             jacobian_rows,
-            preference: PreferenceText::new(&scene),
+            preference: PreferenceText::new(&scene).filter(|_| needs.answers),
             needs,
         }
     }
