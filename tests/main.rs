@@ -4,6 +4,7 @@ mod architecture;
 mod corpus;
 mod derive;
 mod document;
+mod codegen;
 mod files;
 mod groebner;
 mod kinematics;
