@@ -21,5 +21,7 @@ pub mod derive;
 
 pub mod solver;
 
+pub mod witness;
+
 pub use error::{Error, ErrorKind, Result};
 pub use watch::Watch;

@@ -9,3 +9,4 @@ mod number;
 mod poly;
 mod roots;
 mod spatial;
+mod witness;
