@@ -22,6 +22,7 @@ pub mod derive;
 pub mod solver;
 
 pub mod codegen;
+pub mod witness;
 
 pub use error::{Error, ErrorKind, Result};
 pub use watch::Watch;

@@ -12,3 +12,4 @@ mod number;
 mod poly;
 mod roots;
 mod spatial;
+mod witness;
