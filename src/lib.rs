@@ -21,5 +21,8 @@ pub mod derive;
 
 pub mod solver;
 
+#[cfg(feature = "cli")]
+pub mod cli;
+
 pub use error::{Error, ErrorKind, Result};
 pub use watch::Watch;
