@@ -23,6 +23,8 @@ pub mod solver;
 
 pub mod codegen;
 pub mod witness;
+#[cfg(feature = "cli")]
+pub mod cli;
 
 pub use error::{Error, ErrorKind, Result};
 pub use watch::Watch;
