@@ -1,10 +1,10 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
 mod architecture;
+mod codegen;
 mod corpus;
 mod derive;
 mod document;
-mod codegen;
 mod files;
 mod groebner;
 mod kinematics;
