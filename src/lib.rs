@@ -11,13 +11,20 @@ pub mod poly;
 pub mod groebner;
 pub mod roots;
 
+pub mod document;
+
 pub mod spatial;
 
 pub mod kinematics;
 
+pub mod derive;
+
 pub mod solver;
 
 pub mod codegen;
+pub mod witness;
+#[cfg(feature = "cli")]
+pub mod cli;
 
 pub use error::{Error, ErrorKind, Result};
 pub use watch::Watch;

@@ -1,10 +1,15 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
 mod architecture;
+mod corpus;
+mod derive;
+mod document;
 mod codegen;
 mod files;
+mod groebner;
 mod kinematics;
 mod number;
 mod poly;
 mod roots;
 mod spatial;
+mod witness;

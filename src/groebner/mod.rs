@@ -6,6 +6,7 @@
 pub mod buchberger;
 mod division;
 mod engine;
+mod fglm;
 pub mod ideal;
 mod pairs;
 mod reduced;
@@ -13,4 +14,6 @@ pub mod verify;
 
 pub use division::{Division, divide, normal_form, s_polynomial};
 pub use engine::{Basis, Options, basis};
+pub use fglm::Quotient;
 pub use pairs::Strategy;
+pub use reduced::reduced_basis;

@@ -10,7 +10,7 @@ use crate::{Error, ErrorKind, Result};
 impl Expression {
     /// The value in `ring`, whose generators are what the names stand for.
     ///
-    /// Powers and products are expanded by the ring: the caller bounds the work with [`Expression::expansion_bound`].
+    /// Powers and products are expanded by the ring: the caller bounds the work by [`Expression::expansion_bound`].
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for a name that `ring` does not have; [`ErrorKind::BadValue`] for a divisor (or the
@@ -60,17 +60,18 @@ impl Expression {
         }
     }
 
-    /// An upper bound on the bits of the expanded polynomial (terms times bits of a coefficient), names being
-    /// variables; infinite when it exceeds a double. A caller refuses what is hopeless before it evaluates.
-    pub fn expansion_bound(&self) -> f64 {
+    /// What the expanded polynomial cannot exceed, names being variables: a caller refuses what is hopeless before it
+    /// evaluates.
+    pub fn expansion_bound(&self) -> ExpansionBound {
         let size = self.size();
-        size.terms * (1.0 + size.numerator + size.denominator)
+        ExpansionBound { terms: size.terms, bits: size.numerator + size.denominator }
     }
 
     fn size(&self) -> Size {
         match self {
             Expression::Number(q) => {
-                Size { terms: 1.0, numerator: q.numer().bits() as f64, denominator: (q.denom().bits() - 1) as f64 }
+                let denominator = if q.is_integer() { 0 } else { q.denom().bits() };
+                Size { terms: 1.0, numerator: q.numer().bits() as f64, denominator: denominator as f64 }
             }
             Expression::Name(_) => Size::ONE,
             Expression::Negation(a) => a.size(),
@@ -80,6 +81,15 @@ impl Expression {
             Expression::Power(a, n) => a.size().power(*n),
         }
     }
+}
+
+/// Bounds on an expanded polynomial; infinite when they exceed a double.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExpansionBound {
+    /// The number of terms.
+    pub terms: f64,
+    /// The bits of a coefficient: of its numerator, and of the common denominator of all, together.
+    pub bits: f64,
 }
 
 /// Bounds on a polynomial: its number of terms, the bits of a numerator, the bits of the common denominator.
@@ -94,7 +104,7 @@ impl Size {
     const ONE: Size = Size { terms: 1.0, numerator: 0.0, denominator: 0.0 };
 
     fn inverse(self) -> Size {
-        Size { terms: self.terms, numerator: self.denominator, denominator: self.numerator + 1.0 }
+        Size { terms: self.terms, numerator: self.denominator, denominator: self.numerator }
     }
 
     fn sum(parts: &[Size]) -> Size {

@@ -35,6 +35,11 @@ impl<E> Polynomial<E> {
         self.terms.first()
     }
 
+    /// Takes the leading term out; `None` for zero.
+    pub fn take_leading(&mut self) -> Option<Term<E>> {
+        (!self.terms.is_empty()).then(|| self.terms.remove(0))
+    }
+
     /// Whether this is the zero polynomial.
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
@@ -250,102 +255,30 @@ impl<F: Field> PolynomialRing<F> {
         self.layout.lcm(a, b).ok_or_else(|| self.overflow())
     }
 
-    /// The same polynomial read in another ring with the same variables, in any order or width.
-    ///
-    /// # Errors
-    /// [`ErrorKind::UnknownName`] when `f` uses a variable that `target` lacks; [`ErrorKind::Overflow`].
-    pub fn transfer<G: Field<Element = F::Element>>(
-        &self,
-        f: &Polynomial<F::Element>,
-        target: &PolynomialRing<G>,
-    ) -> Result<Polynomial<F::Element>> {
-        self.map_into(f, target, |coefficient| Ok(coefficient.clone()))
-    }
-
-    /// The image of `f` in another ring: variables by name, coefficients by `map`.
-    ///
-    /// # Errors
-    /// As [`PolynomialRing::transfer`], and what `map` fails with.
-    pub fn map_into<G: Field>(
-        &self,
-        f: &Polynomial<F::Element>,
-        target: &PolynomialRing<G>,
-        map: impl Fn(&F::Element) -> Result<G::Element>,
-    ) -> Result<Polynomial<G::Element>> {
-        let indices: Vec<Option<usize>> = self.variables.iter().map(|name| target.index_of(name)).collect();
-        let image = |term: &Term<F::Element>| {
-            let mut exponents = vec![0; target.variables.len()];
-            for (variable, index) in indices.iter().enumerate() {
-                let exponent = self.layout.exponent(&term.monomial, variable);
-                match index {
-                    Some(index) => exponents[*index] = exponent,
-                    None if exponent > 0 => return Err(self.unknown_variable(variable)),
-                    None => {}
-                }
-            }
-            let monomial = target.layout.pack(&exponents).ok_or_else(|| target.overflow())?;
-            Ok(Term { coefficient: map(&term.coefficient)?, monomial })
-        };
-        let terms: Vec<_> = f.terms.iter().map(image).collect::<Result<_>>()?;
-        Ok(target.collect(terms))
-    }
-
-    /// `f` with the ring elements `values` put in place of all variables, in ring `target`.
-    pub fn substitute<R: Ring>(
-        &self,
-        f: &Polynomial<F::Element>,
-        target: &R,
-        values: &[R::Element],
-        map: impl Fn(&F::Element) -> R::Element,
-    ) -> R::Element {
-        f.terms.iter().fold(target.zero(), |sum, term| {
-            let powers = values.iter().enumerate().map(|(v, value)| (value, self.layout.exponent(&term.monomial, v)));
-            let product = powers
-                .filter(|(_, exponent)| *exponent > 0)
-                .fold(map(&term.coefficient), |product, power| target.mul(&product, &target.pow(power.0, power.1)));
-            target.add(&sum, &product)
-        })
-    }
-
-    /// The coefficients of `f` as a polynomial in one variable: `result[k]` belongs to its `k`-th power.
-    pub fn coefficients_in(&self, f: &Polynomial<F::Element>, variable: usize) -> Vec<Polynomial<F::Element>> {
-        let mut parts = vec![Vec::new(); self.degree_in(f, variable) as usize + 1];
-        for term in &f.terms {
-            let mut exponents = self.layout.exponents(&term.monomial);
-            let power = std::mem::take(&mut exponents[variable]) as usize;
-            let monomial = self.layout.pack(&exponents).expect("a divisor fits");
-            parts[power].push(Term { coefficient: term.coefficient.clone(), monomial });
-        }
-        parts.into_iter().map(|terms| self.collect(terms)).collect()
-    }
-
-    /// The partial derivative with respect to one variable.
-    pub fn derivative(&self, f: &Polynomial<F::Element>, variable: usize) -> Polynomial<F::Element> {
-        let differentiate = |term: &Term<F::Element>| {
-            let mut exponents = self.layout.exponents(&term.monomial);
-            let power = exponents[variable];
-            exponents[variable] = power.checked_sub(1)?;
-            let factor = self.field.from_integer(&BigInt::from(power));
-            let coefficient = self.field.mul(&term.coefficient, &factor);
-            Some(Term { coefficient, monomial: self.layout.pack(&exponents)? })
-        };
-        self.collect(f.terms.iter().filter_map(differentiate))
-    }
-
-    /// Whether the invariants of a polynomial of this ring hold: descending, no zero coefficient.
+    /// Whether the invariants of a polynomial of this ring hold: monomials packed by its layout, descending, no zero
+    /// coefficient.
     pub fn is_well_formed(&self, f: &Polynomial<F::Element>) -> bool {
+        let packed = |term: &Term<F::Element>| self.layout.is_packed(&term.monomial);
+        f.terms.iter().all(packed) && self.is_sorted(f)
+    }
+
+    /// Descending, no zero coefficient.
+    fn is_sorted(&self, f: &Polynomial<F::Element>) -> bool {
         let descending = |pair: &[Term<F::Element>]| self.layout.compare(&pair[0].monomial, &pair[1].monomial).is_gt();
         f.terms.windows(2).all(descending) && f.terms.iter().all(|term| !self.field.is_zero(&term.coefficient))
     }
 
-    fn overflow(&self) -> Error {
-        let limit = self.layout.width().max_degree();
-        Error::new(ErrorKind::Overflow, format!("a monomial's degree exceeds {limit}, the limit of this ring"))
+    /// The monomial with these exponents, one a variable.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
+    pub fn monomial(&self, exponents: &[u32]) -> Result<Monomial> {
+        self.layout.pack(exponents).ok_or_else(|| self.overflow())
     }
 
-    fn unknown_variable(&self, variable: usize) -> Error {
-        let text = format!("variable `{}` has no place in the target ring", self.variables[variable]);
-        Error::new(ErrorKind::UnknownName, text)
+    pub(super) fn overflow(&self) -> Error {
+        let limit = self.layout.width().max_degree();
+        Error::new(ErrorKind::Overflow, format!("a monomial's degree exceeds {limit}, the limit of this ring"))
     }
 }
 
@@ -380,7 +313,7 @@ impl<F: Field> Ring for PolynomialRing<F> {
         }
         terms.extend(left.chain(right).cloned());
         let sum = Polynomial { terms };
-        debug_assert!(self.is_well_formed(&sum));
+        debug_assert!(self.is_sorted(&sum));
         sum
     }
     fn neg(&self, f: &Self::Element) -> Self::Element {

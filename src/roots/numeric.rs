@@ -10,10 +10,11 @@
 /// The highest degree that [`real_roots`] solves.
 pub const MAX_DEGREE: usize = 16;
 
-/// A critical point with `|p| <= TANGENT sum |a_i x^i|` counts as a root.
+/// A critical point with `|p| <= TANGENT sum |a_i y^i|`, `y` being the larger of `|x|` and the unknown's typical size, counts as
+/// a root.
 ///
 /// The coefficients of a derived solver carry relative errors of about `1e-13`; this leaves them three decades.
-/// A root added this way is off by about `sqrt(TANGENT) = 1e-5` of its size at most: the caller polishes and checks it.
+/// A root added this way is off by about `sqrt(TANGENT) = 1e-5` of that size at most: the caller polishes and checks it.
 pub const TANGENT: f64 = 1e-10;
 
 /// Values of `p` up to `degree ROUNDING sum |a_i x^i|` have no sign: Horner's rule and the rounding of the coefficients.
@@ -52,13 +53,15 @@ impl Roots {
 ///
 /// A multiple root, or roots that rounding cannot tell apart, are reported once. A polynomial that misses the axis by
 /// less than [`TANGENT`] also has a root where it comes closest, so no tangency is lost to rounding: check the residual.
+/// `scale` is the typical size of the unknown, against which such a miss is measured: 1 for a cosine, whose `x^2 + 1e-16` is
+/// a tangency at 0. Zero measures it against the roots' own sizes.
 /// Their number never exceeds the degree.
 ///
 /// Leading coefficients below `1e-290` of the largest one are dropped. Larger ones stay, however small: they add roots
 /// far away and lose none. None is returned for constants (zero included), for degrees over [`MAX_DEGREE`] after
 /// dropping, and for coefficients that are not finite. Roots below `1e-150` in magnitude may merge.
-pub fn real_roots(coefficients: &[f64]) -> Roots {
-    let Some(p) = Polynomial::new(coefficients) else { return Roots::NONE };
+pub fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
+    let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
     if p.degree < 2 {
         return p.linear_root();
     }
@@ -74,11 +77,12 @@ pub fn real_roots(coefficients: &[f64]) -> Roots {
 struct Polynomial {
     a: [f64; MAX_DEGREE + 1],
     degree: usize,
+    scale: f64,
 }
 
 impl Polynomial {
     /// Drops negligible leading coefficients and divides by the largest; `None` when nothing solvable is left.
-    fn new(coefficients: &[f64]) -> Option<Self> {
+    fn new(coefficients: &[f64], scale: f64) -> Option<Self> {
         let largest = largest(coefficients);
         let mut length = coefficients.len();
         while length > 0 && coefficients[length - 1].abs() <= NEGLIGIBLE * largest {
@@ -89,7 +93,7 @@ impl Polynomial {
         }
         let mut a = [0.0; MAX_DEGREE + 1];
         a[..length].copy_from_slice(&coefficients[..length]);
-        Some(Polynomial { a, degree: length - 1 }.scaled())
+        Some(Polynomial { a, degree: length - 1, scale }.scaled())
     }
 
     /// The polynomial divided by its largest coefficient.
@@ -110,7 +114,7 @@ impl Polynomial {
             *target = binomial * self.a[i + order];
             binomial = binomial * (i + 1 + order) as f64 / (i + 1) as f64;
         }
-        Polynomial { a, degree }.scaled()
+        Polynomial { a, degree, scale: self.scale }.scaled()
     }
 
     /// Two to four times Cauchy's radius: every root, and every root of a derivative, is well inside.
@@ -148,7 +152,8 @@ impl Polynomial {
         let [c, b, a] = [self.a[0], self.a[1], self.a[2]];
         let discriminant = b * b - 4.0 * a * c;
         let size = b * b + (4.0 * a * c).abs();
-        if discriminant < -TANGENT * size {
+        let typical = 2.0 * a * self.scale;
+        if discriminant < -TANGENT * size.max(typical * typical) {
             return roots;
         }
         if discriminant <= ROUNDING * size {
@@ -184,23 +189,23 @@ impl Polynomial {
 
     /// `-1`, `0` or `1`: the sign of `p(x)`, zero when rounding decides it.
     fn signed_value(&self, x: f64) -> f64 {
-        let (value, size) = self.value_and_size(x);
+        let (value, size) = self.value_and_size(x, 0.0);
         let noise = ROUNDING * self.degree as f64 * size;
         if value == 0.0 || (noise.is_finite() && value.abs() <= noise) { 0.0 } else { 1.0_f64.copysign(value) }
     }
 
     /// Whether `p(x)` is negligible.
     fn touches(&self, x: f64) -> bool {
-        let (value, size) = self.value_and_size(x);
+        let (value, size) = self.value_and_size(x, self.scale);
         size.is_finite() && value.abs() <= TANGENT * size
     }
 
-    /// `p(x)` and `sum |a_i x^i|`.
-    fn value_and_size(&self, x: f64) -> (f64, f64) {
+    /// `p(x)` and `sum |a_i y^i|` for the larger `y` of `|x|` and `scale`.
+    fn value_and_size(&self, x: f64, scale: f64) -> (f64, f64) {
         let (mut value, mut size) = (0.0, 0.0);
         for i in (0..=self.degree).rev() {
             value = value * x + self.a[i];
-            size = size * x.abs() + self.a[i].abs();
+            size = size * x.abs().max(scale) + self.a[i].abs();
         }
         (value, size)
     }

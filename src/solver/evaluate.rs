@@ -142,13 +142,40 @@ impl Program {
             Step::Roots { unknown, polynomials } => {
                 let stride: usize = chart.steps[next + 1..].iter().map(slots).product();
                 let registers = frame.registers.len();
-                for (index, root) in find_roots(polynomials, frame).as_slice().iter().enumerate() {
+                for (index, root) in self.find_roots(*unknown, polynomials, frame).as_slice().iter().enumerate() {
                     frame.unknowns[*unknown] = *root;
                     frame.registers.truncate(registers);
                     self.walk(chart, next + 1, branch + index * stride, frame, answers);
                 }
             }
         }
+    }
+
+    /// The real roots of the first polynomial whose leading coefficient is not negligible.
+    fn find_roots(&self, unknown: usize, polynomials: &[Vec<Operand>], frame: &Frame<'_>) -> roots::Roots {
+        let typical = if self.is_plain(unknown) { frame.magnitude } else { 1.0 };
+        let values = |coefficients: &[Operand]| {
+            let mut line = [0.0; roots::MAX_DEGREE + 1];
+            for (slot, operand) in line.iter_mut().zip(coefficients) {
+                *slot = frame.value(*operand);
+            }
+            line
+        };
+        let (last, earlier) = polynomials.split_last().expect("a valid program has a polynomial for each root step");
+        for coefficients in earlier {
+            let line = values(coefficients);
+            let line = &line[..coefficients.len()];
+            let largest = line.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+            if line.last().is_some_and(|lead| lead.abs() > PIVOT * largest) {
+                return roots::real_roots(line, typical);
+            }
+        }
+        roots::real_roots(&values(last)[..last.len()], typical)
+    }
+
+    /// Whether an unknown is a joint's value itself, not a cosine or sine: its typical size is the length scale, not one.
+    pub(crate) fn is_plain(&self, unknown: usize) -> bool {
+        self.joints.iter().any(|joint| joint.value == JointValue::Plain(unknown))
     }
 
     /// Turns the unknowns into joints, polishes them, and keeps the answer if the equations hold.
@@ -204,27 +231,6 @@ fn slots(step: &Step) -> usize {
         Step::Roots { polynomials, .. } => root_slots(polynomials),
         _ => 1,
     }
-}
-
-/// The real roots of the first polynomial whose leading coefficient is not negligible.
-fn find_roots(polynomials: &[Vec<Operand>], frame: &Frame<'_>) -> roots::Roots {
-    let values = |coefficients: &[Operand]| {
-        let mut line = [0.0; roots::MAX_DEGREE + 1];
-        for (slot, operand) in line.iter_mut().zip(coefficients) {
-            *slot = frame.value(*operand);
-        }
-        line
-    };
-    let (last, earlier) = polynomials.split_last().expect("a valid program has a polynomial for each root step");
-    for coefficients in earlier {
-        let line = values(coefficients);
-        let line = &line[..coefficients.len()];
-        let largest = line.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        if line.last().is_some_and(|lead| lead.abs() > PIVOT * largest) {
-            return roots::real_roots(line);
-        }
-    }
-    roots::real_roots(&values(last)[..last.len()])
 }
 
 fn joint_value(value: JointValue, unknowns: &[f64]) -> f64 {

@@ -66,7 +66,7 @@ fn an_objection_names_the_file_the_line_and_what_is_allowed() {
     let found = uses("src/poly/ring.rs", "use std::fmt;\n\nuse crate::solver::Program;");
     assert_eq!(found.len(), 1);
     assert!(found[0].starts_with("src/poly/ring.rs:3: `poly` may not use `solver`"), "{}", found[0]);
-    assert!(found[0].ends_with("and number"), "{}", found[0]);
+    assert!(found[0].ends_with("and number, document"), "{}", found[0]);
 }
 
 #[test]
@@ -88,8 +88,17 @@ fn main_uses_the_command_line_only() {
 
 #[test]
 fn root_modules_use_no_other_module() {
-    assert_eq!(uses("src/document.rs", "use crate::{Error, files};").len(), 0);
+    assert_eq!(uses("src/files.rs", "use crate::{Error, watch};").len(), 0);
+    assert_eq!(uses("src/files.rs", "use crate::document::Document;").len(), 1);
+    assert_eq!(uses("src/error.rs", "use crate::number::Zp;").len(), 1);
+}
+
+#[test]
+fn documents_stand_on_numbers_and_below_the_rest() {
+    assert_eq!(uses("src/document.rs", "use crate::{Error, files, number::Zp};").len(), 0);
     assert_eq!(uses("src/document.rs", "use crate::kinematics::Chain;").len(), 1);
+    assert_eq!(uses("src/kinematics/toml.rs", "use crate::document::Document;").len(), 0);
+    assert_eq!(uses("src/number/mod.rs", "use crate::document::Document;").len(), 1);
 }
 
 #[test]

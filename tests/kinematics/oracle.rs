@@ -58,6 +58,19 @@ fn bad_residuals_find_nothing_and_do_not_panic() {
 }
 
 #[test]
+fn of_equal_answers_the_most_accurate_is_kept() {
+    // One step per seed: the answers near zero differ, and more seeds can only better them.
+    let rough = |seeds| {
+        let oracle = Oracle { seeds, iterations: 1, tolerance: 1e-2, distinct: 0.5 };
+        let found = oracle.solve(1, |q| vec![q[0].sin()]).unwrap();
+        found.into_iter().find(|f| f.q[0].abs() < 0.5).map_or(1.0, |f| f.residual)
+    };
+    let residuals: Vec<f64> = (1..60).map(rough).collect();
+    assert!(residuals.is_sorted_by(|a, b| a >= b), "{residuals:?}");
+    assert!(residuals[58] < 1e-4);
+}
+
+#[test]
 fn the_same_question_has_the_same_answer() {
     let ask = || Oracle::default().solve(1, |q| vec![(3.0 * q[0]).sin() - 0.25]).unwrap();
     assert_eq!(ask().len(), 6);

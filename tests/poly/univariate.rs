@@ -49,8 +49,10 @@ proptest! {
     #[test]
     fn division_leaves_a_smaller_remainder(a in any_polynomial(), b in any_polynomial()) {
         let ring = ring();
-        prop_assume!(!ring.is_zero(&b));
-        let (quotient, rest) = ring.div_rem(&a, &b).unwrap();
+        let Some((quotient, rest)) = ring.div_rem(&a, &b) else {
+            prop_assert!(ring.is_zero(&b));
+            return Ok(());
+        };
         prop_assert_eq!(ring.add(&ring.mul(&quotient, &b), &rest), a.clone());
         prop_assert!(rest.degree() < b.degree());
         prop_assert_eq!(ring.checked_div(&ring.mul(&a, &b), &b), Some(a));

@@ -40,7 +40,7 @@ fn series(matrix: &Matrix4<f64>) -> Matrix4<f64> {
 }
 
 fn assert_close(actual: &Pose, expected: &Matrix4<f64>, tolerance: f64) {
-    let difference = (actual.to_homogeneous() - expected).amax();
+    let difference = (actual.to_homogeneous() - expected).norm();
     assert!(difference <= tolerance, "off by {difference:e}: {actual} is not {expected}");
 }
 

@@ -100,6 +100,7 @@ fn nothing_comes_of_bad_numbers() {
     let (p, k) = (Point3::new(4.0, 2.0, 0.0), Point3::new(1.0, 6.0, 0.0));
     for bad in [f64::NAN, f64::INFINITY, -1.0, -f64::MIN_POSITIVE] {
         assert_eq!(rotate_to_distance(&upright(), &p, &k, bad), Angles::None);
+        assert_eq!(rotate_to_distance(&upright(), &p, &p, bad), Angles::None);
     }
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let bad = Point3::new(0.0, bad, 0.0);

@@ -67,6 +67,7 @@ fn arm() -> impl Strategy<Value = Arm> {
 /// Checks every answer by forward kinematics; free joints take several angles.
 fn check(solver: &TwoLink, target: &Point3<f64>, answers: &[Solution], tolerance: f64) {
     assert!(answers.len() <= 2);
+    assert!(answers.len() < 2 || answers.iter().all(|a| a.q[0].is_some()), "a free joint counts once: {answers:?}");
     for answer in answers {
         for free in [0.0, 1.0, -2.5] {
             for angle in answer.q.iter().flatten() {

@@ -1,0 +1,216 @@
+//! Writing solutions: a table for people, JSON, CSV.
+
+use serde::Serialize;
+
+use crate::solver::{Joint, Program, Solution, Unit};
+
+/// The unit of angles at the edge of the tool.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Angles {
+    /// Radians.
+    Radians,
+    /// Degrees.
+    Degrees,
+}
+
+impl Angles {
+    /// `target` as the program wants it.
+    pub fn to_radians(self, program: &Program, target: &[f64]) -> Vec<f64> {
+        let value = |(index, value): (usize, &f64)| match program.inputs.get(index).map(|input| input.unit) {
+            Some(Unit::Radian) if self == Angles::Degrees => value.to_radians(),
+            _ => *value,
+        };
+        target.iter().enumerate().map(value).collect()
+    }
+
+    fn symbol(self, unit: Unit) -> &'static str {
+        match unit {
+            Unit::Metre => "m",
+            Unit::Millimetre => "mm",
+            Unit::Radian if self == Angles::Degrees => "deg",
+            Unit::Radian => "rad",
+            Unit::One => "",
+        }
+    }
+
+    fn shown(self, joint: &Joint, value: f64) -> f64 {
+        if joint.unit == Unit::Radian && self == Angles::Degrees { value.to_degrees() } else { value }
+    }
+}
+
+/// A target and its solutions.
+pub struct Answer<'a> {
+    /// The program that solved it.
+    pub program: &'a Program,
+    /// The target as it was given.
+    pub target: Vec<f64>,
+    /// All solutions.
+    pub solutions: Vec<Solution>,
+    /// The unit of angles in the target, in JSON and in CSV.
+    pub angles: Angles,
+}
+
+impl Answer<'_> {
+    fn free_names(&self, solution: &Solution) -> Vec<&str> {
+        solution.free.iter().map(|&joint| self.program.joints[joint].name.as_str()).collect()
+    }
+
+    fn shown(&self, solution: &Solution) -> Vec<f64> {
+        let joints = self.program.joints.iter().zip(&solution.q);
+        joints.map(|(joint, value)| self.angles.shown(joint, *value)).collect()
+    }
+}
+
+/// A table with both units of each angle.
+pub fn text(answer: &Answer<'_>) -> String {
+    let program = answer.program;
+    let target = program.inputs.iter().zip(&answer.target).map(|(input, value)| {
+        let unit = answer.angles.symbol(input.unit);
+        format!("{} = {value}{}{unit}", input.name, if unit.is_empty() { "" } else { " " })
+    });
+    let title = format!("{} at {}", program.name, target.collect::<Vec<_>>().join(", "));
+    if answer.solutions.is_empty() {
+        return format!("{title}: unreachable: no solution\n");
+    }
+    let plural = if answer.solutions.len() == 1 { "solution" } else { "solutions" };
+    let mut text = format!("{title}: {} {plural}\n", answer.solutions.len());
+    let mut rows = vec![header(program)];
+    rows.extend(answer.solutions.iter().map(|solution| cells(answer, solution)));
+    text += &table(&rows);
+    if answer.solutions.iter().any(|solution| !solution.free.is_empty()) {
+        text += "  A free joint may take any value: the row is one member of an infinite family.\n";
+    }
+    text
+}
+
+fn header(program: &Program) -> Vec<String> {
+    let mut header = vec!["branch".to_owned()];
+    header.extend(program.joints.iter().map(|joint| joint.name.clone()));
+    header.extend(["residual".to_owned(), String::new()]);
+    header
+}
+
+fn cells(answer: &Answer<'_>, solution: &Solution) -> Vec<String> {
+    let mut row = vec![solution.branch.to_string()];
+    for (joint, value) in answer.program.joints.iter().zip(&solution.q) {
+        row.push(match joint.unit {
+            Unit::Radian => format!("{:.6} deg ({value:.9} rad)", value.to_degrees()),
+            unit => format!("{value:.9} {}", answer.angles.symbol(unit)).trim_end().to_owned(),
+        });
+    }
+    row.push(if solution.residual == 0.0 { "0".to_owned() } else { format!("{:.1e}", solution.residual) });
+    let mut notes: Vec<String> = answer.free_names(solution).iter().map(|name| format!("{name} is free")).collect();
+    if solution.chosen {
+        notes.push("<- the source's choice".to_owned());
+    }
+    row.push(notes.join(", "));
+    row
+}
+
+/// Rows with right-aligned columns; the last column is left as it is.
+fn table(rows: &[Vec<String>]) -> String {
+    let columns = rows.first().map_or(0, Vec::len);
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (column, cell) in row.iter().enumerate() {
+            let width = if column + 1 == columns { 0 } else { widths[column] };
+            line += &format!("  {cell:>width$}");
+        }
+        text += line.trim_end();
+        text.push('\n');
+    }
+    text
+}
+
+#[derive(Serialize)]
+struct Page<'a> {
+    name: &'a str,
+    target: &'a [f64],
+    unit: Units<'a>,
+    joints: Vec<&'a str>,
+    solutions: Vec<Entry<'a>>,
+}
+
+/// The unit of each number of the target and of each joint.
+#[derive(Serialize)]
+struct Units<'a> {
+    target: Vec<&'a str>,
+    joints: Vec<&'a str>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    q: Vec<f64>,
+    residual: f64,
+    branch: usize,
+    /// Names of the joints that may take any value.
+    free: Vec<&'a str>,
+    chosen: bool,
+}
+
+/// One JSON object: over several lines when `pretty`, else on one.
+pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
+    let program = answer.program;
+    let entry = |solution| Entry {
+        q: answer.shown(solution),
+        residual: solution.residual,
+        branch: solution.branch,
+        free: answer.free_names(solution),
+        chosen: solution.chosen,
+    };
+    let page = Page {
+        name: &program.name,
+        target: &answer.target,
+        unit: Units {
+            target: program.inputs.iter().map(|input| answer.angles.symbol(input.unit)).collect(),
+            joints: program.joints.iter().map(|joint| answer.angles.symbol(joint.unit)).collect(),
+        },
+        joints: program.joints.iter().map(|joint| joint.name.as_str()).collect(),
+        solutions: answer.solutions.iter().map(entry).collect(),
+    };
+    let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
+    text.expect("an answer holds nothing that JSON cannot say") + "\n"
+}
+
+/// The names of the columns.
+pub fn csv_header(program: &Program) -> String {
+    let mut cells = vec!["target".to_owned()];
+    cells.extend(program.inputs.iter().map(|input| input.name.clone()));
+    cells.extend(["solutions".to_owned(), "branch".to_owned()]);
+    cells.extend(program.joints.iter().map(|joint| joint.name.clone()));
+    cells.extend(["residual", "chosen", "free"].map(str::to_owned));
+    csv_line(&cells)
+}
+
+/// One row a solution; an unreachable target has one row with 0 solutions and empty cells. `index` counts targets from 1.
+pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
+    let mut start = vec![index.to_string()];
+    start.extend(answer.target.iter().map(f64::to_string));
+    start.push(answer.solutions.len().to_string());
+    if answer.solutions.is_empty() {
+        start.extend(vec![String::new(); answer.program.joints.len() + 4]);
+        return csv_line(&start);
+    }
+    let row = |solution: &Solution| {
+        let mut cells = start.clone();
+        cells.push(solution.branch.to_string());
+        cells.extend(answer.shown(solution).iter().map(f64::to_string));
+        cells.push(format!("{:e}", solution.residual));
+        cells.push(solution.chosen.to_string());
+        cells.push(answer.free_names(solution).join(" "));
+        csv_line(&cells)
+    };
+    answer.solutions.iter().map(row).collect()
+}
+
+/// Cells with commas between them, quoted where they must be (RFC 4180).
+fn csv_line(cells: &[String]) -> String {
+    let quoted = |cell: &String| {
+        let special = cell.contains([',', '"', '\n', '\r']);
+        if special { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.clone() }
+    };
+    cells.iter().map(quoted).collect::<Vec<_>>().join(",") + "\n"
+}

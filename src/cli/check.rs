@@ -1,0 +1,123 @@
+//! `groebot check`: the stored certificate proves the derivation again, and the stored stages are what it proves.
+
+use std::path::{Path, PathBuf};
+
+use super::console::{self, Paint};
+use super::{Halt, Outcome};
+use crate::derive::{Derivation, Source, certificate};
+use crate::document::read_text;
+use crate::solver::Program;
+use crate::{Error, ErrorKind, Result};
+
+/// The longest stage file that is read, in bytes.
+const LIMIT: u64 = 256_000_000;
+const CERTIFICATE: &str = "certificate.json";
+const PROGRAM: &str = "5_program.json";
+
+/// Proves a stored derivation again, without the Groebner engine
+///
+/// Ends with a non-zero status and says where when a proof is forged or damaged, or a stage file is not what is proved.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  groebot check derivations/nao_leg_sagittal")]
+pub struct Arguments {
+    /// A folder that `groebot derive` wrote
+    derivation: PathBuf,
+}
+
+/// One thing that was checked: what, and what was found or what is wrong.
+struct Finding {
+    what: String,
+    verdict: Result<String>,
+}
+
+/// Checks all there is to check.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let folder = arguments.derivation.as_path();
+    let source = Source::read(folder)?;
+    let mut findings = vec![read(&source)];
+    match reprove(folder, &source) {
+        Ok(derivation) => {
+            findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Ok(proved(&derivation)) });
+            findings.extend(stored_stages(folder, &derivation)?);
+        }
+        Err(error) => findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Err(error) }),
+    }
+    console::print(&page(&findings, Paint::of(&std::io::stdout())))?;
+    match findings.iter().find_map(|finding| finding.verdict.as_ref().err()) {
+        None => Ok(()),
+        Some(first) => Err(Halt::Error(first.clone())),
+    }
+}
+
+/// The derivation that the stored certificate proves.
+fn reprove(folder: &Path, source: &Source) -> Result<Derivation> {
+    let path = folder.join(CERTIFICATE);
+    let text = read_text(&path, LIMIT)?;
+    certificate::prove(&source.system, &text).map_err(|error| error.in_file(&path))
+}
+
+fn read(source: &Source) -> Finding {
+    let verdict = Ok(format!("{} equations in {}", source.system.equations.len(), source.system.order.join(", ")));
+    Finding { what: source.name.to_owned(), verdict }
+}
+
+fn proved(derivation: &Derivation) -> String {
+    let trees = derivation.trees();
+    let nodes: Vec<_> = trees.iter().flat_map(|(_, node)| node.walk()).collect();
+    let proofs: Vec<_> = nodes.iter().flat_map(|node| node.proofs()).map(|(_, certified)| certified.proof).collect();
+    let rows: usize = proofs.iter().map(|proof| proof.cofactor_rows).sum();
+    let pairs: usize = proofs.iter().map(|proof| proof.pairs).sum();
+    format!(
+        "{} bases proved again: {rows} combinations of the equations multiplied out, {pairs} S-polynomials reduced to zero",
+        proofs.len()
+    )
+}
+
+/// Compares every stage file with what the proved derivation says.
+fn stored_stages(folder: &Path, derivation: &Derivation) -> Result<Vec<Finding>> {
+    let mut findings = Vec::new();
+    for (name, bytes) in derivation.stage_files()? {
+        if name == CERTIFICATE {
+            continue;
+        }
+        let path = folder.join(&name);
+        let verdict = read_text(&path, LIMIT).and_then(|stored| match name.as_str() {
+            PROGRAM => same_program(&stored, &derivation.program),
+            _ => same_text(&stored, &String::from_utf8_lossy(&bytes)),
+        });
+        findings.push(Finding { what: name, verdict: verdict.map_err(|error| error.in_file(&path)) });
+    }
+    Ok(findings)
+}
+
+/// Whether the stored program is the derived one, whichever version of this crate wrote it.
+fn same_program(stored: &str, derived: &Program) -> Result<String> {
+    let mut program = Program::from_json(stored)?;
+    program.version.clone_from(&derived.version);
+    if program == *derived { Ok("follows from the proof".to_owned()) } else { Err(differs("the program")) }
+}
+
+fn same_text(stored: &str, derived: &str) -> Result<String> {
+    if stored == derived {
+        return Ok("follows from the proof".to_owned());
+    }
+    let common = stored.lines().zip(derived.lines()).take_while(|(a, b)| a == b).count();
+    Err(differs("this line").at_line(common + 1))
+}
+
+fn differs(what: &str) -> Error {
+    let text = format!("{what} is not what the certificate proves; `groebot derive` writes the right one");
+    Error::new(ErrorKind::Certificate, text)
+}
+
+fn page(findings: &[Finding], paint: Paint) -> String {
+    let width = findings.iter().map(|finding| finding.what.chars().count()).max().unwrap_or(0);
+    let line = |Finding { what, verdict }: &Finding| match verdict {
+        Ok(text) => format!("{} {what:<width$}  {text}\n", paint.green("\u{2713}")),
+        Err(error) => {
+            let line = error.place().line.map(|line| format!("line {line}: ")).unwrap_or_default();
+            format!("{} {what:<width$}  {line}{}\n", paint.red("\u{2717}"), error.message())
+        }
+    };
+    findings.iter().map(line).collect()
+}

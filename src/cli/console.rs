@@ -1,0 +1,58 @@
+//! Standard output with restrained colour, and without a panic when its reader has gone.
+
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::path::Path;
+
+use super::{Halt, Outcome};
+use crate::Error;
+
+/// Whether text is painted.
+#[derive(Clone, Copy)]
+pub struct Paint(bool);
+
+impl Paint {
+    /// Paints for a terminal, unless `NO_COLOR` is set to something or the terminal is a dumb one.
+    pub fn of(stream: &impl IsTerminal) -> Self {
+        let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+        let dumb = std::env::var_os("TERM").is_some_and(|value| value == "dumb");
+        Paint(stream.is_terminal() && !set("NO_COLOR") && !dumb)
+    }
+
+    /// Bold.
+    pub fn bold(self, text: &str) -> String {
+        self.with("1", text)
+    }
+
+    /// Faint.
+    pub fn dim(self, text: &str) -> String {
+        self.with("2", text)
+    }
+
+    /// Green.
+    pub fn green(self, text: &str) -> String {
+        self.with("32", text)
+    }
+
+    /// Red.
+    pub fn red(self, text: &str) -> String {
+        self.with("31", text)
+    }
+
+    fn with(self, code: &str, text: &str) -> String {
+        if self.0 { format!("\x1b[{code}m{text}\x1b[0m") } else { text.to_owned() }
+    }
+}
+
+/// Writes `text` to standard output.
+pub fn print(text: &str) -> Outcome {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| unwritten(&error))
+}
+
+/// What a failed write to standard output means.
+pub fn unwritten(error: &io::Error) -> Halt {
+    match error.kind() {
+        ErrorKind::BrokenPipe => Halt::PipeClosed,
+        _ => Halt::Error(Error::io(Path::new("<stdout>"), error)),
+    }
+}

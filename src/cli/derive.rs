@@ -1,0 +1,89 @@
+//! `groebot derive`: from a description to a proved solver and its files.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use super::Outcome;
+use super::console::{self, Paint};
+use super::files::{assemble_files, destination};
+use super::progress::{Limits, Session, seconds};
+use super::report::{Report, report};
+use crate::derive::{Derivation, Source};
+use crate::files::write_folder_atomically;
+use crate::{ErrorKind, Result, Watch};
+
+const EXAMPLES: &str = "Examples:
+  groebot derive derivations/nao_leg_sagittal          files beside its 0_chain.toml
+  groebot derive arm.toml                              files in the folder arm
+  groebot derive arm.toml --out /tmp/arm --time 60     files in /tmp/arm, or an error after a minute";
+
+/// Derives, proves and writes the closed-form inverse kinematics of a chain or a system of equations
+///
+/// Writes one numbered file for each stage. Ctrl-C stops the work and leaves the folder as it was.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// A mechanism's folder with its 0_chain.toml or 0_system.toml, or an input file
+    #[arg(value_name = "DIR-or-FILE")]
+    input: PathBuf,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The time budget
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<Duration>,
+    /// The memory budget: polynomial terms alive
+    #[arg(long, value_name = "N")]
+    terms: Option<usize>,
+    /// Neither progress nor report
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Derives, writes the files, then tells about it.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let session = Session::start(Limits { time: arguments.time, terms: arguments.terms, quiet: arguments.quiet })?;
+    let mut clock = Clock::start();
+    let source = Source::read(&arguments.input)?;
+    let folder = destination(&source, &arguments.input, arguments.out.as_deref())?;
+    clock.lap("read");
+    let derivation = derive(&source, &session.watch)?;
+    clock.lap("derive and prove");
+    let files = assemble_files(&source, &derivation, &folder)?;
+    clock.lap("print the stages");
+    write_folder_atomically(&folder, &files, &session.watch)?;
+    clock.lap("write");
+    drop(session);
+    if arguments.quiet {
+        return Ok(());
+    }
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    let told =
+        Report { source: &source, derivation: &derivation, folder: &folder, files: &names, timings: &clock.laps };
+    console::print(&report(&told, Paint::of(&std::io::stdout()))?)
+}
+
+fn derive(source: &Source, watch: &Watch) -> Result<Derivation> {
+    Derivation::new(source.system.clone(), watch).map_err(|error| match error.kind() {
+        ErrorKind::Cancelled => error,
+        _ => error.in_file(&source.path),
+    })
+}
+
+/// How long each stage took.
+struct Clock {
+    last: Instant,
+    laps: Vec<(&'static str, Duration)>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Clock { last: Instant::now(), laps: Vec::new() }
+    }
+
+    fn lap(&mut self, stage: &'static str) {
+        let now = Instant::now();
+        self.laps.push((stage, now - self.last));
+        self.last = now;
+    }
+}

@@ -1,0 +1,53 @@
+//! Where a derivation's files go, and which they are.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::derive::input::INPUT_NAMES;
+use crate::derive::{Derivation, Source};
+use crate::{Error, ErrorKind, Result};
+
+/// The folder for the files of a derivation of `source`, which was asked for as `input`: `out` if it is given, the input's own folder
+/// if it is a mechanism's, else the folder `foo` beside `foo.toml`.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] when a file without extension leaves no name for a folder, or the folder has an input of the other kind.
+pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<PathBuf> {
+    let file = &source.path;
+    let named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
+    let folder = match out {
+        Some(out) => out.to_owned(),
+        None if input.is_dir() || named => file.parent().unwrap_or(Path::new("")).to_owned(),
+        None if file.extension().is_some() => file.with_extension(""),
+        None => {
+            let text = "the files would go to a folder of this very name; give another one by --out";
+            return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
+        }
+    };
+    let other = INPUT_NAMES.iter().find(|name| **name != source.name && folder.join(name).exists());
+    match other {
+        Some(other) => {
+            let text =
+                format!("this folder has a `{other}`, and would get a `{}`; give another one by --out", source.name);
+            Err(Error::new(ErrorKind::BadValue, text).in_file(&folder))
+        }
+        None => Ok(folder),
+    }
+}
+
+/// Every file of a derivation with its name: the stages, and the input itself when `folder` does not hold it yet.
+///
+/// # Errors
+/// As [`Derivation::stage_files`].
+pub fn assemble_files(source: &Source, derivation: &Derivation, folder: &Path) -> Result<Vec<(String, Vec<u8>)>> {
+    let mut files = Vec::new();
+    if !is_same_file(&source.path, &folder.join(source.name)) {
+        files.push((source.name.to_owned(), source.text.clone().into_bytes()));
+    }
+    files.extend(derivation.stage_files()?);
+    Ok(files)
+}
+
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
+}

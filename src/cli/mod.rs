@@ -1,0 +1,101 @@
+//! The command-line tool: one file a subcommand.
+//!
+//! Results go to standard output, errors to standard error as `error: FILE: line N: message`. The exit status is 0 for success, 1
+//! for a failure, 2 for wrong usage and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
+
+mod algebra;
+mod answers;
+mod check;
+mod console;
+mod derive;
+mod files;
+mod info;
+mod progress;
+mod report;
+mod solve;
+mod strata;
+mod targets;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::{Error, ErrorKind};
+use console::Paint;
+
+const EXAMPLES: &str = "Examples:
+  groebot derive derivations/nao_leg_sagittal
+  groebot solve derivations/nao_leg_sagittal --target 60,150
+  groebot check derivations/nao_leg_sagittal
+  groebot info derivations/nao_arm_planar
+
+Exit status: 0 success, 1 failure, 2 wrong usage, 130 interrupted.";
+
+/// Closed-form inverse kinematics from Groebner bases: derived, proved, checked.
+#[derive(Parser)]
+#[command(name = "groebot", version, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Derive(derive::Arguments),
+    Solve(solve::Arguments),
+    Check(check::Arguments),
+    Info(info::Arguments),
+}
+
+/// Why a subcommand ends early.
+enum Halt {
+    /// An error that is still to be told.
+    Error(Error),
+    /// Nobody reads standard output any more.
+    PipeClosed,
+}
+
+impl From<Error> for Halt {
+    fn from(error: Error) -> Self {
+        Halt::Error(error)
+    }
+}
+
+type Outcome = std::result::Result<(), Halt>;
+
+/// Runs the tool on the arguments of this process.
+pub fn run() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(usage) => {
+            // Help and version are "errors" here; nothing is left to do when they cannot be printed.
+            let _ = usage.print();
+            return ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2));
+        }
+    };
+    let outcome = match &cli.command {
+        Command::Derive(arguments) => derive::run(arguments),
+        Command::Solve(arguments) => solve::run(arguments),
+        Command::Check(arguments) => check::run(arguments),
+        Command::Info(arguments) => info::run(arguments),
+    };
+    match outcome {
+        Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,
+        Err(Halt::Error(error)) => {
+            tell(&error);
+            ExitCode::from(if error.kind() == ErrorKind::Cancelled { 130 } else { 1 })
+        }
+    }
+}
+
+fn tell(error: &Error) {
+    let mut stderr = std::io::stderr().lock();
+    let paint = Paint::of(&stderr);
+    let text = match error.kind() {
+        ErrorKind::Cancelled => "interrupted; nothing was written".to_owned(),
+        _ => error.to_string(),
+    };
+    // There is no one left to tell about a closed standard error.
+    let _ = writeln!(stderr, "{} {text}", paint.red("error:"));
+}

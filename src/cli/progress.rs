@@ -1,0 +1,80 @@
+//! A [`Watch`] that a person follows and stops: a spinner on a terminal, Ctrl-C, a budget.
+
+use std::io::{IsTerminal, stderr};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The longest time budget: about thirty years.
+const MAX_SECONDS: f64 = 1e9;
+
+/// How much may be spent, and whether to show it.
+#[derive(Clone, Copy, Default)]
+pub struct Limits {
+    /// The time budget.
+    pub time: Option<Duration>,
+    /// The most polynomial terms alive.
+    pub terms: Option<usize>,
+    /// No spinner.
+    pub quiet: bool,
+}
+
+/// A watch with its spinner, which goes when the session ends.
+pub struct Session {
+    /// What the work asks.
+    pub watch: Watch,
+    spinner: Option<ProgressBar>,
+}
+
+impl Session {
+    /// Starts to listen for Ctrl-C and to show progress.
+    pub fn start(limits: Limits) -> Result<Session> {
+        let cancel = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&cancel);
+        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+            .map_err(|error| Error::new(ErrorKind::Io, format!("Ctrl-C cannot be caught: {error}")))?;
+        let mut watch = Watch::none().with_cancel(cancel);
+        if let Some(time) = limits.time {
+            watch = watch.with_time(time);
+        }
+        if let Some(terms) = limits.terms {
+            watch = watch.with_terms(terms);
+        }
+        let spinner = (!limits.quiet && stderr().is_terminal()).then(spinner);
+        if let Some(bar) = spinner.clone() {
+            watch = watch.with_listener(move |progress| {
+                bar.set_message(format!("{}: {} done, {} open", progress.stage, progress.done, progress.open));
+            });
+        }
+        Ok(Session { watch, spinner })
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        if let Some(spinner) = &self.spinner {
+            spinner.finish_and_clear();
+        }
+    }
+}
+
+fn spinner() -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(120));
+    bar
+}
+
+/// Reads a time budget in seconds.
+pub fn seconds(text: &str) -> std::result::Result<Duration, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= MAX_SECONDS => Ok(Duration::from_secs_f64(value)),
+        _ => Err(format!("give a number of seconds greater than 0 and at most {MAX_SECONDS:e}")),
+    }
+}

@@ -1,0 +1,265 @@
+//! What a derivation found, for a person to read.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::time::Duration;
+
+use super::algebra::{divisor, readable, with_decimals, wrap};
+use super::console::Paint;
+use super::strata;
+use crate::Result;
+use crate::derive::setting::{Poly, Unknowns};
+use crate::derive::triangular::{Stair, Triangular};
+use crate::derive::{Derivation, JointKindUnknown, ParameterSource, Quantity, Root, Source, System};
+use crate::groebner::Basis;
+
+/// The column where lines end.
+const WIDTH: usize = 100;
+
+/// What there is to tell.
+pub struct Report<'a> {
+    /// The input.
+    pub source: &'a Source,
+    /// What came of it.
+    pub derivation: &'a Derivation,
+    /// Where the files are.
+    pub folder: &'a Path,
+    /// Their names.
+    pub files: &'a [&'a str],
+    /// How long each stage took.
+    pub timings: &'a [(&'static str, Duration)],
+}
+
+/// The report as text.
+///
+/// # Errors
+/// When a setting's field cannot be built: never for a derivation that was made by this crate.
+pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
+    let (system, derivation) = (&told.source.system, told.derivation);
+    let mut page = Page { text: String::new(), paint };
+    introduce(&mut page, system);
+    equations(&mut page, system);
+    if let Some(solved) = derivation.requested.solved() {
+        basis(&mut page, system, &solved.triangular);
+        way(&mut page, system, &solved.triangular);
+    }
+    run_time(&mut page, derivation)?;
+    count(&mut page, derivation);
+    strata::describe(&mut page, derivation);
+    proofs(&mut page, derivation);
+    written(&mut page, told);
+    Ok(page.text)
+}
+
+/// Headings and the lines under them.
+pub struct Page {
+    text: String,
+    paint: Paint,
+}
+
+impl Page {
+    /// A heading behind an empty line.
+    pub fn heading(&mut self, title: &str) {
+        self.text += &format!("\n{}\n", self.paint.bold(title));
+    }
+
+    /// A line, wrapped.
+    pub fn line(&mut self, text: &str) {
+        self.text += &format!("  {}\n", wrap(text, WIDTH, 2));
+    }
+
+    /// Pairs of a name and a text, the texts aligned and wrapped.
+    pub fn entries(&mut self, entries: &[(String, String)]) {
+        let width = entries.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0).min(WIDTH / 3);
+        for (name, text) in entries {
+            let padding = " ".repeat(width.saturating_sub(name.chars().count()));
+            let text = wrap(text, WIDTH, width + 4);
+            self.text += &format!("  {}{padding}  {text}\n", self.paint.dim(name));
+        }
+    }
+}
+
+fn introduce(page: &mut Page, system: &System) {
+    page.text += &format!("{}\n", page.paint.bold(&system.name));
+    for line in [&system.description, &system.source] {
+        if !line.is_empty() {
+            page.line(line);
+        }
+    }
+    let unit = |quantity| match quantity {
+        Quantity::Length => format!(" ({})", system.length_unit.symbol()),
+        Quantity::Angle => " (rad)".to_owned(),
+        Quantity::Number => String::new(),
+    };
+    let target: Vec<String> =
+        system.inputs.iter().map(|input| format!("{}{}", input.name, unit(input.quantity))).collect();
+    let joints: Vec<String> = system
+        .joints
+        .iter()
+        .map(|joint| match &joint.kind {
+            JointKindUnknown::Angle { cosine, sine } => {
+                format!("{name} (cosine {cosine}, sine {sine})", name = joint.name)
+            }
+            JointKindUnknown::Value { unknown } => format!("{} ({unknown})", joint.name),
+        })
+        .collect();
+    page.entries(&[("target".to_owned(), target.join(", ")), ("joints".to_owned(), joints.join(", "))]);
+}
+
+fn equations(page: &mut Page, system: &System) {
+    page.heading("Equations");
+    let mut entries: Vec<(String, String)> = system
+        .equations
+        .iter()
+        .map(|equation| (equation.label.clone(), format!("{} = 0", with_decimals(&equation.expression))))
+        .collect();
+    for parameter in &system.parameters {
+        let meaning = match parameter.source {
+            ParameterSource::Input(_) => continue,
+            ParameterSource::Cosine(i) => format!("the cosine of {}", system.inputs[i].name),
+            ParameterSource::Sine(i) => format!("the sine of {}", system.inputs[i].name),
+            ParameterSource::SquareRoot => match &parameter.square {
+                Some(square) => format!("the positive square root of {square}"),
+                None => continue,
+            },
+        };
+        entries.push((format!("with {}", parameter.name), meaning));
+    }
+    page.entries(&entries);
+}
+
+/// The polynomials of a triangular form, in the order in which they are solved.
+fn polynomials(triangular: &Triangular) -> Vec<&Poly> {
+    triangular.stairs.iter().flat_map(|stair| &stair.polynomials).collect()
+}
+
+fn basis(page: &mut Page, system: &System, triangular: &Triangular) {
+    let parameters: Vec<&str> = system.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+    let order = triangular.ring.variables().join(" > ");
+    page.heading(&format!("Groebner basis over Q({}), lexicographic, {order}", parameters.join(", ")));
+    let entry = |(index, f): (usize, &&Poly)| (number(index), format!("{} = 0", readable(&triangular.ring, f)));
+    let entries: Vec<_> = polynomials(triangular).iter().enumerate().map(entry).collect();
+    page.entries(&entries);
+}
+
+fn number(index: usize) -> String {
+    format!("[{}]", index + 1)
+}
+
+fn way(page: &mut Page, system: &System, triangular: &Triangular) {
+    page.heading("One unknown at a time");
+    let mut first = 0;
+    let mut entries = Vec::new();
+    for (stair, degree) in triangular.stairs.iter().zip(triangular.degrees()) {
+        let name = &triangular.ring.variables()[stair.unknown];
+        entries.push((name.clone(), step(&triangular.ring, stair, degree, first)));
+        first += stair.polynomials.len();
+    }
+    for joint in &system.joints {
+        let value = match &joint.kind {
+            JointKindUnknown::Angle { cosine, sine } => format!("atan2({sine}, {cosine})"),
+            JointKindUnknown::Value { unknown } => unknown.clone(),
+        };
+        entries.push((joint.name.clone(), value));
+    }
+    page.entries(&entries);
+}
+
+/// How one unknown follows from the smaller ones.
+fn step(ring: &Unknowns, stair: &Stair, degree: u32, first: usize) -> String {
+    let which: Vec<String> = (first..first + stair.polynomials.len()).map(number).collect();
+    let which = match which.as_slice() {
+        [only] => only.clone(),
+        many => format!("the first of {} that does not degenerate", many.join(", ")),
+    };
+    let kind = match degree {
+        1 => "linear".to_owned(),
+        2 => "quadratic, up to 2 real roots in closed form".to_owned(),
+        3 | 4 => format!("of degree {degree}, up to {degree} real roots in closed form"),
+        _ => format!("of degree {degree}, up to {degree} real roots by isolation"),
+    };
+    let divides = match stair.polynomials.as_slice() {
+        [only] => leading(ring, only, stair.unknown).map(|by| format!(", divides by {by}")).unwrap_or_default(),
+        _ => String::new(),
+    };
+    format!("from {which}: {kind}{divides}")
+}
+
+/// The leading coefficient of `f` in `unknown`, when it is a polynomial of the parameters and no number.
+fn leading(ring: &Unknowns, f: &Poly, unknown: usize) -> Option<String> {
+    let coefficient = ring.coefficients_in(f, unknown).pop()?;
+    let coefficient = ring.as_constant(&coefficient)?;
+    let ground = ring.field().ring();
+    let is_number = ground.as_constant(coefficient.numerator()).is_some();
+    (!is_number).then(|| divisor(ground, coefficient.numerator()).to_string())
+}
+
+fn run_time(page: &mut Page, derivation: &Derivation) -> Result<()> {
+    let (asked, used) = (&derivation.requested, derivation.solving());
+    page.heading("What runs");
+    if strata::order(asked) == strata::order(used) {
+        page.line("The solver uses this order: no other one has denominators that vanish on fewer targets.");
+        return Ok(());
+    }
+    page.line("The solver uses the order whose denominators vanish on the fewest targets; the sets where they do:");
+    let entry = |node| Ok((strata::order(node), strata::breakdowns(&strata::score(node)?)));
+    let (asked, (order, sets)) = (entry(asked)?, entry(used)?);
+    page.entries(&[asked, (order, format!("{sets}  <- used"))]);
+    Ok(())
+}
+
+fn count(page: &mut Page, derivation: &Derivation) {
+    let Some(solved) = derivation.requested.solved() else { return };
+    let basis = Basis {
+        ring: solved.triangular.ring.clone(),
+        polynomials: solved.certified.basis.clone(),
+        cofactors: Vec::new(),
+    };
+    let Some(dimension) = basis.quotient_dimension() else { return };
+    page.heading("Solutions");
+    let plural = if dimension == 1 { "solution" } else { "solutions" };
+    page.line(&format!(
+        "{dimension} complex {plural} at a generic target, the dimension of the quotient ring: at most {dimension} real."
+    ));
+    if let Some(choice) = &derivation.system.choice {
+        let root = if choice.root == Root::Minus { "minus" } else { "plus" };
+        page.line(&format!(
+            "All are returned; the source takes the {root} root of {}, and that solution is marked.",
+            choice.unknown
+        ));
+    }
+}
+
+fn proofs(page: &mut Page, derivation: &Derivation) {
+    let trees = derivation.trees();
+    let nodes = trees.iter().flat_map(|(_, node)| node.walk());
+    let proofs: Vec<_> = nodes.flat_map(|node| node.proofs()).map(|(_, certified)| certified.proof).collect();
+    let sum = |part: fn(&crate::groebner::verify::Proof) -> usize| proofs.iter().map(part).sum::<usize>();
+    page.heading("Proved, exactly and without trusting the engine");
+    page.entries(&[
+        (proofs.len().to_string(), "Groebner bases, one a stratum and order".to_owned()),
+        (sum(|proof| proof.cofactor_rows).to_string(), "basis elements are combinations of the equations".to_owned()),
+        (sum(|proof| proof.generators).to_string(), "equations reduce to zero".to_owned()),
+        (sum(|proof| proof.pairs).to_string(), "S-polynomials reduce to zero".to_owned()),
+    ]);
+}
+
+fn written(page: &mut Page, told: &Report<'_>) {
+    let folder = if told.folder.as_os_str().is_empty() { Path::new(".") } else { told.folder };
+    page.heading(&format!("Written to {}", folder.display()));
+    page.line(&told.files.join(", "));
+    page.heading("Time");
+    let mut times = String::new();
+    for (stage, time) in told.timings {
+        let _ = write!(times, "{}{stage} {}", if times.is_empty() { "" } else { ", " }, duration(*time));
+    }
+    page.line(&times);
+    let names: Vec<&str> = told.source.system.inputs.iter().map(|input| input.name.as_str()).collect();
+    page.heading("Next");
+    page.line(&format!("groebot solve {} --target {}", folder.display(), names.join(",")));
+}
+
+fn duration(time: Duration) -> String {
+    let seconds = time.as_secs_f64();
+    if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.1} s") }
+}

@@ -1,0 +1,116 @@
+//! `groebot solve`: all solutions of targets, as text, JSON or CSV.
+
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use super::answers::{Angles, Answer, csv_header, csv_rows, json, text};
+use super::targets::{self, Row};
+use super::{Outcome, console};
+use crate::document::read_text;
+use crate::solver::Program;
+use crate::{Error, ErrorKind, Result};
+
+/// The longest program that is read, in bytes.
+const PROGRAM_LIMIT: u64 = 64_000_000;
+const PROGRAM_NAME: &str = "5_program.json";
+
+const EXAMPLES: &str = "Examples:
+  groebot solve derivations/nao_leg_sagittal --target 60,150
+  groebot solve derivations/nao_leg_sagittal --target -60,-150 --json
+  groebot solve derivations/nao_leg_sagittal < targets.csv > answers.csv
+
+Targets are numbers in the order and units of the derivation's inputs. A CSV may start with a line of their names, which then says
+the order of its columns. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
+solutions (JSON), or a row with 0 solutions (CSV).";
+
+/// Finds all solutions for targets with a derived solver
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// A folder that `groebot derive` wrote, or its 5_program.json
+    derivation: PathBuf,
+    /// A target, numbers with commas between them (repeatable); `-`, or no target: CSV from standard input
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    target: Vec<String>,
+    /// JSON: an object for each target
+    #[arg(long)]
+    json: bool,
+    /// Angles in degrees, in targets and in JSON and CSV (text shows both)
+    #[arg(long)]
+    degrees: bool,
+}
+
+/// Solves what was asked for.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let program = read_program(&arguments.derivation)?;
+    let angles = if arguments.degrees { Angles::Degrees } else { Angles::Radians };
+    match arguments.target.as_slice() {
+        [] if io::stdin().is_terminal() => {
+            let text = "no target; give one by --target, or CSV on standard input";
+            Err(Error::new(ErrorKind::MissingKey, text).into())
+        }
+        [] => stream(&program, angles, arguments.json),
+        [dash] if dash == "-" => stream(&program, angles, arguments.json),
+        given => listed(&program, given, angles, arguments.json),
+    }
+}
+
+fn read_program(path: &Path) -> Result<Program> {
+    let file = if path.is_dir() { path.join(PROGRAM_NAME) } else { path.to_owned() };
+    if path.is_dir() && !file.exists() {
+        let text = format!("this folder has no `{PROGRAM_NAME}`; `groebot derive` writes it");
+        return Err(Error::new(ErrorKind::Io, text).in_file(path));
+    }
+    Program::from_json(&read_text(&file, PROGRAM_LIMIT)?).map_err(|error| error.in_file(&file))
+}
+
+fn answer<'a>(program: &'a Program, target: Vec<f64>, angles: Angles) -> Result<Answer<'a>> {
+    let solutions = program.solve(&angles.to_radians(program, &target))?;
+    Ok(Answer { program, target, solutions, angles })
+}
+
+/// Targets from the command line: a page of text, or JSON.
+fn listed(program: &Program, given: &[String], angles: Angles, as_json: bool) -> Outcome {
+    let mut page = String::new();
+    for (index, target) in given.iter().enumerate() {
+        let answer = targets::parse(program, target)
+            .and_then(|numbers| answer(program, numbers, angles))
+            .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;
+        if as_json {
+            page += &json(&answer, given.len() == 1);
+        } else {
+            page += if index > 0 { "\n" } else { "" };
+            page += &text(&answer);
+        }
+    }
+    console::print(&page)
+}
+
+/// Targets from standard input, one a row: CSV, or a JSON object a line.
+fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
+    let mut out = BufWriter::new(io::stdout().lock());
+    let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
+    let mut rows = targets::Reader::new(program, io::stdin().lock());
+    if !as_json {
+        write(&csv_header(program))?;
+    }
+    let mut index = 0;
+    let outcome = loop {
+        let solved = match rows.next() {
+            None => break Ok(()),
+            Some(row) => row.and_then(|Row { line, target }| {
+                answer(program, target, angles).map_err(|error| error.at_line(line).in_file(Path::new(targets::STDIN)))
+            }),
+        };
+        match solved {
+            Ok(answer) if as_json => write(&json(&answer, false))?,
+            Ok(answer) => {
+                index += 1;
+                write(&csv_rows(&answer, index))?;
+            }
+            Err(error) => break Err(error),
+        }
+    };
+    out.flush().map_err(|error| console::unwritten(&error))?;
+    Ok(outcome?)
+}

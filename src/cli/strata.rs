@@ -1,0 +1,88 @@
+//! Where formulas break down and what holds there, in words.
+
+use super::report::Page;
+use crate::Result;
+use crate::derive::plan::{self, Score};
+use crate::derive::tree::{Node, Outcome};
+use crate::derive::{Derivation, System};
+use crate::groebner::Basis;
+
+/// Tells about every stratum of both trees.
+pub fn describe(page: &mut Page, derivation: &Derivation) {
+    let two = derivation.searched.is_some();
+    for (title, root) in derivation.trees() {
+        let title = if two { format!(": {title}, {}", order(root)) } else { String::new() };
+        page.heading(&format!("Where formulas break down{title}"));
+        let entries = entries(root, &derivation.system);
+        if entries.is_empty() {
+            page.line("nowhere: the same formulas hold at every target");
+        }
+        page.entries(&entries);
+    }
+}
+
+/// Each stratum once, then the factors that never vanish.
+fn entries(root: &Node, system: &System) -> Vec<(String, String)> {
+    let nodes = root.walk();
+    let strata = nodes[1..].iter().filter(|node| !matches!(node.outcome, Outcome::Seen(_)));
+    let mut entries: Vec<_> = strata.map(|node| (node.label.clone(), fate(node, system))).collect();
+    for excluded in nodes.iter().flat_map(|node| &node.excluded) {
+        let entry = (format!("{} = 0", excluded.factor), format!("never: {}", excluded.reason));
+        if !entries.contains(&entry) {
+            entries.push(entry);
+        }
+    }
+    entries
+}
+
+/// The order of a tree's generic formulas.
+pub fn order(node: &Node) -> String {
+    node.solved().map(|solved| solved.certified.order.join(" > ")).unwrap_or_default()
+}
+
+/// What happens on a stratum.
+fn fate(node: &Node, system: &System) -> String {
+    match &node.outcome {
+        Outcome::Solved(solved) if solved.inherited => {
+            "the generic formulas hold here too, by a proof of its own".to_owned()
+        }
+        Outcome::Solved(solved) => format!("formulas of its own, {}", solutions(solved.triangular.bound())),
+        Outcome::Inconsistent(_) => "no solution: the equations contradict each other".to_owned(),
+        Outcome::Family(family) => {
+            let free: Vec<&str> = family.free.iter().map(|&joint| system.joints[joint].name.as_str()).collect();
+            let verb = if free.len() == 1 { "is" } else { "are" };
+            let member = match &family.member.outcome {
+                Outcome::Solved(solved) => solutions(solved.triangular.bound()),
+                _ => "none".to_owned(),
+            };
+            format!("infinitely many solutions, {} {verb} free; with zero there: {member}", free.join(", "))
+        }
+        Outcome::Seen(label) => format!("the same as {label}"),
+        Outcome::Open(reason) => format!("open: a target here is refused, because {reason}"),
+    }
+}
+
+fn solutions(bound: usize) -> String {
+    if bound == 1 { "one solution".to_owned() } else { format!("up to {bound} solutions") }
+}
+
+/// How badly the generic formulas of a tree break down.
+///
+/// # Errors
+/// When a setting's field cannot be built: never for a derivation that was made by this crate.
+pub fn score(root: &Node) -> Result<Score> {
+    let (ring, polynomials) = match root.solved() {
+        Some(solved) => (solved.triangular.ring.clone(), solved.certified.basis.clone()),
+        None => (root.setting.ring(&root.setting.unknowns, crate::poly::Order::Lex)?, Vec::new()),
+    };
+    plan::score(&root.setting, &Basis { ring, polynomials, cofactors: Vec::new() })
+}
+
+/// On how many strata the generic formulas of a tree divide by zero.
+pub fn breakdowns(score: &Score) -> String {
+    let count = |n: usize, what: &str| (n > 0).then(|| format!("{n} {what}"));
+    let parts =
+        [count(score.open, "not described"), count(score.surfaces, "of codimension one"), count(score.thin, "smaller")];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    if parts.is_empty() { "none".to_owned() } else { parts.join(", ") }
+}

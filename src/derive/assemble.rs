@@ -1,0 +1,233 @@
+//! From polynomials and expressions to straight-line code: Horner form, constants folded, common subexpressions shared.
+
+use std::collections::HashMap;
+
+use num_traits::{Signed, ToPrimitive, Zero};
+
+use crate::number::BigRational;
+use crate::poly::Expression;
+use crate::solver::{Instruction, Operand, Operation};
+
+/// A term over operands: an exact coefficient and a power of each operand.
+#[derive(Clone, Debug)]
+pub(super) struct FlatTerm {
+    pub coefficient: BigRational,
+    /// `(symbol, exponent)`, symbols being indices into the caller's table of operands; exponents positive.
+    pub powers: Vec<(usize, u32)>,
+}
+
+/// Collects instructions; asking twice for the same operation gives the same register.
+#[derive(Debug, Default)]
+pub(super) struct Assembler {
+    code: Vec<Instruction>,
+    registers: usize,
+    known: HashMap<String, Operand>,
+}
+
+impl Assembler {
+    /// The instructions since the last call.
+    pub fn take(&mut self) -> Vec<Instruction> {
+        std::mem::take(&mut self.code)
+    }
+
+    fn emit(&mut self, operation: Operation) -> Operand {
+        let key = Instruction { target: 0, operation }.to_string();
+        if let Some(operand) = self.known.get(&key) {
+            return *operand;
+        }
+        let target = self.registers;
+        self.registers += 1;
+        self.code.push(Instruction { target, operation });
+        self.known.insert(key, Operand::Register(target));
+        Operand::Register(target)
+    }
+
+    pub fn add(&mut self, a: Operand, b: Operand) -> Operand {
+        use Operand::Constant;
+        match (a, b) {
+            (Constant(x), Constant(y)) => Constant(x + y),
+            (Constant(0.0), other) | (other, Constant(0.0)) => other,
+            (Constant(x), other) | (other, Constant(x)) if x < 0.0 => self.emit(Operation::Sub(other, Constant(-x))),
+            (Constant(x), other) => self.emit(Operation::Add(other, Constant(x))),
+            _ => self.emit(Operation::Add(a, b)),
+        }
+    }
+
+    pub fn sub(&mut self, a: Operand, b: Operand) -> Operand {
+        use Operand::Constant;
+        match (a, b) {
+            (_, Constant(y)) => self.add(a, Constant(-y)),
+            _ => self.emit(Operation::Sub(a, b)),
+        }
+    }
+
+    pub fn mul(&mut self, a: Operand, b: Operand) -> Operand {
+        use Operand::Constant;
+        match (a, b) {
+            (Constant(x), Constant(y)) => Constant(x * y),
+            (Constant(0.0), _) | (_, Constant(0.0)) => Constant(0.0),
+            (Constant(1.0), other) | (other, Constant(1.0)) => other,
+            (Constant(x), other) | (other, Constant(x)) if x == -1.0 => self.sub(Constant(0.0), other),
+            (other, Constant(x)) => self.emit(Operation::Mul(Constant(x), other)),
+            _ => self.emit(Operation::Mul(a, b)),
+        }
+    }
+
+    pub fn div(&mut self, a: Operand, b: Operand) -> Operand {
+        match (a, b) {
+            (_, Operand::Constant(1.0)) => a,
+            _ => self.emit(Operation::Div(a, b)),
+        }
+    }
+
+    pub fn abs(&mut self, a: Operand) -> Operand {
+        match a {
+            Operand::Constant(x) => Operand::Constant(x.abs()),
+            _ => self.emit(Operation::Abs(a)),
+        }
+    }
+
+    fn power(&mut self, base: Operand, exponent: u32) -> Operand {
+        match exponent {
+            0 => Operand::Constant(1.0),
+            1 => base,
+            _ => {
+                let half = self.power(base, exponent / 2);
+                let square = self.mul(half, half);
+                if exponent % 2 == 1 { self.mul(square, base) } else { square }
+            }
+        }
+    }
+
+    /// The value of a sum of terms, in a greedy multivariate Horner form: the symbol of most terms is taken out first.
+    pub fn horner(&mut self, terms: &[FlatTerm], symbols: &[Operand]) -> Operand {
+        match terms {
+            [] => Operand::Constant(0.0),
+            [term] => self.product(term, symbols),
+            _ => {
+                let uses = |s: usize| terms.iter().filter(|t| t.powers.iter().any(|&(symbol, _)| symbol == s)).count();
+                let counts = (0..symbols.len()).map(|s| (uses(s), s)).filter(|(count, _)| *count > 1);
+                match counts.max_by_key(|&(count, s)| (count, usize::MAX - s)) {
+                    Some((_, symbol)) => self.take_out(terms, symbol, symbols),
+                    None => self.sum(terms, symbols),
+                }
+            }
+        }
+    }
+
+    /// `symbol^k * (...) + ...` with the largest `k` that all terms with the symbol share.
+    fn take_out(&mut self, terms: &[FlatTerm], symbol: usize, symbols: &[Operand]) -> Operand {
+        let exponent = |t: &FlatTerm| t.powers.iter().find(|(s, _)| *s == symbol).map_or(0, |(_, e)| *e);
+        let shared = terms.iter().map(exponent).filter(|&e| e > 0).min().unwrap_or(1);
+        let (with, without): (Vec<FlatTerm>, Vec<FlatTerm>) = terms.iter().cloned().partition(|t| exponent(t) > 0);
+        let divided: Vec<FlatTerm> = with
+            .into_iter()
+            .map(|mut term| {
+                for (_, e) in term.powers.iter_mut().filter(|(s, _)| *s == symbol) {
+                    *e -= shared;
+                }
+                term.powers.retain(|(_, e)| *e > 0);
+                term
+            })
+            .collect();
+        let inner = self.horner(&divided, symbols);
+        let power = self.power(symbols[symbol], shared);
+        let product = self.mul(power, inner);
+        if without.is_empty() {
+            return product;
+        }
+        let negative = without.iter().all(|t| t.coefficient.is_negative());
+        if negative {
+            let positive: Vec<FlatTerm> = without.into_iter().map(negated).collect();
+            let rest = self.horner(&positive, symbols);
+            return self.sub(product, rest);
+        }
+        let rest = self.horner(&without, symbols);
+        self.add(product, rest)
+    }
+
+    fn sum(&mut self, terms: &[FlatTerm], symbols: &[Operand]) -> Operand {
+        let (first, rest) = match terms.iter().position(|t| !t.coefficient.is_negative()) {
+            Some(index) => {
+                let mut rest = terms.to_vec();
+                (rest.remove(index), rest)
+            }
+            None => (terms[0].clone(), terms[1..].to_vec()),
+        };
+        let mut sum = self.product(&first, symbols);
+        for term in rest {
+            if term.coefficient.is_negative() {
+                let part = self.product(&negated(term), symbols);
+                sum = self.sub(sum, part);
+            } else {
+                let part = self.product(&term, symbols);
+                sum = self.add(sum, part);
+            }
+        }
+        sum
+    }
+
+    fn product(&mut self, term: &FlatTerm, symbols: &[Operand]) -> Operand {
+        let mut product: Option<Operand> = None;
+        for &(symbol, exponent) in &term.powers {
+            let power = self.power(symbols[symbol], exponent);
+            product = Some(product.map_or(power, |product| self.mul(product, power)));
+        }
+        let coefficient = constant(&term.coefficient);
+        product.map_or(coefficient, |product| self.mul(coefficient, product))
+    }
+
+    /// The value of an expression whose names `value` knows.
+    pub fn expression(&mut self, expression: &Expression, value: &dyn Fn(&str) -> Option<Operand>) -> Option<Operand> {
+        match expression {
+            Expression::Number(q) => Some(constant(q)),
+            Expression::Name(name) => value(name),
+            Expression::Negation(a) => {
+                let a = self.expression(a, value)?;
+                Some(self.mul(Operand::Constant(-1.0), a))
+            }
+            Expression::Inverse(a) => {
+                let a = self.expression(a, value)?;
+                Some(self.div(Operand::Constant(1.0), a))
+            }
+            Expression::Power(a, n) => {
+                let a = self.expression(a, value)?;
+                Some(self.power(a, *n))
+            }
+            Expression::Sum(parts) => {
+                let mut sum = Operand::Constant(0.0);
+                for part in parts {
+                    let part = self.expression(part, value)?;
+                    sum = self.add(sum, part);
+                }
+                Some(sum)
+            }
+            Expression::Product(parts) => {
+                let mut product = Operand::Constant(1.0);
+                for part in parts {
+                    product = match part {
+                        Expression::Inverse(a) => {
+                            let a = self.expression(a, value)?;
+                            self.div(product, a)
+                        }
+                        part => {
+                            let part = self.expression(part, value)?;
+                            self.mul(product, part)
+                        }
+                    };
+                }
+                Some(product)
+            }
+        }
+    }
+}
+
+fn negated(mut term: FlatTerm) -> FlatTerm {
+    term.coefficient = -term.coefficient;
+    term
+}
+
+/// The double nearest to `q`.
+pub(super) fn constant(q: &BigRational) -> Operand {
+    if q.is_zero() { Operand::Constant(0.0) } else { Operand::Constant(q.to_f64().unwrap_or(f64::MAX)) }
+}

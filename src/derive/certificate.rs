@@ -1,0 +1,226 @@
+//! The stored proof of a derivation: `certificate.json`.
+//!
+//! It lists, stratum by stratum in the order in which the tree grows, the basis and the cofactors. Reading it grows the tree anew from
+//! the equations: every claim is checked by [`crate::groebner::verify`], every denominator is split and branched on again, and only the
+//! Groebner engine is left out. What comes back is a [`Derivation`] that is proved, or an error that says where the proof fails.
+
+use serde::{Deserialize, Serialize};
+
+use super::certify::Certified;
+use super::grow::grow;
+use super::prover::{MEMBER, Prover, joints_of, member_setting, specialises};
+use super::setting::{Poly, Setting, Unknowns};
+use super::tree::{Family, Node, Outcome, Solved};
+use super::triangular::triangularise;
+use super::{Derivation, System};
+use crate::groebner::Basis;
+use crate::groebner::verify::Proof;
+use crate::number::{Ring, Style};
+use crate::poly::{Order, parse};
+use crate::{Error, ErrorKind, Result};
+
+/// The version of the format.
+const FORMAT: u32 = 1;
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    format: u32,
+    groebot: String,
+    name: String,
+    requested: Vec<Entry>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    searched: Option<Vec<Entry>>,
+}
+
+/// The claim about one stratum.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    stratum: String,
+    claim: Claim,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    /// Finitely many solutions; a lexicographic basis.
+    Solved,
+    /// The unit ideal.
+    Inconsistent,
+    /// Free joints; a graded basis. The next entry is the member with these joints at zero.
+    Family,
+    /// Not derived.
+    Open,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Claim {
+    kind: Kind,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    reason: String,
+    order: Vec<String>,
+    basis: Vec<String>,
+    /// `basis[i] = sum over j of cofactors[i][j] * equation j`.
+    cofactors: Vec<Vec<String>>,
+}
+
+/// The text of `certificate.json`.
+///
+/// # Errors
+/// When a setting's field cannot be built: never for a derivation that was made by this crate.
+pub fn write(derivation: &Derivation) -> Result<String> {
+    let record = Record {
+        format: FORMAT,
+        groebot: env!("CARGO_PKG_VERSION").to_owned(),
+        name: derivation.system.name.clone(),
+        requested: entries(&derivation.requested)?,
+        searched: derivation.searched.as_ref().map(entries).transpose()?,
+    };
+    let text = serde_json::to_string_pretty(&record).expect("a record holds nothing that JSON cannot say");
+    Ok(text + "\n")
+}
+
+/// Proves the derivation of `system` anew from the text of its certificate, without the Groebner engine.
+///
+/// # Errors
+/// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the stratum for a claim that does
+/// not hold, is missing or is left over.
+pub fn prove(system: &System, text: &str) -> Result<Derivation> {
+    let record: Record = serde_json::from_str(text)
+        .map_err(|error| Error::new(ErrorKind::Syntax, format!("certificate: {error}")).at_line(error.line()))?;
+    if record.format != FORMAT || record.name != system.name {
+        let text = format!(
+            "this certificate is of format {} for `{}`; format {FORMAT} for `{}` is allowed",
+            record.format, record.name, system.name
+        );
+        return Err(refused(text));
+    }
+    let requested = replay(system, &record.requested).map_err(|error| error.with_context("requested order"))?;
+    let searched = record.searched.as_ref().map(|entries| replay(system, entries)).transpose();
+    let searched = searched.map_err(|error| error.with_context("searched order"))?;
+    let generic = requested.solved().map(|solved| solved.certified.order.as_slice());
+    if generic != Some(system.order.as_slice()) {
+        return Err(refused("the generic stratum is not solved in the order that the input asks for".to_owned()));
+    }
+    Derivation::assemble(system.clone(), requested, searched)
+}
+
+fn refused(text: String) -> Error {
+    Error::new(ErrorKind::Certificate, text)
+}
+
+fn replay(system: &System, entries: &[Entry]) -> Result<Node> {
+    let mut replay = Replay { system, entries: entries.iter() };
+    let node = grow(system, &mut replay)?;
+    match (replay.entries.next(), &node.outcome) {
+        (Some(entry), _) => Err(refused(format!("stratum `{}` does not belong to this derivation", entry.stratum))),
+        (None, Outcome::Solved(_)) => Ok(node),
+        (None, _) => Err(refused("the generic stratum is not solved".to_owned())),
+    }
+}
+
+fn entries(node: &Node) -> Result<Vec<Entry>> {
+    let mut list = Vec::new();
+    for node in node.walk() {
+        push_entry(node, &mut list)?;
+    }
+    Ok(list)
+}
+
+fn push_entry(node: &Node, list: &mut Vec<Entry>) -> Result<()> {
+    let (kind, certified, reason) = match &node.outcome {
+        Outcome::Solved(solved) => (Kind::Solved, Some(&solved.certified), ""),
+        Outcome::Inconsistent(certified) => (Kind::Inconsistent, Some(certified.as_ref()), ""),
+        Outcome::Family(family) => (Kind::Family, Some(&family.certified), ""),
+        Outcome::Open(reason) if node.derivable => (Kind::Open, None, reason.as_str()),
+        Outcome::Open(_) | Outcome::Seen(_) => return Ok(()),
+    };
+    let mut claim =
+        Claim { kind, reason: reason.to_owned(), order: Vec::new(), basis: Vec::new(), cofactors: Vec::new() };
+    if let Some(certified) = certified {
+        let ring = certified.ring(&node.setting)?;
+        let texts = |list: &[Poly]| list.iter().map(|f| ring.format(f, Style::Text)).collect::<Vec<_>>();
+        claim.order.clone_from(&certified.order);
+        claim.basis = texts(&certified.basis);
+        claim.cofactors = certified.cofactors.iter().map(|row| texts(row)).collect();
+    }
+    list.push(Entry { stratum: node.label.clone(), claim });
+    if let Outcome::Family(family) = &node.outcome {
+        push_entry(&family.member, list)?;
+    }
+    Ok(())
+}
+
+/// Proves by checking stored claims, in order.
+struct Replay<'a> {
+    system: &'a System,
+    entries: std::slice::Iter<'a, Entry>,
+}
+
+impl Prover for Replay<'_> {
+    fn prove(&mut self, label: &str, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome> {
+        let claim = match self.entries.next() {
+            Some(entry) if entry.stratum == label => &entry.claim,
+            Some(entry) => {
+                return Err(refused(format!("stratum `{label}` is missing; `{}` stands there", entry.stratum)));
+            }
+            None => return Err(refused(format!("stratum `{label}` is missing"))),
+        };
+        self.check(claim, label, setting, parent).map_err(|error| {
+            let text = format!("stratum `{label}`: {}", error.message());
+            Error::new(ErrorKind::Certificate, text)
+        })
+    }
+}
+
+impl Replay<'_> {
+    fn check(&mut self, claim: &Claim, label: &str, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome> {
+        if claim.kind == Kind::Open {
+            return Ok(Outcome::Open(claim.reason.clone()));
+        }
+        let (ring, certified) = verified(claim, setting)?;
+        let basis = Basis { ring: ring.clone(), polynomials: certified.basis.clone(), cofactors: Vec::new() };
+        match (claim.kind, basis.independent_variables()) {
+            (Kind::Inconsistent, None) => Ok(Outcome::Inconsistent(Box::new(certified))),
+            (Kind::Solved, Some(free)) if free.is_empty() => {
+                let inherited = parent.map(|parent| specialises(parent, setting, &basis)).transpose()?.unwrap_or(false);
+                let triangular = triangularise(&ring, &certified.basis)?;
+                Ok(Outcome::Solved(Box::new(Solved { certified, triangular, inherited })))
+            }
+            (Kind::Family, Some(free)) if !free.is_empty() => {
+                let free = joints_of(self.system, &ring, &free);
+                let member = member_setting(self.system, setting, &free);
+                if label == MEMBER {
+                    return Err(refused("a member of a family is a family again".to_owned()));
+                }
+                let outcome = self.prove(MEMBER, &member, None)?;
+                let member = Box::new(Node::leaf(MEMBER, member, outcome));
+                Ok(Outcome::Family(Box::new(Family { free, certified, member })))
+            }
+            _ => Err(refused("the basis is not of the kind that is claimed".to_owned())),
+        }
+    }
+}
+
+/// The claimed basis, verified against the setting's equations.
+fn verified(claim: &Claim, setting: &Setting) -> Result<(Unknowns, Certified)> {
+    let graded = claim.kind != Kind::Solved;
+    let mut names = claim.order.clone();
+    let mut unknowns = setting.unknowns.clone();
+    names.sort();
+    unknowns.sort();
+    if names != unknowns {
+        return Err(refused("the order is not one of the unknowns".to_owned()));
+    }
+    let ring = setting.ring(&claim.order, if graded { Order::GrevLex } else { Order::Lex })?;
+    let read =
+        |list: &[String]| -> Result<Vec<Poly>> { list.iter().map(|text| parse(text)?.evaluate(&ring)).collect() };
+    let basis = read(&claim.basis)?;
+    let cofactors = claim.cofactors.iter().map(|row| read(row)).collect::<Result<_>>()?;
+    let order = claim.order.clone();
+    let mut certified = Certified { order, graded, basis, cofactors, proof: Proof::default() };
+    certified.proof = certified.verify(setting)?;
+    Ok((ring, certified))
+}

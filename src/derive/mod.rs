@@ -1,0 +1,35 @@
+//! From a description to polynomial equations, and on to a solver: the stages between kinematics and the solver.
+
+mod assemble;
+pub mod certificate;
+pub mod certify;
+mod check;
+pub mod compile;
+mod constants;
+pub mod derivation;
+pub mod formulate;
+mod generic;
+mod grow;
+pub mod input;
+pub mod plan;
+mod print;
+mod prover;
+mod radicals;
+pub mod setting;
+pub mod stages;
+pub mod strata;
+mod system;
+pub mod system_toml;
+pub mod tree;
+pub mod triangular;
+
+pub use crate::kinematics::{Choice, LengthUnit, Root};
+pub use derivation::Derivation;
+pub use formulate::formulate;
+pub use grow::{derive_tree, describe};
+pub use input::Source;
+pub use prover::Orders;
+pub use system::{
+    Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
+    ParameterSource, Quantity, System, SystemParts,
+};

@@ -1,0 +1,337 @@
+//! The validated, immutable model of a serial chain, with exact numbers: 0.1029 is 1029/10000.
+//!
+//! [`ChainParts`] is plain data; [`Chain::new`] checks it. Axes, points and the tip are given in the base frame at the
+//! zero configuration, as the product of exponentials wants them (RH0 2.1.4).
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::exact_serde;
+use super::fk::Numeric;
+use super::validate::{self, Fault, Part};
+use crate::Result;
+use crate::number::BigRational;
+
+/// Three exact coordinates.
+pub type ExactVector = [BigRational; 3];
+/// An exact 3x3 matrix, by rows.
+pub type ExactMatrix = [[BigRational; 3]; 3];
+
+/// The unit of all lengths of a chain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LengthUnit {
+    /// 1 m.
+    #[default]
+    #[serde(rename = "m")]
+    Metre,
+    /// 0.001 m.
+    #[serde(rename = "mm")]
+    Millimetre,
+}
+
+impl LengthUnit {
+    /// `m` or `mm`.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            LengthUnit::Metre => "m",
+            LengthUnit::Millimetre => "mm",
+        }
+    }
+
+    /// The length of one unit in metres.
+    pub fn metres(self) -> f64 {
+        match self {
+            LengthUnit::Metre => 1.0,
+            LengthUnit::Millimetre => 0.001,
+        }
+    }
+}
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JointKind {
+    /// It turns about its axis, right-handed, by an angle in radians.
+    Revolute,
+    /// It slides along the unit vector of its axis by a distance in the chain's length unit.
+    Prismatic,
+}
+
+/// One joint: a screw in the base frame at the zero configuration.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Joint {
+    /// The name in the robot's own documents; unique in the chain.
+    pub name: String,
+    /// What follows c, s or d in the names of its unknowns; ASCII letters and digits, unique in the chain.
+    pub symbol: String,
+    /// How it moves.
+    pub kind: JointKind,
+    /// The direction of the axis as given: not zero, of any length.
+    #[serde(with = "exact_serde::vector")]
+    pub axis: ExactVector,
+    /// A point on the axis.
+    #[serde(with = "exact_serde::vector")]
+    pub point: ExactVector,
+    /// Least and greatest value, in radians (revolute) or the chain's length unit (prismatic).
+    pub limits: Option<(f64, f64)>,
+}
+
+impl Joint {
+    /// The names of its unknowns: c3, s3 (the cosine and sine of its angle) when revolute, d3 when prismatic.
+    pub fn unknowns(&self) -> Vec<String> {
+        let prefixes: &[&str] = match self.kind {
+            JointKind::Revolute => &["c", "s"],
+            JointKind::Prismatic => &["d"],
+        };
+        prefixes.iter().map(|prefix| format!("{prefix}{}", self.symbol)).collect()
+    }
+}
+
+/// The tip frame in the base frame at the zero configuration.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tip {
+    /// Its origin.
+    #[serde(with = "exact_serde::vector")]
+    pub point: ExactVector,
+    /// Its rotation matrix, base_from_tip: the columns are the tip's axes.
+    #[serde(with = "exact_serde::matrix")]
+    pub rotation: ExactMatrix,
+}
+
+/// A coordinate plane of the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Plane {
+    /// z = const.
+    Xy,
+    /// y = const.
+    Xz,
+    /// x = const.
+    Yz,
+}
+
+impl Plane {
+    /// The coordinate (0, 1, 2 for x, y, z) along its normal.
+    pub fn normal(self) -> usize {
+        match self {
+            Plane::Xy => 2,
+            Plane::Xz => 1,
+            Plane::Yz => 0,
+        }
+    }
+
+    /// Its two coordinates, in the order of its name.
+    pub fn coordinates(self) -> [usize; 2] {
+        match self {
+            Plane::Xy => [0, 1],
+            Plane::Xz => [0, 2],
+            Plane::Yz => [1, 2],
+        }
+    }
+
+    /// `xy`, `xz` or `yz`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Plane::Xy => "xy",
+            Plane::Xz => "xz",
+            Plane::Yz => "yz",
+        }
+    }
+}
+
+/// What is asked of the tip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Task {
+    /// The position: three numbers.
+    Position,
+    /// The position in a plane in which the whole chain moves: two numbers.
+    PlanarPosition {
+        /// The plane.
+        plane: Plane,
+    },
+    /// The position in a plane and the angle about its normal: three numbers.
+    PlanarPose {
+        /// The plane.
+        plane: Plane,
+    },
+    /// Position and orientation.
+    Pose,
+}
+
+impl Task {
+    /// The plane of a planar task.
+    pub fn plane(self) -> Option<Plane> {
+        match self {
+            Task::PlanarPosition { plane } | Task::PlanarPose { plane } => Some(plane),
+            Task::Position | Task::Pose => None,
+        }
+    }
+
+    /// Its name in a file: `position`, `planar_position`, `planar_pose` or `pose`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Task::Position => "position",
+            Task::PlanarPosition { .. } => "planar_position",
+            Task::PlanarPose { .. } => "planar_pose",
+            Task::Pose => "pose",
+        }
+    }
+}
+
+/// Which root of a quadratic is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Root {
+    /// (-b - sqrt(b^2 - 4ac)) / (2a), as in NAO (6.7.9) and (6.7.20).
+    Minus,
+    /// (-b + sqrt(b^2 - 4ac)) / (2a).
+    Plus,
+}
+
+/// A choice among the solutions: one root of the quadratic in one unknown.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Choice {
+    /// The unknown whose quadratic it is.
+    pub unknown: String,
+    /// The root that is taken.
+    pub root: Root,
+}
+
+/// The plain data of a [`Chain`], not yet checked.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChainParts {
+    /// The name of the mechanism.
+    pub name: String,
+    /// What it is.
+    pub description: Option<String>,
+    /// Where its figures come from.
+    pub source: Option<String>,
+    /// The unit of every length.
+    pub length_unit: LengthUnit,
+    /// The joints from base to tip, 1 to 12 of them.
+    pub joints: Vec<Joint>,
+    /// The tip frame.
+    pub tip: Tip,
+    /// What is asked of the tip.
+    pub task: Task,
+    /// All unknowns from the greatest to the smallest, when a term order is asked for.
+    pub order: Option<Vec<String>>,
+    /// The root that is taken, when one is chosen.
+    pub choice: Option<Choice>,
+}
+
+/// A validated serial chain. It never changes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "ChainParts", into = "ChainParts")]
+pub struct Chain {
+    parts: ChainParts,
+    pub(super) numeric: Numeric,
+}
+
+impl Chain {
+    /// Checks `parts` and makes them a chain.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::BadValue`] for no or more than 12 joints, an axis of zero, inverted or infinite limits, a
+    /// coordinate beyond 10^12, a tip matrix that is no rotation, a joint that leaves the plane of a planar task, an
+    /// incomplete order, an empty name, or a symbol that is not 1 to 16 ASCII letters and digits;
+    /// [`crate::ErrorKind::DuplicateName`] for joint names, symbols or unknowns of `order` given twice;
+    /// [`crate::ErrorKind::UnknownName`] for an unknown that no joint has.
+    pub fn new(parts: ChainParts) -> Result<Self> {
+        Chain::assemble(parts).map_err(|fault| fault.error)
+    }
+
+    pub(super) fn assemble(parts: ChainParts) -> std::result::Result<Self, Fault> {
+        validate::check(&parts)?;
+        let numeric = Numeric::of(&parts).map_err(|error| Fault { part: Part::Chain, key: "joint", error })?;
+        Ok(Chain { parts, numeric })
+    }
+
+    /// The plain data of this chain.
+    pub fn parts(&self) -> &ChainParts {
+        &self.parts
+    }
+
+    /// The name of the mechanism.
+    pub fn name(&self) -> &str {
+        &self.parts.name
+    }
+
+    /// The unit of every length.
+    pub fn length_unit(&self) -> LengthUnit {
+        self.parts.length_unit
+    }
+
+    /// The joints from base to tip.
+    pub fn joints(&self) -> &[Joint] {
+        &self.parts.joints
+    }
+
+    /// The tip frame at the zero configuration.
+    pub fn tip(&self) -> &Tip {
+        &self.parts.tip
+    }
+
+    /// What is asked of the tip.
+    pub fn task(&self) -> Task {
+        self.parts.task
+    }
+
+    /// All unknowns from the greatest to the smallest, when a term order is asked for.
+    pub fn order(&self) -> Option<&[String]> {
+        self.parts.order.as_deref()
+    }
+
+    /// The root that is taken, when one is chosen.
+    pub fn choice(&self) -> Option<&Choice> {
+        self.parts.choice.as_ref()
+    }
+
+    /// The names of all unknowns, joint by joint from the base: c1, s1, c2, s2, d3 ...
+    pub fn unknowns(&self) -> Vec<String> {
+        self.joints().iter().flat_map(Joint::unknowns).collect()
+    }
+}
+
+impl TryFrom<ChainParts> for Chain {
+    type Error = crate::Error;
+
+    fn try_from(parts: ChainParts) -> Result<Self> {
+        Chain::new(parts)
+    }
+}
+
+impl From<Chain> for ChainParts {
+    fn from(chain: Chain) -> Self {
+        chain.parts
+    }
+}
+
+/// A short table: one line per joint.
+impl fmt::Display for Chain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let plane = self.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
+        writeln!(f, "{}: {}{plane}, lengths in {}", self.name(), self.task().name(), self.length_unit().symbol())?;
+        for joint in self.joints() {
+            let (kind, limits) = match (joint.kind, joint.limits) {
+                (JointKind::Revolute, Some((low, high))) => {
+                    ("turns about", format!(", {:.2}..{:.2} deg", low.to_degrees(), high.to_degrees()))
+                }
+                (JointKind::Prismatic, Some((low, high))) => ("slides along", format!(", {low}..{high}")),
+                (JointKind::Revolute, None) => ("turns about", String::new()),
+                (JointKind::Prismatic, None) => ("slides along", String::new()),
+            };
+            let (unknowns, axis, point) = (joint.unknowns().join(" "), show(&joint.axis), show(&joint.point));
+            writeln!(f, "  {unknowns:<6} {:<14} {kind} {axis} through {point}{limits}", joint.name)?;
+        }
+        write!(f, "  tip at {}", show(&self.tip().point))
+    }
+}
+
+/// `[1/2, 0, 1]`.
+pub(super) fn show(vector: &ExactVector) -> String {
+    let [x, y, z] = vector;
+    format!("[{x}, {y}, {z}]")
+}

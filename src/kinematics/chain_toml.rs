@@ -1,0 +1,254 @@
+//! Reading of chains from TOML: [`Chain::read`], [`Chain::from_toml`].
+//!
+#![doc = include_str!("../../docs/chain_toml.md")]
+
+use std::path::Path;
+
+use super::chain::show;
+use super::placement::{IDENTITY, Placement, QuarterTurns, exact, from_rpy, turn};
+use super::validate::{Fault, Part, check_count};
+use super::{Chain, ChainParts, Choice, ExactVector, Joint, JointKind, LengthUnit, Plane, Root, Task, Tip};
+use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
+use crate::{Error, ErrorKind, Result};
+
+const ROOT_KEYS: [&str; 10] =
+    ["name", "description", "source", "length_unit", "angle_unit", "order", "choice", "task", "joint", "tip"];
+const JOINT_KEYS: [&str; 7] = ["name", "symbol", "type", "axis", "point", "origin", "limits"];
+const PLANES: [(&str, Plane); 3] = [("xy", Plane::Xy), ("xz", Plane::Xz), ("yz", Plane::Yz)];
+
+impl Chain {
+    /// The chain that the file at `path` describes.
+    ///
+    /// # Errors
+    /// As [`read_text`] and [`Chain::from_toml`], with the file.
+    pub fn read(path: &Path) -> Result<Chain> {
+        Chain::from_toml(&read_text(path, TEXT_LIMIT)?).map_err(|error| error.in_file(path))
+    }
+
+    /// The chain that `text` describes in the format of [`crate::kinematics::chain_toml`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] for text that is not TOML or a string that is no number; [`ErrorKind::UnknownKey`],
+    /// [`ErrorKind::MissingKey`]; [`ErrorKind::BadValue`] for a wrong type or value; and as [`Chain::new`]. All have a line.
+    pub fn from_toml(text: &str) -> Result<Chain> {
+        let document = Document::parse(text)?;
+        let root = document.root();
+        root.deny_unknown(&ROOT_KEYS)?;
+        let joints = root.required("joint")?.tables()?;
+        let tip = root.required("tip")?.table()?;
+        let place = |fault: Fault| {
+            let line = line_of(&fault, root, &joints);
+            fault.error.at_line(line)
+        };
+        check_count(joints.len()).map_err(place)?;
+        Chain::assemble(read_parts(root, &joints, tip)?).map_err(place)
+    }
+}
+
+/// The units of a file.
+#[derive(Clone, Copy)]
+struct Units {
+    length: LengthUnit,
+    degrees: bool,
+}
+
+/// How a file places its joints.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    /// Form A: points in the base frame.
+    Point,
+    /// Form B: frames relative to the joint before.
+    Origin,
+}
+
+impl Form {
+    fn key(self) -> &'static str {
+        match self {
+            Form::Point => "point",
+            Form::Origin => "origin",
+        }
+    }
+}
+
+fn read_parts(root: Table<'_>, joints: &[Table<'_>], tip: Table<'_>) -> Result<ChainParts> {
+    let text = |key| root.optional(key).map(|node| node.text().map(str::to_owned)).transpose();
+    let units = read_units(root)?;
+    let form =
+        if joints.iter().take(1).any(|joint| joint.optional("origin").is_some()) { Form::Origin } else { Form::Point };
+    let (joints, last) = read_joints(joints, form, units)?;
+    Ok(ChainParts {
+        name: root.required("name")?.text()?.to_owned(),
+        description: text("description")?,
+        source: text("source")?,
+        length_unit: units.length,
+        joints,
+        tip: read_tip(tip, form, &last)?,
+        task: read_task(root.required("task")?.table()?)?,
+        order: root.optional("order").map(read_order).transpose()?,
+        choice: root.optional("choice").map(|node| read_choice(node.table()?)).transpose()?,
+    })
+}
+
+fn read_units(root: Table<'_>) -> Result<Units> {
+    let length = root.optional("length_unit").map(|node| {
+        let known = [("m", LengthUnit::Metre), ("mm", LengthUnit::Millimetre)];
+        node.one_of(&known)
+    });
+    let degrees = root.optional("angle_unit").map(|node| node.one_of(&[("rad", false), ("deg", true)]));
+    Ok(Units { length: length.transpose()?.unwrap_or_default(), degrees: degrees.transpose()?.unwrap_or(false) })
+}
+
+/// The joints, and the frame of the last one.
+fn read_joints(tables: &[Table<'_>], form: Form, units: Units) -> Result<(Vec<Joint>, Placement)> {
+    let (mut joints, mut frame) = (Vec::new(), Placement::base());
+    for (index, table) in tables.iter().enumerate() {
+        let name = table.optional("name").and_then(|node| node.text().ok()).map_or(String::new(), shown);
+        let named = |error: Error| match name.as_str() {
+            "" => error.with_context(format_args!("joint {}", index + 1)),
+            name => error.with_context(format_args!("joint `{name}`")),
+        };
+        let joint = read_joint(*table, index, form, units, &frame).map_err(named)?;
+        frame = joint.1;
+        joints.push(joint.0);
+    }
+    Ok((joints, frame))
+}
+
+/// A joint and its frame, given the frame of the joint before.
+fn read_joint(
+    table: Table<'_>,
+    index: usize,
+    form: Form,
+    units: Units,
+    before: &Placement,
+) -> Result<(Joint, Placement)> {
+    table.deny_unknown(&JOINT_KEYS)?;
+    check_form(table, form)?;
+    let kind = [("revolute", JointKind::Revolute), ("prismatic", JointKind::Prismatic)];
+    let kind = table.required("type")?.one_of(&kind)?;
+    let symbol = table.optional("symbol").map(|node| node.text().map(str::to_owned)).transpose()?;
+    let axis = table.required("axis")?.exact_vector()?;
+    let place = table.required(form.key())?;
+    let frame = match form {
+        Form::Point => Placement { rotation: IDENTITY, origin: place.exact_vector()? },
+        Form::Origin => before.then(&read_origin(place)?),
+    };
+    let joint = Joint {
+        name: table.required("name")?.text()?.to_owned(),
+        symbol: symbol.unwrap_or_else(|| (index + 1).to_string()),
+        kind,
+        axis: turn(&frame.rotation, &axis),
+        point: frame.origin.clone(),
+        limits: table.optional("limits").map(|node| read_limits(node, kind, units)).transpose()?,
+    };
+    Ok((joint, frame))
+}
+
+fn form_of(table: Table<'_>) -> Result<Form> {
+    let message = match (table.optional("point"), table.optional("origin")) {
+        (Some(_), None) => return Ok(Form::Point),
+        (None, Some(_)) => return Ok(Form::Origin),
+        (None, None) => {
+            "`point` (in the base frame) or `origin` (in the frame of the joint before) is missing; give one"
+        }
+        (Some(_), Some(_)) => return Err(table.error(ErrorKind::BadValue, "`point` and `origin` are given; give one")),
+    };
+    Err(table.error(ErrorKind::MissingKey, message))
+}
+
+/// Points and origins may not be mixed in one file.
+fn check_form(table: Table<'_>, form: Form) -> Result<()> {
+    let own = form_of(table)?;
+    if own == form {
+        return Ok(());
+    }
+    let (own, form) = (own.key(), form.key());
+    let message =
+        format!("`{own}` stands here, but the first joint has `{form}`; give all joints and the tip a `{form}`");
+    Err(table.required(own)?.error(ErrorKind::BadValue, message))
+}
+
+fn read_origin(node: Node<'_>) -> Result<Placement> {
+    let table = node.table()?;
+    table.deny_unknown(&["xyz", "rpy_deg"])?;
+    let origin = table.optional("xyz").map(|xyz| xyz.exact_vector()).transpose()?;
+    Ok(Placement { rotation: read_rpy(table)?, origin: origin.unwrap_or_else(|| Placement::base().origin) })
+}
+
+fn read_rpy(table: Table<'_>) -> Result<QuarterTurns> {
+    let Some(node) = table.optional("rpy_deg") else { return Ok(IDENTITY) };
+    let degrees: ExactVector = node.exact_vector()?;
+    from_rpy(&degrees).ok_or_else(|| {
+        let message = format!("{} has no exact rotation; give multiples of 90 degrees", shown(&show(&degrees)));
+        node.error(ErrorKind::BadValue, message)
+    })
+}
+
+fn read_limits(node: Node<'_>, kind: JointKind, units: Units) -> Result<(f64, f64)> {
+    let [low, high] = node.float_vector()?;
+    let turns = units.degrees && kind == JointKind::Revolute;
+    Ok(if turns { (low.to_radians(), high.to_radians()) } else { (low, high) })
+}
+
+fn read_tip(table: Table<'_>, form: Form, last: &Placement) -> Result<Tip> {
+    table.deny_unknown(&["point", "rpy_deg", "origin"])?;
+    check_form(table, form)?;
+    let place = table.required(form.key())?;
+    let placement = match form {
+        Form::Point => Placement { rotation: read_rpy(table)?, origin: place.exact_vector()? },
+        Form::Origin => {
+            table.deny_unknown(&["origin"])?;
+            last.then(&read_origin(place)?)
+        }
+    };
+    Ok(Tip { point: placement.origin, rotation: exact(&placement.rotation) })
+}
+
+/// A task that is complete, or one that wants a plane.
+#[derive(Clone)]
+enum TaskKind {
+    Spatial(Task),
+    Planar(fn(Plane) -> Task),
+}
+
+fn read_task(table: Table<'_>) -> Result<Task> {
+    table.deny_unknown(&["kind", "plane"])?;
+    let kinds = [
+        ("position", TaskKind::Spatial(Task::Position)),
+        ("planar_position", TaskKind::Planar(|plane| Task::PlanarPosition { plane })),
+        ("planar_pose", TaskKind::Planar(|plane| Task::PlanarPose { plane })),
+        ("pose", TaskKind::Spatial(Task::Pose)),
+    ];
+    match (table.required("kind")?.one_of(&kinds)?, table.optional("plane")) {
+        (TaskKind::Spatial(task), None) => Ok(task),
+        (TaskKind::Planar(task), _) => Ok(task(table.required("plane")?.one_of(&PLANES)?)),
+        (TaskKind::Spatial(task), Some(node)) => {
+            let message = format!("the task `{}` has no plane; leave it out or choose a planar task", task.name());
+            Err(node.error(ErrorKind::BadValue, message))
+        }
+    }
+}
+
+fn read_order(node: Node<'_>) -> Result<Vec<String>> {
+    Ok(node.texts()?.into_iter().map(str::to_owned).collect())
+}
+
+fn read_choice(table: Table<'_>) -> Result<Choice> {
+    table.deny_unknown(&["unknown", "root"])?;
+    let unknown = table.required("unknown")?.text()?.to_owned();
+    let root = table.required("root")?.one_of(&[("minus", Root::Minus), ("plus", Root::Plus)])?;
+    Ok(Choice { unknown, root })
+}
+
+/// The line of the key that a fault is about, else of its table.
+fn line_of(fault: &Fault, root: Table<'_>, joints: &[Table<'_>]) -> usize {
+    let inner = |key| root.optional(key).and_then(|node: Node<'_>| node.table().ok());
+    let table = match fault.part {
+        Part::Chain => Some(root),
+        Part::Joint(index) => joints.get(index).copied(),
+        Part::Tip => inner("tip"),
+        Part::Choice => inner("choice"),
+    };
+    let table = table.unwrap_or(root);
+    table.optional(fault.key).map_or(table.line(), |node| node.line())
+}

@@ -1,0 +1,98 @@
+//! Numeric forward kinematics as a product of exponentials (Brockett 1984; RH0 2.1.4).
+
+use nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
+use num_traits::{Signed, ToPrimitive};
+
+use super::{Chain, ChainParts, ExactMatrix, ExactVector, Joint, JointKind};
+use crate::number::BigRational;
+use crate::spatial::{Pose, Screw};
+use crate::{Error, ErrorKind, Result};
+
+/// The screws and the tip of a chain in doubles, in the base frame at the zero configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numeric {
+    screws: Vec<Screw>,
+    base_from_tip: Pose,
+}
+
+impl Numeric {
+    pub(super) fn of(parts: &ChainParts) -> Result<Self> {
+        let screws = parts.joints.iter().map(Joint::screw).collect::<Result<_>>()?;
+        let translation = Translation3::from(point(&parts.tip.point).coords);
+        Ok(Numeric { screws, base_from_tip: Pose::from_parts(translation, rotation(&parts.tip.rotation)) })
+    }
+}
+
+impl Joint {
+    /// The unit vector along the axis.
+    pub fn direction(&self) -> Unit<Vector3<f64>> {
+        let greatest = self.axis.iter().map(Signed::abs).max().unwrap_or_default();
+        let [x, y, z] = self.axis.each_ref().map(|entry| double(&(entry / &greatest)));
+        Unit::new_normalize(Vector3::new(x, y, z))
+    }
+
+    /// The point on the axis, in the chain's length unit.
+    pub fn location(&self) -> Point3<f64> {
+        point(&self.point)
+    }
+
+    fn screw(&self) -> Result<Screw> {
+        match self.kind {
+            JointKind::Revolute => Screw::revolute(self.direction().into_inner(), self.location()),
+            JointKind::Prismatic => Screw::prismatic(self.direction().into_inner()),
+        }
+    }
+}
+
+impl Chain {
+    /// The joints' screws from base to tip, in the base frame at the zero configuration and the chain's length unit.
+    pub fn screws(&self) -> &[Screw] {
+        &self.numeric.screws
+    }
+
+    /// The pose of the tip at the zero configuration, in the chain's length unit.
+    pub fn base_from_tip(&self) -> Pose {
+        self.numeric.base_from_tip
+    }
+
+    /// The pose base_from_tip of the tip, in the chain's length unit, for the joint values `q`, base to tip: radians
+    /// (revolute) or the chain's length unit (prismatic). `e^(S1 q1) ... e^(Sn qn) M`, RH0 (2-20) and (2-27); limits
+    /// are not looked at.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `q` has not one finite value per joint.
+    pub fn forward(&self, q: &[f64]) -> Result<Pose> {
+        let screws = self.screws();
+        if q.len() != screws.len() {
+            let message = format!("{} joint values are given; the chain has {} joints", q.len(), screws.len());
+            return Err(Error::new(ErrorKind::BadValue, message));
+        }
+        if let Some(index) = q.iter().position(|value| !value.is_finite()) {
+            let message = format!("joint `{}`: the value {} is not finite", self.joints()[index].name, q[index]);
+            return Err(Error::new(ErrorKind::BadValue, message));
+        }
+        let steps = screws.iter().zip(q).rev();
+        Ok(steps.fold(self.base_from_tip(), |pose, (screw, &q)| screw.exp(q) * pose))
+    }
+
+    /// The length of the zigzag from the first joint's point over the other joints' points to the tip, in the chain's
+    /// length unit. While prismatic joints stand at zero, the tip is never further from the first joint's point.
+    pub fn reach(&self) -> f64 {
+        let tip = Point3::from(self.base_from_tip().translation.vector);
+        let points: Vec<Point3<f64>> = self.joints().iter().map(Joint::location).chain([tip]).collect();
+        points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+    }
+}
+
+fn double(exact: &BigRational) -> f64 {
+    exact.to_f64().unwrap_or(0.0)
+}
+
+fn point(exact: &ExactVector) -> Point3<f64> {
+    Point3::from(exact.each_ref().map(double))
+}
+
+fn rotation(exact: &ExactMatrix) -> UnitQuaternion<f64> {
+    let matrix = Matrix3::from_fn(|i, j| double(&exact[i][j]));
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix))
+}

@@ -1,0 +1,7 @@
+//! The `groebot` program: see `groebot --help`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    groebot::cli::run()
+}
