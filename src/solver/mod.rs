@@ -19,8 +19,9 @@ pub const ACCEPT: f64 = 1e-12;
 pub const MERGE: f64 = 1e-7;
 /// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
 pub const NEAR: f64 = 1e-6;
-/// A chart does not run where a denominator is below this share of its scale.
-pub const TINY: f64 = 1e-15;
+/// A chart does not run where a denominator is below this share of its scale: a factor of degree two in the distance from its
+/// stratum is as small as the square of what rounding leaves of that distance. Wrong candidates are measured and dropped.
+pub const TINY: f64 = 1e-30;
 /// Among polynomials for one unknown, the first whose leading coefficient exceeds this share of the largest one is used.
 pub const PIVOT: f64 = 1e-9;
 /// Newton steps that polish each answer; a step that does not lower the residual is not taken.
