@@ -1,6 +1,8 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
 mod architecture;
+#[cfg(feature = "cli")]
+mod cli;
 mod derive;
 mod document;
 mod files;
