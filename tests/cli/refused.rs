@@ -70,12 +70,12 @@ fn mistakes_in_a_description_name_their_line() {
 fn systems_without_finitely_many_solutions() {
     refuse_file("0_system.toml", &system(&["c - p", "c - p - 1", "k - r"]), &["contradict"]);
     refuse_file("0_system.toml", &system(&["c - p"]), &["Wrist stay free"]);
-    let three = "point = [0, 0, 100.0]\n[[joint]]\nname = \"Ankle\"\nsymbol = \"5\"\ntype = \"revolute\"\n\
-                 axis = [0, 1, 0]\npoint = [0, 0, 150]";
-    let mut redundant = chain("point = [0, 0, 100.0]", three);
-    let text = String::from_utf8(redundant).unwrap();
-    redundant = text.replace("order = [\"c4\", \"c3\", \"s4\", \"s3\"]\n", "").into_bytes();
-    refuse_file("0_chain.toml", &redundant, &["stay free", "Pitch"]);
+    let gantry = "name = \"gantry\"\ntask = { kind = \"planar_position\", plane = \"xz\" }\njoint = [\n\
+        { name = \"Along\", type = \"prismatic\", axis = [1, 0, 0], point = [0, 0, 0] },\n\
+        { name = \"Up\", type = \"prismatic\", axis = [0, 0, 1], point = [0, 0, 0] },\n\
+        { name = \"Turn\", type = \"revolute\", axis = [0, 1, 0], point = [0, 0, 0] },\n]\n\
+        tip = { point = [0, 0, 1] }\n";
+    refuse_file("0_chain.toml", gantry.as_bytes(), &["more joints than equations", "Turn stay free"]);
 }
 
 #[test]
