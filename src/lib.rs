@@ -21,6 +21,8 @@ pub mod derive;
 
 pub mod solver;
 
+pub mod codegen;
+pub mod witness;
 #[cfg(feature = "cli")]
 pub mod cli;
 

@@ -3,11 +3,15 @@
 mod architecture;
 #[cfg(feature = "cli")]
 mod cli;
+mod corpus;
 mod derive;
 mod document;
+mod codegen;
 mod files;
+mod groebner;
 mod kinematics;
 mod number;
 mod poly;
 mod roots;
 mod spatial;
+mod witness;

@@ -144,7 +144,7 @@ pub fn describe(node: &Node) -> String {
         },
         Outcome::Inconsistent(_) => "no solution: the ideal is {1}".to_owned(),
         Outcome::Family(_) => "infinitely many solutions: joints are free".to_owned(),
-        Outcome::Seen(label) => format!("the same as `{label}`"),
+        Outcome::Seen(label) => format!("derived above, as `{label}`"),
         Outcome::Open(reason) => format!("not derived: {reason}"),
     }
 }

@@ -8,6 +8,7 @@ pub mod compile;
 mod constants;
 pub mod derivation;
 pub mod formulate;
+mod generic;
 mod grow;
 pub mod input;
 pub mod plan;

@@ -1,11 +1,12 @@
 //! Where outcomes come from when the tree grows: from the engine here, from a stored certificate in [`super::certificate`].
 
 use super::certify;
+use super::generic::generic_basis;
 use super::setting::{Coefficients, Poly, Setting, expression_of};
 use super::tree::{Family, Node, Outcome, Solved};
 use super::triangular::triangularise;
 use super::{JointKindUnknown, System};
-use crate::groebner::{Basis, Options, Quotient, Strategy, basis};
+use crate::groebner::{Basis, Quotient};
 use crate::poly::{Expression, Order};
 use crate::{Result, Watch};
 
@@ -46,8 +47,7 @@ impl Engine<'_> {
             Ok(generators) => generators,
             Err(error) => return Ok(Outcome::Open(format!("the equations are not defined here: {}", error.message()))),
         };
-        let options = Options { strategy: Strategy::Normal, cofactors: true };
-        let graded = basis(&ring, &generators, &options, self.watch)?;
+        let graded = generic_basis(setting, &ring, &generators, self.watch)?;
         match graded.independent_variables() {
             None => Ok(Outcome::Inconsistent(Box::new(certify::certified(&graded, &graded, &generators)?))),
             Some(free) if free.is_empty() => self.solved(setting, &graded, &generators, parent),

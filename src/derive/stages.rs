@@ -7,10 +7,10 @@ use super::grow::describe;
 use super::plan::score;
 use super::setting::Poly;
 use super::tree::{Node, Outcome, Solved};
+use super::triangular::presented;
 use super::{JointKindUnknown, certificate};
 use crate::Result;
 use crate::groebner::Basis;
-use crate::number::{Ring, Style};
 
 /// The file names of the stages, in order.
 pub const STAGES: [&str; 6] =
@@ -139,11 +139,10 @@ impl Derivation {
         if let Some(solved) = self.requested.solved() {
             text += "The Groebner basis in the order ";
             let _ = writeln!(text, "{}:\n", solved.certified.order.join(" > "));
-            for stair in &solved.triangular.stairs {
-                for f in &stair.polynomials {
-                    let _ = writeln!(text, "$$ {} = 0 $$\n", solved.triangular.ring.format(f, Style::Latex));
-                }
+            for f in solved.triangular.stairs.iter().flat_map(|stair| &stair.polynomials) {
+                let _ = writeln!(text, "    {} = 0", presented(&solved.triangular.ring, f));
             }
+            text += "\n";
         }
         text += "Written by `groebot derive`; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
         let example = vec!["..."; system.inputs.len()].join(",");
@@ -157,6 +156,6 @@ fn write_basis(text: &mut String, solved: &Solved) {
     let _ = writeln!(text, "    order {}", solved.certified.order.join(" > "));
     let polynomials: Vec<&Poly> = solved.triangular.stairs.iter().flat_map(|stair| &stair.polynomials).collect();
     for (index, f) in polynomials.into_iter().enumerate() {
-        let _ = writeln!(text, "    {:>3}. {}", index + 1, ring.format(f, Style::Text));
+        let _ = writeln!(text, "    {:>3}. {}", index + 1, presented(ring, f));
     }
 }

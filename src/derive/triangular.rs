@@ -6,6 +6,8 @@
 
 use std::fmt;
 
+use num_traits::{One, Signed};
+
 use super::setting::{ParameterPoly, Poly, Unknowns};
 use crate::number::{BigInt, BigRational, Field, Ring, Style};
 use crate::poly::{Fraction, Polynomial, gcd};
@@ -82,7 +84,7 @@ impl fmt::Display for Triangular {
             };
             writeln!(f, "{name}  ({way})")?;
             for polynomial in &stair.polynomials {
-                writeln!(f, "    {} = 0", self.ring.format(polynomial, Style::Text))?;
+                writeln!(f, "    {} = 0", presented(&self.ring, polynomial))?;
             }
         }
         Ok(())
@@ -115,6 +117,21 @@ pub fn clear_denominators(ring: &Unknowns, f: &Poly) -> (Poly, ParameterPoly) {
         common = ground.mul(&common, &rest);
     }
     (ring.scale(f, &field.embed(&common)), common)
+}
+
+/// A cleared polynomial as the sources print them: divided by the largest power of ten that leaves no coefficient below one, with
+/// decimals: `20580*c4 - px^2 - pz^2 + 20588.41`.
+pub fn presented(ring: &Unknowns, f: &Poly) -> String {
+    let numbers = f.terms().iter().flat_map(|term| term.coefficient.numerator().terms());
+    let least = numbers.map(|term| term.coefficient.abs()).min().unwrap_or_else(BigRational::one);
+    let ten = BigRational::from_integer(BigInt::from(10));
+    let mut divisor = BigRational::one();
+    while &divisor * &ten <= least {
+        divisor *= &ten;
+    }
+    let field = ring.field();
+    let factor = field.embed(&field.ring().constant(divisor.recip()));
+    ring.format(&ring.scale(f, &factor), Style::Decimal)
 }
 
 /// With integer coefficients without common factor, and a positive leading number.

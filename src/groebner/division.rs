@@ -1,8 +1,8 @@
 //! Multivariate division, normal forms and S-polynomials.
 
-use crate::Result;
-use crate::number::{Field, Ring};
+use crate::number::{Field, Ring, Style};
 use crate::poly::{Polynomial, PolynomialRing, Term};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// `f = sum quotients[k] * divisors[k] + remainder`; no term of the remainder is divisible by a leading monomial.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,19 +22,28 @@ pub fn divide<F: Field>(
     f: &Polynomial<F::Element>,
     divisors: &[Polynomial<F::Element>],
 ) -> Result<Division<F::Element>> {
+    divide_by(ring, f.clone(), &divisors.iter().collect::<Vec<_>>(), &Watch::none())
+}
+
+/// [`divide`] under a watch: one polynomial may take longer than all the rest.
+pub(super) fn divide_by<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: Polynomial<F::Element>,
+    divisors: &[&Polynomial<F::Element>],
+    watch: &Watch,
+) -> Result<Division<F::Element>> {
     let mut quotients = vec![Vec::new(); divisors.len()];
     let mut remainder = Vec::new();
-    let mut rest = f.clone();
-    while let Some(lead) = rest.leading().cloned() {
-        match find_divisor(ring, &lead, divisors) {
+    let mut rest = f;
+    while let Some(lead) = rest.leading() {
+        match find_divisor(ring, lead, divisors) {
             Some((index, factor)) => {
-                rest = ring.sub_mul_term(&rest, &factor.coefficient, &factor.monomial, &divisors[index])?;
+                watch.check()?;
+                rest = ring.sub_mul_term(&rest, &factor.coefficient, &factor.monomial, divisors[index])?;
+                watch.check_terms(rest.terms().len())?;
                 quotients[index].push(factor);
             }
-            None => {
-                rest = ring.sub(&rest, &ring.term(lead.coefficient.clone(), lead.monomial.clone()));
-                remainder.push(lead);
-            }
+            None => remainder.extend(rest.take_leading()),
         }
     }
     let quotients = quotients.into_iter().map(|terms| ring.collect(terms)).collect();
@@ -45,7 +54,7 @@ pub fn divide<F: Field>(
 fn find_divisor<F: Field>(
     ring: &PolynomialRing<F>,
     lead: &Term<F::Element>,
-    divisors: &[Polynomial<F::Element>],
+    divisors: &[&Polynomial<F::Element>],
 ) -> Option<(usize, Term<F::Element>)> {
     divisors.iter().enumerate().find_map(|(index, divisor)| {
         let top = divisor.leading()?;
@@ -70,7 +79,7 @@ pub fn normal_form<F: Field>(
 /// The S-polynomial of two nonzero polynomials (NAO 6.3.1); zero when one of them is zero.
 ///
 /// # Errors
-/// As [`divide`].
+/// As [`divide`]; [`ErrorKind::BadValue`] when a leading coefficient has no inverse.
 pub fn s_polynomial<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -96,8 +105,20 @@ pub(super) fn s_factors<F: Field>(
     let (Some(a), Some(b)) = (f.leading(), g.leading()) else { return Ok(None) };
     let lcm = ring.lcm(&a.monomial, &b.monomial)?;
     let lift = |term: &Term<F::Element>| {
-        let monomial = ring.layout().checked_div(&lcm, &term.monomial)?;
-        Some(Term { coefficient: ring.field().inverse(&term.coefficient)?, monomial })
+        let monomial = ring.layout().checked_div(&lcm, &term.monomial).expect("a common multiple is divisible");
+        Ok(Term { coefficient: inverse(ring, &term.coefficient)?, monomial })
     };
-    Ok(lift(a).zip(lift(b)))
+    Ok(Some((lift(a)?, lift(b)?)))
+}
+
+/// The inverse of a nonzero coefficient.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] when it has none: the coefficients are no field (see [`crate::poly::Fractions::with_square`]).
+pub(super) fn inverse<F: Field>(ring: &PolynomialRing<F>, coefficient: &F::Element) -> Result<F::Element> {
+    ring.field().inverse(coefficient).ok_or_else(|| {
+        let text = ring.field().format(coefficient, Style::Text);
+        let text = format!("the coefficient {text} has no inverse; a relation may only take the root of a non-square");
+        Error::new(ErrorKind::BadValue, text)
+    })
 }

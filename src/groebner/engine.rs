@@ -1,10 +1,10 @@
 //! The Buchberger engine that users run: pair criteria, strategies, cofactors, progress and budget.
 
-use super::division::{divide, s_factors};
+use super::division::{divide_by, inverse, s_factors};
 use super::pairs::{Head, Pair, Pairs, Strategy};
 use super::reduced;
 use crate::number::{Field, Ring};
-use crate::poly::{Polynomial, PolynomialRing, Term, Width};
+use crate::poly::{Polynomial, PolynomialRing, Width};
 use crate::{ErrorKind, Result, Watch};
 
 /// How [`basis`] works.
@@ -19,7 +19,7 @@ pub struct Options {
 /// A reduced Groebner basis: monic, sorted by leading monomial from the smallest, unique for ideal and order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basis<F: Field> {
-    /// The ring and its order.
+    /// The ring and its order; its lanes are wider than those of the ring asked for when the basis does not fit those.
     pub ring: PolynomialRing<F>,
     /// The basis; empty for the zero ideal, `[1]` for the unit ideal.
     pub polynomials: Vec<Polynomial<F::Element>>,
@@ -39,7 +39,8 @@ pub(super) struct Tracked<E> {
 /// Exponents start in narrow lanes; an overflow restarts the work with wider ones.
 ///
 /// # Errors
-/// [`ErrorKind::Overflow`] when a degree outgrows even 31 bits; what `watch` stops with.
+/// [`ErrorKind::Overflow`] when a degree outgrows even 31 bits; [`ErrorKind::BadValue`] when a nonzero coefficient has
+/// no inverse; what `watch` stops with.
 pub fn basis<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
@@ -66,7 +67,7 @@ fn basis_in_width<F: Field>(
 ) -> Result<Basis<F>> {
     let generators: Vec<_> = generators.iter().map(|f| source.transfer(f, ring)).collect::<Result<_>>()?;
     let elements = complete(ring, &generators, options, watch)?;
-    let elements = reduced::interreduce(ring, elements)?;
+    let elements = reduced::interreduce(ring, elements, watch)?;
     let (polynomials, cofactors): (Vec<_>, Vec<_>) =
         elements.into_iter().map(|element| (element.polynomial, element.cofactors)).unzip();
     let cofactors = if options.cofactors { cofactors } else { Vec::new() };
@@ -108,7 +109,7 @@ fn complete<F: Field>(
     for (index, f) in generators.iter().enumerate() {
         let sugar = ring.degree(f);
         let element = generator(ring, f, index, generators.len(), options.cofactors);
-        let element = reduce(ring, element, &elements)?;
+        let element = reduce(ring, element, &elements, watch)?;
         adjoin(ring, element, sugar, &mut elements, &mut heads, &mut pairs)?;
     }
     while let Some(pair) = pairs.select(ring) {
@@ -116,7 +117,7 @@ fn complete<F: Field>(
         watch.check_terms(elements.iter().map(term_count).sum())?;
         watch.report("Groebner basis", done, pairs.len());
         let element = s_element(ring, &pair, &elements)?;
-        let element = reduce(ring, element, &elements)?;
+        let element = reduce(ring, element, &elements, watch)?;
         adjoin(ring, element, pair.sugar, &mut elements, &mut heads, &mut pairs)?;
         done += 1;
     }
@@ -155,21 +156,20 @@ fn adjoin<F: Field>(
     let head =
         Head { monomial: lead.monomial.clone(), sugar: sugar.max(ring.degree(&element.polynomial)), redundant: false };
     pairs.update(ring, heads, head)?;
-    elements.push(monic(ring, element));
+    elements.push(monic(ring, element)?);
     Ok(())
 }
 
-pub(super) fn monic<F: Field>(ring: &PolynomialRing<F>, element: Tracked<F::Element>) -> Tracked<F::Element> {
-    let Some(inverse) = element.polynomial.leading().and_then(|lead| ring.field().inverse(&lead.coefficient)) else {
-        return element;
+/// The multiple of `element` with leading coefficient one; zero stays zero.
+pub(super) fn monic<F: Field>(ring: &PolynomialRing<F>, element: Tracked<F::Element>) -> Result<Tracked<F::Element>> {
+    let factor = match element.polynomial.leading() {
+        Some(lead) if !ring.field().is_one(&lead.coefficient) => inverse(ring, &lead.coefficient)?,
+        _ => return Ok(element),
     };
-    if ring.field().is_one(&inverse) {
-        return element;
-    }
-    Tracked {
-        polynomial: ring.scale(&element.polynomial, &inverse),
-        cofactors: element.cofactors.iter().map(|f| ring.scale(f, &inverse)).collect(),
-    }
+    Ok(Tracked {
+        polynomial: ring.scale(&element.polynomial, &factor),
+        cofactors: element.cofactors.iter().map(|f| ring.scale(f, &factor)).collect(),
+    })
 }
 
 /// The S-polynomial of a pair with its cofactors.
@@ -193,9 +193,10 @@ pub(super) fn reduce<F: Field>(
     ring: &PolynomialRing<F>,
     element: Tracked<F::Element>,
     divisors: &[Tracked<F::Element>],
+    watch: &Watch,
 ) -> Result<Tracked<F::Element>> {
-    let polynomials: Vec<_> = divisors.iter().map(|divisor| divisor.polynomial.clone()).collect();
-    let division = divide(ring, &element.polynomial, &polynomials)?;
+    let polynomials: Vec<_> = divisors.iter().map(|divisor| &divisor.polynomial).collect();
+    let division = divide_by(ring, element.polynomial, &polynomials, watch)?;
     let mut cofactors = element.cofactors;
     if !division.remainder.is_zero() {
         for (quotient, divisor) in division.quotients.iter().zip(divisors).filter(|(q, _)| !q.is_zero()) {
@@ -213,6 +214,6 @@ pub(super) fn leads_divide<F: Field>(
     a: &Polynomial<F::Element>,
     b: &Polynomial<F::Element>,
 ) -> bool {
-    let lead = |f: &Polynomial<F::Element>| f.leading().map(|Term { monomial, .. }| monomial.clone());
-    lead(a).zip(lead(b)).is_some_and(|(a, b)| ring.layout().divides(&a, &b))
+    let leads = a.leading().zip(b.leading());
+    leads.is_some_and(|(a, b)| ring.layout().divides(&a.monomial, &b.monomial))
 }

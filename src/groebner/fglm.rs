@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use super::division::inverse;
 use super::{Basis, normal_form};
 use crate::number::{Field, Ring};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
@@ -23,12 +24,13 @@ impl<F: Field> Quotient<F> {
     /// The multiplication matrices of the quotient ring by `basis`.
     ///
     /// # Errors
-    /// [`ErrorKind::PositiveDimensional`] or [`ErrorKind::Inconsistent`] when the quotient is not finite or is zero.
+    /// [`ErrorKind::PositiveDimensional`] or [`ErrorKind::Inconsistent`] when the quotient is not finite or is zero;
+    /// [`ErrorKind::Overflow`].
     pub fn new(basis: &Basis<F>) -> Result<Self> {
         basis.require_zero_dimensional()?;
         let ring = basis.ring.clone();
         let Some(standard) = basis.quotient_basis() else {
-            return Err(Error::new(ErrorKind::PositiveDimensional, "the quotient ring is not finite"));
+            return Err(Error::new(ErrorKind::Overflow, "a standard monomial does not fit the ring; give a wider one"));
         };
         let coordinates = |f: &Polynomial<F::Element>| -> Vec<F::Element> {
             let coefficient = |m: &Monomial| f.terms().iter().find(|t| t.monomial == *m).map(|t| t.coefficient.clone());
@@ -61,11 +63,16 @@ impl<F: Field> Quotient<F> {
         result
     }
 
-    /// The reduced Groebner basis in the order of `target`, a ring over the same field in the same variables.
+    /// The reduced Groebner basis in the order of `target`, a ring over the same field in the same variables. In fewer
+    /// variables, it is the basis of the elimination ideal.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] when the variables differ; [`ErrorKind::Overflow`]; what `watch` stops with.
+    /// [`ErrorKind::UnknownName`] for a variable that the quotient ring lacks; [`ErrorKind::BadValue`] for another field, or
+    /// when a nonzero coefficient has no inverse; [`ErrorKind::Overflow`]; what `watch` stops with.
     pub fn basis_in(&self, target: &PolynomialRing<F>, watch: &Watch) -> Result<Basis<F>> {
+        if target.field() != self.ring.field() {
+            return Err(Error::new(ErrorKind::BadValue, "a change of order stays over the field of the basis"));
+        }
         let sources = target.variables().iter().map(|name| {
             self.ring.index_of(name).ok_or_else(|| Error::new(ErrorKind::UnknownName, format!("no variable `{name}`")))
         });
@@ -74,10 +81,11 @@ impl<F: Field> Quotient<F> {
         let mut candidates = vec![(target.layout().one(), self.one.clone())];
         while let Some((monomial, vector)) = take_smallest(target, &mut candidates) {
             watch.check()?;
+            watch.report("change of order", walk.seen.len(), self.dimension() - walk.seen.len());
             if walk.leads.iter().any(|lead| target.layout().divides(lead, &monomial)) || walk.seen.contains(&monomial) {
                 continue;
             }
-            if walk.is_new(target, &monomial, &vector) {
+            if walk.is_new(target, &monomial, &vector)? {
                 for (variable, &source) in sources.iter().enumerate() {
                     let step = target.variable(variable);
                     let next = target.mul_term(&step, &target.field().one(), &monomial)?;
@@ -117,7 +125,12 @@ struct Walk<E> {
 
 impl<E: Clone + PartialEq + std::fmt::Debug> Walk<E> {
     /// Reduces `vector` by the rows: a new row when something remains, else a new basis polynomial.
-    fn is_new<F: Field<Element = E>>(&mut self, ring: &PolynomialRing<F>, monomial: &Monomial, vector: &[E]) -> bool {
+    fn is_new<F: Field<Element = E>>(
+        &mut self,
+        ring: &PolynomialRing<F>,
+        monomial: &Monomial,
+        vector: &[E],
+    ) -> Result<bool> {
         let field = ring.field();
         let mut entries = vector.to_vec();
         let mut combination: BTreeMap<usize, E> = BTreeMap::new();
@@ -136,13 +149,13 @@ impl<E: Clone + PartialEq + std::fmt::Debug> Walk<E> {
         }
         match entries.iter().position(|entry| !field.is_zero(entry)) {
             Some(pivot) => {
-                let inverse = field.inverse(&entries[pivot]).expect("a pivot is not zero");
+                let inverse = inverse(ring, &entries[pivot])?;
                 combination.insert(self.seen.len(), field.one());
                 combination.values_mut().for_each(|value| *value = field.mul(value, &inverse));
                 entries.iter_mut().for_each(|value| *value = field.mul(value, &inverse));
                 self.rows.push(Row { pivot, entries, combination });
                 self.seen.push(monomial.clone());
-                true
+                Ok(true)
             }
             None => {
                 let tail = combination
@@ -151,7 +164,7 @@ impl<E: Clone + PartialEq + std::fmt::Debug> Walk<E> {
                 let lead = Term { coefficient: field.one(), monomial: monomial.clone() };
                 self.polynomials.push(ring.collect(tail.chain([lead])));
                 self.leads.push(monomial.clone());
-                false
+                Ok(false)
             }
         }
     }

@@ -20,29 +20,37 @@ impl<F: Field> Basis<F> {
     }
 
     /// The standard monomials, smallest first: a vector-space basis of the quotient ring, whose size is the number of
-    /// complex solutions with multiplicity. `None` when the ideal is positive-dimensional; empty for the unit ideal.
+    /// complex solutions with multiplicity. Empty for the unit ideal; `None` when the ideal is positive-dimensional, or
+    /// when a standard monomial does not fit the lanes of the ring.
     pub fn quotient_basis(&self) -> Option<Vec<Monomial>> {
         let layout = self.ring.layout();
-        let leads = self.leading_monomials();
-        let bound = |v: usize| {
-            let powers = leads.iter().filter_map(|m| match layout.pure_power(m) {
-                Some((variable, power)) if variable == v => Some(power),
-                _ if layout.degree(m) == 0 => Some(0),
-                _ => None,
-            });
-            powers.min()
-        };
-        let bounds: Vec<u32> = (0..self.ring.variables().len()).map(bound).collect::<Option<_>>()?;
-        let mut standard = Vec::new();
-        let mut exponents = vec![0; bounds.len()];
-        collect_standard(&self.ring, &leads, &bounds, 0, &mut exponents, &mut standard);
+        let mut standard: Vec<_> =
+            self.staircase()?.iter().map(|exponents| layout.pack(exponents)).collect::<Option<_>>()?;
         standard.sort_by(|a, b| layout.compare(a, b));
         Some(standard)
     }
 
     /// The number of complex solutions counted with multiplicity; `None` when there are infinitely many.
     pub fn quotient_dimension(&self) -> Option<usize> {
-        self.quotient_basis().map(|monomials| monomials.len())
+        Some(self.staircase()?.len())
+    }
+
+    /// The exponents of all standard monomials; `None` when there are infinitely many.
+    fn staircase(&self) -> Option<Vec<Vec<u32>>> {
+        let layout = self.ring.layout();
+        let leads = self.leading_monomials();
+        let variables = 0..self.ring.variables().len();
+        let has_power = |v: usize| {
+            let powers = leads.iter().filter_map(|m| layout.pure_power(m));
+            self.is_unit_ideal() || powers.into_iter().any(|(variable, _)| variable == v)
+        };
+        if !variables.clone().all(has_power) {
+            return None;
+        }
+        let leads: Vec<Vec<u32>> = leads.iter().map(|m| layout.exponents(m)).collect();
+        let mut standard = Vec::new();
+        collect_standard(&leads, &mut vec![0; variables.len()], 0, &mut standard);
+        Some(standard)
     }
 
     /// A largest set of variables (indices) that no leading monomial is made of alone: they can be chosen freely. Its size is the
@@ -58,7 +66,9 @@ impl<F: Field> Basis<F> {
             .iter()
             .map(|m| (0..count).filter(|&v| layout.exponent(m, v) > 0).collect())
             .collect();
-        Some(largest_independent(&supports, count, Vec::new(), 0))
+        let mut best = Vec::new();
+        largest_independent(&supports, count, &mut Vec::new(), 0, &mut best);
+        Some(best)
     }
 
     /// Fails unless the ideal has finitely many solutions.
@@ -78,54 +88,51 @@ impl<F: Field> Basis<F> {
     }
 }
 
-/// Walks all exponent vectors below `bounds` that no leading monomial divides.
-fn collect_standard<F: Field>(
-    ring: &PolynomialRing<F>,
-    leads: &[&Monomial],
-    bounds: &[u32],
-    variable: usize,
-    exponents: &mut Vec<u32>,
-    standard: &mut Vec<Monomial>,
-) {
-    for power in 0..bounds.get(variable).copied().unwrap_or(1) {
-        if let Some(exponent) = exponents.get_mut(variable) {
-            *exponent = power;
-        }
-        let Some(monomial) = ring.layout().pack(exponents) else { break };
-        if leads.iter().any(|lead| ring.layout().divides(lead, &monomial)) {
-            break;
-        }
-        if variable + 1 >= bounds.len() {
-            standard.push(monomial);
-        } else {
-            collect_standard(ring, leads, bounds, variable + 1, exponents, standard);
-        }
+/// Walks the exponent vectors that agree with `exponents` before `variable` and that no leading monomial divides; the
+/// walk ends because some lead is a power of each variable.
+fn collect_standard(leads: &[Vec<u32>], exponents: &mut Vec<u32>, variable: usize, standard: &mut Vec<Vec<u32>>) {
+    let divides = |lead: &Vec<u32>, exponents: &[u32]| lead.iter().zip(exponents).all(|(a, b)| a <= b);
+    if leads.iter().any(|lead| divides(lead, exponents)) {
+        return;
     }
-    if let Some(exponent) = exponents.get_mut(variable) {
-        *exponent = 0;
+    if variable == exponents.len() {
+        return standard.push(exponents.clone());
     }
+    while !leads.iter().any(|lead| divides(lead, exponents)) {
+        collect_standard(leads, exponents, variable + 1, standard);
+        exponents[variable] += 1;
+    }
+    exponents[variable] = 0;
 }
 
-fn largest_independent(supports: &[Vec<usize>], count: usize, chosen: Vec<usize>, next: usize) -> Vec<usize> {
-    if next == count {
-        return chosen;
+/// Extends `chosen` by variables from `next` on, in all ways that may beat `best`; the first of equals stays.
+fn largest_independent(
+    supports: &[Vec<usize>],
+    count: usize,
+    chosen: &mut Vec<usize>,
+    next: usize,
+    best: &mut Vec<usize>,
+) {
+    if chosen.len() > best.len() {
+        best.clone_from(chosen);
     }
-    let mut with = chosen.clone();
-    with.push(next);
-    let free = |set: &[usize]| !supports.iter().any(|support| support.iter().all(|v| set.contains(v)));
-    let skipped = largest_independent(supports, count, chosen, next + 1);
-    if !free(&with) {
-        return skipped;
+    if next == count || chosen.len() + (count - next) <= best.len() {
+        return;
     }
-    let taken = largest_independent(supports, count, with, next + 1);
-    if taken.len() >= skipped.len() { taken } else { skipped }
+    chosen.push(next);
+    if !supports.iter().any(|support| support.iter().all(|v| chosen.contains(v))) {
+        largest_independent(supports, count, chosen, next + 1, best);
+    }
+    chosen.pop();
+    largest_independent(supports, count, chosen, next + 1, best);
 }
 
 /// The elimination ideal: the reduced basis of the ideal of `generators` intersected with the ring without the variables named
 /// `eliminated`, in graded reverse order.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] for a name that is no variable; [`ErrorKind::Overflow`]; what `watch` stops with.
+/// [`ErrorKind::UnknownName`] for a name that is no variable, [`ErrorKind::DuplicateName`] for one listed twice; those of
+/// [`basis`].
 pub fn eliminate<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
@@ -143,6 +150,7 @@ pub fn eliminate<F: Field>(
     let moved: Vec<_> = generators.iter().map(|f| ring.transfer(f, &block_ring)).collect::<Result<_>>()?;
     let full = basis(&block_ring, &moved, &Options::default(), watch)?;
     let target = PolynomialRing::new(ring.field().clone(), &kept, Order::GrevLex)?;
+    let target = target.with_width(full.ring.layout().width());
     let free = full.polynomials.iter().filter(|f| (0..eliminated.len()).all(|v| full.ring.degree_in(f, v) == 0));
     let polynomials = free.map(|f| full.ring.transfer(f, &target)).collect::<Result<_>>()?;
     Ok(Basis { ring: target, polynomials, cofactors: Vec::new() })

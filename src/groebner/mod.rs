@@ -16,3 +16,4 @@ pub use division::{Division, divide, normal_form, s_polynomial};
 pub use engine::{Basis, Options, basis};
 pub use fglm::Quotient;
 pub use pairs::Strategy;
+pub use reduced::reduced_basis;

@@ -67,13 +67,18 @@ impl Pairs {
         Some(self.open.swap_remove(index))
     }
 
-    /// Adds the element with index `heads.len()`: drops old pairs by the chain criterion, keeps of the new ones those that no other
-    /// new pair covers and whose heads are not coprime, and marks redundant elements.
+    /// Adds the element with index `heads.len()`: drops old pairs by the chain criterion, keeps of the new ones those that no
+    /// other new pair covers and whose heads are not coprime, and marks redundant elements. A constant closes all pairs.
+    ///
+    /// Of new pairs with the same multiple one is kept, a coprime one if there is any (it stands for them and then falls).
     pub fn update<F: Field>(&mut self, ring: &PolynomialRing<F>, heads: &mut Vec<Head>, new: Head) -> Result<()> {
         let layout = ring.layout();
         let index = heads.len();
         let lcms: Vec<Monomial> =
             heads.iter().map(|head| ring.lcm(&head.monomial, &new.monomial)).collect::<Result<_>>()?;
+        if layout.degree(&new.monomial) == 0 {
+            self.open.clear();
+        }
         self.open.retain(|pair| {
             let covered = layout.divides(&new.monomial, &pair.lcm);
             !covered || lcms[pair.left] == pair.lcm || lcms[pair.right] == pair.lcm

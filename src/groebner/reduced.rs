@@ -1,14 +1,33 @@
 //! From a Groebner basis to the reduced one.
 
+use super::Basis;
 use super::engine::{Tracked, leads_divide, monic, reduce};
-use crate::Result;
 use crate::number::Field;
-use crate::poly::PolynomialRing;
+use crate::poly::{Polynomial, PolynomialRing};
+use crate::{Result, Watch};
+
+/// The reduced basis of a Groebner basis that came about elsewhere, its cofactors (one row a polynomial) carried along.
+///
+/// # Errors
+/// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes; what `watch` stops with.
+pub fn reduced_basis<F: Field>(
+    ring: &PolynomialRing<F>,
+    polynomials: Vec<Polynomial<F::Element>>,
+    cofactors: Vec<Vec<Polynomial<F::Element>>>,
+    watch: &Watch,
+) -> Result<Basis<F>> {
+    let elements = polynomials.into_iter().zip(cofactors);
+    let elements = elements.map(|(polynomial, cofactors)| Tracked { polynomial, cofactors }).collect();
+    let reduced = interreduce(ring, elements, watch)?;
+    let (polynomials, cofactors) = reduced.into_iter().map(|e| (e.polynomial, e.cofactors)).unzip();
+    Ok(Basis { ring: ring.clone(), polynomials, cofactors })
+}
 
 /// Drops elements whose leading monomial another divides, reduces the tails, makes monic and sorts from the smallest.
 pub(super) fn interreduce<F: Field>(
     ring: &PolynomialRing<F>,
     elements: Vec<Tracked<F::Element>>,
+    watch: &Watch,
 ) -> Result<Vec<Tracked<F::Element>>> {
     let mut minimal: Vec<Tracked<F::Element>> = Vec::new();
     let mut sorted = elements;
@@ -21,7 +40,7 @@ pub(super) fn interreduce<F: Field>(
     }
     for index in 0..minimal.len() {
         let element = minimal.remove(index);
-        let element = monic(ring, reduce(ring, element, &minimal)?);
+        let element = monic(ring, reduce(ring, element, &minimal, watch)?)?;
         minimal.insert(index, element);
     }
     Ok(minimal)

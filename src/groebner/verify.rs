@@ -35,6 +35,7 @@ pub struct Proof {
 /// [`ErrorKind::Certificate`] with the first element, generator or pair for which the claim fails;
 /// [`ErrorKind::Overflow`].
 pub fn verify<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>) -> Result<Proof> {
+    check_forms(ring, claim)?;
     check_reduced(ring, claim.basis)?;
     check_cofactors(ring, claim)?;
     for (index, f) in claim.generators.iter().enumerate() {
@@ -50,11 +51,27 @@ fn refuse(text: String) -> Error {
     Error::new(ErrorKind::Certificate, text)
 }
 
+/// All are polynomials of `ring`, and none of the basis is zero.
+fn check_forms<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>) -> Result<()> {
+    let bad = |list: &[Polynomial<F::Element>]| list.iter().position(|f| !ring.is_well_formed(f));
+    let rows =
+        claim.cofactors.iter().enumerate().map(|(k, row)| (format!("cofactors of basis element {}:", k + 1), &row[..]));
+    let lists = [("generators:".to_owned(), claim.generators), ("basis:".to_owned(), claim.basis)];
+    for (name, list) in lists.into_iter().chain(rows) {
+        if let Some(index) = bad(list) {
+            return Err(refuse(format!("{name} element {} is no polynomial of this ring", index + 1)));
+        }
+    }
+    match claim.basis.iter().position(Polynomial::is_zero) {
+        Some(index) => Err(refuse(format!("basis element {} is zero", index + 1))),
+        None => Ok(()),
+    }
+}
+
 /// Monic, and no term divisible by the leading monomial of another element.
 fn check_reduced<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Element>]) -> Result<()> {
     for (index, g) in basis.iter().enumerate() {
-        let monic = g.leading().is_some_and(|term| ring.field().is_one(&term.coefficient));
-        if !monic || !ring.is_well_formed(g) {
+        if !g.leading().is_some_and(|term| ring.field().is_one(&term.coefficient)) {
             return Err(refuse(format!("basis element {} is not monic", index + 1)));
         }
         for (other, h) in basis.iter().enumerate().filter(|(other, _)| *other != index) {

@@ -21,6 +21,8 @@ use std::fmt::Debug;
 pub enum Style {
     /// Plain text that our parser reads back: `3/2*x^2`.
     Text,
+    /// Plain text in which numbers with a finite decimal expansion are decimals: `1.5*x^2`. The parser reads it back too.
+    Decimal,
     /// LaTeX mathematics: `\frac{3}{2}x^{2}`.
     Latex,
 }

@@ -1,6 +1,6 @@
 //! The field of rational numbers.
 
-use num_traits::{One, Zero};
+use num_traits::{One, Pow, Zero};
 
 use super::{BigInt, BigRational, Field, Ring, Style};
 
@@ -47,6 +47,7 @@ impl Ring for Rationals {
                 let sign = if a < &BigRational::zero() { "-" } else { "" };
                 format!("{sign}\\frac{{{}}}{{{}}}", a.numer().magnitude(), a.denom())
             }
+            Style::Decimal => decimal(a).unwrap_or_else(|| a.to_string()),
             _ => a.to_string(),
         }
     }
@@ -56,4 +57,15 @@ impl Field for Rationals {
     fn characteristic(&self) -> u64 {
         0
     }
+}
+
+/// The finite decimal expansion of `a`, if it has one of at most 30 places.
+fn decimal(a: &BigRational) -> Option<String> {
+    let ten = BigInt::from(10);
+    let places = (0u32..=30).find(|&k| (ten.clone().pow(k) % a.denom()).is_zero())?;
+    let scaled = (a * BigRational::from_integer(ten.pow(places))).to_integer();
+    let digits = format!("{:0width$}", scaled.magnitude(), width = places as usize + 1);
+    let (whole, fraction) = digits.split_at(digits.len() - places as usize);
+    let sign = if scaled.sign() == num_bigint::Sign::Minus { "-" } else { "" };
+    Some(if fraction.is_empty() { format!("{sign}{whole}") } else { format!("{sign}{whole}.{fraction}") })
 }

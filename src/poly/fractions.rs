@@ -57,17 +57,21 @@ impl<F: Field> Fractions<F> {
     /// not a square already (the relation ideal is prime); where it is, some inverses do not exist.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when `square` uses `variable` or one behind it, or is zero, or when relations do not come in
-    /// the order of their variables.
+    /// [`ErrorKind::BadValue`] when there is no such parameter, when `square` uses `variable` or one behind it or is zero
+    /// modulo the relations before, or when relations do not come in the order of their variables.
     pub fn with_square(mut self, variable: usize, square: &Polynomial<F::Element>) -> Result<Self> {
-        let behind = (variable..self.ring.variables().len()).any(|v| self.ring.degree_in(square, v) > 0);
+        let names = self.ring.variables();
+        let Some(name) = names.get(variable) else {
+            let text = format!("there is no parameter {variable}; there are {}, counted from 0", names.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        };
+        let behind = (variable..names.len()).any(|v| self.ring.degree_in(square, v) > 0);
         let ordered = self.relations.last().is_none_or(|relation| relation.variable < variable);
+        let square = self.reduce(square);
         if behind || !ordered || square.is_zero() {
-            let name = &self.ring.variables()[variable];
             let text = format!("the square of `{name}` must be a nonzero polynomial of the parameters before it");
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let square = self.reduce(square);
         self.relations.push(Relation { variable, square });
         Ok(self)
     }
@@ -207,7 +211,7 @@ impl<F: Field> Ring for Fractions<F> {
         }
         let denominator = self.ring.format(&a.denominator, style);
         match style {
-            Style::Text => format!("({numerator})/({denominator})"),
+            Style::Text | Style::Decimal => format!("({numerator})/({denominator})"),
             Style::Latex => format!("\\frac{{{numerator}}}{{{denominator}}}"),
         }
     }

@@ -152,6 +152,11 @@ impl Layout {
         (0..self.variables).map(|variable| self.exponent(m, variable)).collect()
     }
 
+    /// Whether `m` may come from this layout. Another lane width, or more variables, mostly shows.
+    pub fn is_packed(&self, m: &Monomial) -> bool {
+        m.words.len() == self.one().words.len() && self.pack(&self.exponents(m)).is_some_and(|packed| packed == *m)
+    }
+
     /// The total degree of `m`.
     pub fn degree(&self, m: &Monomial) -> u32 {
         (m.words[0] >> (64 - self.width.bits())) as u32

@@ -48,8 +48,8 @@ fn format_monomial<F: Field>(ring: &PolynomialRing<F>, monomial: &Monomial, styl
     let exponents = ring.layout().exponents(monomial);
     let present = ring.variables().iter().zip(exponents).filter(|(_, exponent)| *exponent > 0);
     let power = |(name, exponent): (&String, u32)| match (style, exponent) {
-        (Style::Text, 1) => name.clone(),
-        (Style::Text, _) => format!("{name}^{exponent}"),
+        (Style::Text | Style::Decimal, 1) => name.clone(),
+        (Style::Text | Style::Decimal, _) => format!("{name}^{exponent}"),
         (Style::Latex, 1) => super::latex_name(name),
         (Style::Latex, _) => format!("{}^{{{exponent}}}", super::latex_name(name)),
     };
@@ -58,7 +58,7 @@ fn format_monomial<F: Field>(ring: &PolynomialRing<F>, monomial: &Monomial, styl
 
 fn times(style: Style) -> &'static str {
     match style {
-        Style::Text => "*",
+        Style::Text | Style::Decimal => "*",
         Style::Latex => " ",
     }
 }
@@ -66,7 +66,7 @@ fn times(style: Style) -> &'static str {
 /// `text` in parentheses.
 pub(super) fn parenthesise(text: &str, style: Style) -> String {
     match style {
-        Style::Text => format!("({text})"),
+        Style::Text | Style::Decimal => format!("({text})"),
         Style::Latex => format!("\\left({text}\\right)"),
     }
 }

@@ -35,6 +35,11 @@ impl<E> Polynomial<E> {
         self.terms.first()
     }
 
+    /// Takes the leading term out; `None` for zero.
+    pub fn take_leading(&mut self) -> Option<Term<E>> {
+        (!self.terms.is_empty()).then(|| self.terms.remove(0))
+    }
+
     /// Whether this is the zero polynomial.
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
@@ -250,10 +255,25 @@ impl<F: Field> PolynomialRing<F> {
         self.layout.lcm(a, b).ok_or_else(|| self.overflow())
     }
 
-    /// Whether the invariants of a polynomial of this ring hold: descending, no zero coefficient.
+    /// Whether the invariants of a polynomial of this ring hold: monomials packed by its layout, descending, no zero
+    /// coefficient.
     pub fn is_well_formed(&self, f: &Polynomial<F::Element>) -> bool {
+        let packed = |term: &Term<F::Element>| self.layout.is_packed(&term.monomial);
+        f.terms.iter().all(packed) && self.is_sorted(f)
+    }
+
+    /// Descending, no zero coefficient.
+    fn is_sorted(&self, f: &Polynomial<F::Element>) -> bool {
         let descending = |pair: &[Term<F::Element>]| self.layout.compare(&pair[0].monomial, &pair[1].monomial).is_gt();
         f.terms.windows(2).all(descending) && f.terms.iter().all(|term| !self.field.is_zero(&term.coefficient))
+    }
+
+    /// The monomial with these exponents, one a variable.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
+    pub fn monomial(&self, exponents: &[u32]) -> Result<Monomial> {
+        self.layout.pack(exponents).ok_or_else(|| self.overflow())
     }
 
     pub(super) fn overflow(&self) -> Error {
@@ -293,7 +313,7 @@ impl<F: Field> Ring for PolynomialRing<F> {
         }
         terms.extend(left.chain(right).cloned());
         let sum = Polynomial { terms };
-        debug_assert!(self.is_well_formed(&sum));
+        debug_assert!(self.is_sorted(&sum));
         sum
     }
     fn neg(&self, f: &Self::Element) -> Self::Element {

@@ -158,7 +158,7 @@ impl<F: Field> UnivariateRing<F> {
         let power = match (n, style) {
             (0, _) => return self.field.format(c, style),
             (1, _) => self.variable.clone(),
-            (_, Style::Text) => format!("{}^{n}", self.variable),
+            (_, Style::Text | Style::Decimal) => format!("{}^{n}", self.variable),
             (_, Style::Latex) => format!("{}^{{{n}}}", self.variable),
         };
         if self.field.is_one(c) {
@@ -170,8 +170,8 @@ impl<F: Field> UnivariateRing<F> {
         let text = self.field.format(c, style);
         let is_sum = text.chars().skip(1).any(|character| matches!(character, '+' | '-'));
         match style {
-            Style::Text if is_sum => format!("({text})*{power}"),
-            Style::Text => format!("{text}*{power}"),
+            Style::Text | Style::Decimal if is_sum => format!("({text})*{power}"),
+            Style::Text | Style::Decimal => format!("{text}*{power}"),
             Style::Latex if is_sum => format!("\\left({text}\\right){power}"),
             Style::Latex => format!("{text}{power}"),
         }

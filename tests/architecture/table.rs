@@ -7,7 +7,7 @@ const ROOT: [&str; 3] = ["error", "watch", "files"];
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 17] = [
+const TABLE: [(&str, Uses); 18] = [
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
     ("poly", Uses::Only(&["number"])),
@@ -18,6 +18,7 @@ const TABLE: [(&str, Uses); 17] = [
     ("dynamics", Uses::Only(&["spatial", "kinematics"])),
     ("solver", Uses::Only(&["number", "poly", "roots"])),
     ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "kinematics", "solver"])),
+    ("witness", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "kinematics", "solver", "derive"])),
     ("codegen", Uses::Only(&["number", "solver"])),
     ("robots", Uses::Only(&["spatial", "kinematics", "solver"])),
     ("gait", Uses::Only(&["number", "poly", "roots", "spatial", "kinematics", "dynamics", "solver", "robots"])),
@@ -28,7 +29,7 @@ const TABLE: [(&str, Uses); 17] = [
 ];
 
 /// Pairs that hold whatever the table says: the screw solver and the derived solver are two witnesses.
-const NEVER: [(&str, &str); 7] = [
+const NEVER: [(&str, &str); 9] = [
     ("kinematics::screw", "poly"),
     ("kinematics::screw", "groebner"),
     ("kinematics::screw", "derive"),
@@ -36,6 +37,8 @@ const NEVER: [(&str, &str); 7] = [
     ("groebner", "kinematics::screw"),
     ("derive", "kinematics::screw"),
     ("solver", "kinematics::screw"),
+    ("sim", "witness"),
+    ("serve", "witness"),
 ];
 
 enum Uses {

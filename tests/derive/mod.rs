@@ -1,4 +1,9 @@
 //! Tests of `groebot::derive`.
 
+mod certificate;
+mod chains;
+mod renamed;
+mod seed;
+mod strata;
 mod system;
 mod system_toml;

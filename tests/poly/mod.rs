@@ -1,7 +1,13 @@
 //! Tests of `groebot::poly`.
 
 mod expression;
+mod factors;
+mod fractions;
 mod latex;
+mod monomial;
 mod parse;
+mod print;
+mod ring;
+mod sparse;
 mod trees;
 mod univariate;

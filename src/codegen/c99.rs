@@ -1,0 +1,106 @@
+//! C99: one file that is a translation unit, or the declarations alone.
+
+use super::outline::Outline;
+use super::printer::{INDENT, Language, spread};
+use crate::solver::Program;
+
+const SKELETON: &str = include_str!("skeleton/solver.c.txt");
+
+const RESERVED: &str = "auto break case char const continue default do double else enum extern float for goto if inline int \
+    long register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while \
+    bool true false asm typeof alignas alignof constexpr nullptr static_assert thread_local noreturn \
+    size_t ptrdiff_t wchar_t NULL offsetof NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL DECIMAL_DIG errno complex imaginary I \
+    float_t double_t math_errhandling signgam linux unix i386 \
+    sin cos sqrt fabs fmax fmin atan2 round copysign isfinite isnan free_joints assert";
+
+const RESERVED_PREFIXES: [&str; 7] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "M_", "__"];
+
+/// The solver of a valid program ([`Program::validate`]) as one C99 file: a translation unit to be linked with `-lm`.
+///
+/// With `<NAME>_DECLARATIONS_ONLY` defined it is its own header. It allocates nothing and has no state.
+pub fn emit(program: &Program) -> String {
+    super::fill(SKELETON, &Outline::new(program, &C99))
+}
+
+struct C99;
+
+impl Language for C99 {
+    fn is_reserved(&self, word: &str) -> bool {
+        RESERVED.split_whitespace().any(|reserved| reserved == word)
+            || RESERVED_PREFIXES.iter().any(|prefix| word.starts_with(prefix))
+    }
+
+    fn field(&self, name: &str) -> String {
+        format!("p->{name}")
+    }
+
+    fn call(&self, function: &str, argument: &str) -> String {
+        let function = if function == "abs" { "fabs" } else { function };
+        format!("{function}({argument})")
+    }
+
+    fn greater(&self, a: &str, b: &str) -> String {
+        format!("fmax({a}, {b})")
+    }
+
+    fn declare(&self, name: &str, value: &str) -> String {
+        format!("const double {name} = {value};")
+    }
+
+    /// All but plain ASCII as octal escapes, `?` too: `??` would begin a trigraph.
+    fn quote(&self, text: &str) -> String {
+        let body: String = text
+            .bytes()
+            .map(|byte| match byte {
+                b'"' | b'\\' | b'?' | 0..=31 | 127.. => format!("\\{byte:03o}"),
+                _ => char::from(byte).to_string(),
+            })
+            .collect();
+        format!("\"{body}\"")
+    }
+
+    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>]) -> Vec<String> {
+        let mut lines = Vec::new();
+        for (index, list) in polynomials.iter().enumerate() {
+            let head = format!("const double choice{depth}_{index}[{}] = {{", list.len());
+            lines.extend(spread(&head, list, "};"));
+        }
+        let mut head = format!("const Roots roots{depth} =");
+        for (index, list) in polynomials.iter().enumerate() {
+            let arguments = format!("(choice{depth}_{index}, {})", list.len());
+            if index + 1 < polynomials.len() {
+                lines.push(format!("{head} leads{arguments} ? real_roots{arguments}"));
+                head = format!("{INDENT}:");
+            } else {
+                lines.push(format!("{head} real_roots{arguments};"));
+            }
+        }
+        lines
+    }
+
+    fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String> {
+        let mut lines = vec![format!("for (size_t i{depth} = 0; i{depth} < roots{depth}.count; i{depth}++) {{")];
+        let value = format!("roots{depth}.values[i{depth}]");
+        lines.extend(name.map(|name| format!("{INDENT}{}", self.declare(name, &value))));
+        lines
+    }
+
+    fn leave_unless(&self, condition: &str) -> Vec<String> {
+        let negation = if condition.contains(" && ") { format!("!({condition})") } else { format!("!{condition}") };
+        vec![format!("if ({negation}) {{"), format!("{INDENT}return;"), "}".to_owned()]
+    }
+
+    fn finish(&self, branch: &str, q: &[String], free: &[String], extra: &[String]) -> Vec<String> {
+        let mut lines = spread("const double q[JOINTS] = {", q, "};");
+        if !free.is_empty() {
+            lines.extend(spread("const bool free_joints[JOINTS] = {", free, "};"));
+        }
+        if !extra.is_empty() {
+            lines.extend(spread("const double extra[EXTRAS] = {", extra, "};"));
+        }
+        let free = if free.is_empty() { "NONE_FREE" } else { "free_joints" };
+        let extra = if extra.is_empty() { "" } else { ", extra" };
+        lines.push(format!("finish(p, {branch}, q, {free}{extra}, answers);"));
+        lines
+    }
+}

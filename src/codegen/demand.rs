@@ -1,0 +1,120 @@
+//! Which values straight-line code is asked for: only those are printed.
+
+use crate::solver::{Chart, Instruction, Operand, Program, Rule, Step};
+
+/// How often each value is read by what is printed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Demand {
+    /// Reads by register.
+    pub registers: Vec<usize>,
+    /// Reads by unknown.
+    pub unknowns: Vec<usize>,
+    /// Reads by parameter.
+    pub parameters: Vec<usize>,
+    /// Reads of the magnitude.
+    pub magnitude: usize,
+}
+
+fn count(counts: &mut Vec<usize>, index: usize) {
+    if counts.len() <= index {
+        counts.resize(index + 1, 0);
+    }
+    counts[index] += 1;
+}
+
+fn at(counts: &[usize], index: usize) -> usize {
+    counts.get(index).copied().unwrap_or(0)
+}
+
+impl Demand {
+    /// What the chart's guards, its root steps and the unknowns in `wanted` ask for.
+    pub fn of_chart(chart: &Chart, wanted: &[usize]) -> Self {
+        let mut demand = Demand::default();
+        if !chart.open {
+            wanted.iter().for_each(|&unknown| demand.read(Operand::Unknown(unknown)));
+            chart.steps.iter().rev().for_each(|step| demand.step(step));
+        }
+        for guard in &chart.guards {
+            demand.read(guard.value);
+            demand.read(guard.scale);
+        }
+        demand.code(&chart.guard_code);
+        demand
+    }
+
+    /// What `results` ask of `code`.
+    pub fn of_code<'a>(code: &[Instruction], results: impl IntoIterator<Item = &'a Operand>) -> Self {
+        let mut demand = Demand::default();
+        results.into_iter().for_each(|&operand| demand.read(operand));
+        demand.code(code);
+        demand
+    }
+
+    fn step(&mut self, step: &Step) {
+        match step {
+            Step::Compute(code) => self.code(code),
+            Step::Set { unknown, value } if self.wants_unknown(*unknown) => self.read(*value),
+            Step::Set { .. } => {}
+            Step::Roots { polynomials, .. } => polynomials.iter().flatten().for_each(|&operand| self.read(operand)),
+        }
+    }
+
+    fn code(&mut self, code: &[Instruction]) {
+        for instruction in code.iter().rev() {
+            if at(&self.registers, instruction.target) > 0 {
+                let (left, right) = instruction.operation.operands();
+                self.read(left);
+                right.into_iter().for_each(|right| self.read(right));
+            }
+        }
+    }
+
+    fn read(&mut self, operand: Operand) {
+        match operand {
+            Operand::Constant(_) => {}
+            Operand::Parameter(index) => count(&mut self.parameters, index),
+            Operand::Unknown(index) => count(&mut self.unknowns, index),
+            Operand::Register(index) => count(&mut self.registers, index),
+            Operand::Magnitude => self.magnitude += 1,
+        }
+    }
+
+    /// Reads of a register.
+    pub fn register(&self, index: usize) -> usize {
+        at(&self.registers, index)
+    }
+
+    /// Whether the unknown is read.
+    pub fn wants_unknown(&self, index: usize) -> bool {
+        at(&self.unknowns, index) > 0
+    }
+}
+
+/// Which parameters the printed code asks for.
+#[derive(Clone, Debug)]
+pub(super) struct ParameterDemand {
+    /// By parameter: whether charts or checks read it.
+    pub fields: Vec<bool>,
+    /// By parameter: whether its value is computed.
+    pub computed: Vec<bool>,
+    /// Whether the magnitude is read.
+    pub magnitude: bool,
+}
+
+impl ParameterDemand {
+    /// What `readers`, the code behind the parameters, ask for, and what those parameters need in turn.
+    pub fn new(program: &Program, readers: &[&Demand]) -> Self {
+        let count = program.parameters.len();
+        let fields: Vec<bool> =
+            (0..count).map(|i| readers.iter().any(|reader| at(&reader.parameters, i) > 0)).collect();
+        let magnitude = readers.iter().any(|reader| reader.magnitude > 0);
+        let mut computed: Vec<bool> = fields.iter().map(|field| *field || magnitude).collect();
+        for (index, parameter) in program.parameters.iter().enumerate().rev() {
+            if let (true, Rule::Root { code, value }) = (computed[index], &parameter.rule) {
+                let demand = Demand::of_code(code, [value]);
+                (0..count).for_each(|i| computed[i] |= at(&demand.parameters, i) > 0);
+            }
+        }
+        ParameterDemand { fields, computed, magnitude }
+    }
+}

@@ -1,0 +1,26 @@
+//! Printing a [`Program`](crate::solver::Program) as a stand-alone solver: [`rust::emit`] and [`c99::emit`].
+//!
+//! The printed solver is the algorithm of [`Program::solve`](crate::solver::Program::solve) step by step, without
+//! allocation, and holds only what its program needs. A language is an expression printer ([`printer::Language`]) plus
+//! the skeleton of a file (`skeleton/`), filled from one [`outline::Outline`].
+
+pub mod c99;
+pub mod rust;
+
+mod body;
+mod demand;
+mod names;
+mod outline;
+mod printer;
+
+use serde::Serialize;
+
+/// The skeleton with the outline's values; both come with the crate and fit one another.
+fn fill(skeleton: &str, outline: &impl Serialize) -> String {
+    let mut environment = minijinja::Environment::new();
+    environment.set_trim_blocks(true);
+    environment.set_lstrip_blocks(true);
+    environment.set_keep_trailing_newline(true);
+    environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
+    environment.render_str(skeleton, outline).expect("the outline has every value that the skeleton names")
+}

@@ -1,0 +1,69 @@
+//! Names of a program as identifiers of a language: kept where they can be, else changed as little as possible.
+
+use std::collections::HashSet;
+
+use super::printer::Language;
+use crate::solver::Program;
+
+/// Names that the skeletons and the printed functions use themselves, beside `r0`, `i0`, `roots0` and `choice0`.
+const TAKEN: &str = "p q target answers extra magnitude result angle real_roots leads is_near is_away finish \
+    INPUTS JOINTS CAPACITY EQUATIONS EXTRAS DEGREE ACCEPT MERGE NEAR TINY PIVOT POLISH_STEPS TANGENT ROUNDING \
+    NEGLIGIBLE MAX_STEPS TAU PI NONE_FREE INPUT_NAMES JOINT_NAMES \
+    Parameters Solution Answers Error Fit Equations Jacobian Roots Polynomial Math";
+
+/// Letters that a number follows in the printed functions.
+const NUMBERED: [&str; 4] = ["r", "i", "roots", "choice"];
+
+/// The identifiers of one program in one language.
+pub(super) struct Names {
+    /// By parameter.
+    pub parameters: Vec<String>,
+    /// By unknown; apart from those of the parameters.
+    pub unknowns: Vec<String>,
+}
+
+impl Names {
+    pub fn new(program: &Program, language: &dyn Language) -> Self {
+        let mut used = HashSet::new();
+        let mut name = |text: &str| unique(text, language, &mut used);
+        Names {
+            parameters: program.parameters.iter().map(|parameter| name(&parameter.name)).collect(),
+            unknowns: program.unknowns.iter().map(|unknown| name(unknown)).collect(),
+        }
+    }
+}
+
+fn unique(text: &str, language: &dyn Language, used: &mut HashSet<String>) -> String {
+    let mut name = word(text);
+    while is_taken(&name, language) || used.contains(&name) {
+        name.push('_');
+        if is_taken(&name, language) {
+            name.insert(0, 'x');
+        }
+    }
+    used.insert(name.clone());
+    name
+}
+
+/// The text as a word: letters, digits and `_`, with a letter first.
+pub(super) fn word(text: &str) -> String {
+    let body: String = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    if body.starts_with(|c: char| c.is_ascii_alphabetic()) { body } else { format!("x{body}") }
+}
+
+fn is_taken(name: &str, language: &dyn Language) -> bool {
+    let is_number = |rest: &str| {
+        let (first, last) = (rest.bytes().next(), rest.bytes().last());
+        first.zip(last).is_some_and(|(first, last)| first.is_ascii_digit() && last.is_ascii_digit())
+    };
+    TAKEN.split_whitespace().any(|word| word == name)
+        || NUMBERED.iter().any(|letters| name.strip_prefix(letters).is_some_and(is_number))
+        || language.is_reserved(name)
+}
+
+/// The text fit for a comment of any language: printable ASCII on one line that neither opens nor ends anything.
+pub(super) fn remark(text: &str) -> String {
+    let printable = |c: char| if c == ' ' || c.is_ascii_graphic() { c } else { '?' };
+    let line: String = text.chars().map(printable).collect();
+    line.replace('\\', "|").replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
+}

@@ -1,0 +1,299 @@
+//! What a program puts into the skeleton of a file, in one language.
+
+use serde::Serialize;
+
+use super::body::{Scene, slots};
+use super::demand::{Demand, ParameterDemand};
+use super::names::{Names, remark, word};
+use super::printer::{Language, number};
+use crate::solver::{ACCEPT, Chart, JointValue, MERGE, NEAR, Operand, PIVOT, POLISH_STEPS, Program, Step, TINY, Unit};
+
+/// Everything that the skeletons name.
+#[derive(Serialize)]
+pub(super) struct Outline {
+    name: String,
+    upper: String,
+    version: String,
+    inputs: Vec<Quantity>,
+    joints: Vec<Quantity>,
+    extra: Vec<String>,
+    capacity: usize,
+    equations: usize,
+    /// The highest degree of a root step; 0 without one.
+    degree: usize,
+    scale: String,
+    tolerances: Tolerances,
+    parameters: Parameters,
+    charts: Vec<ChartText>,
+    checks: Code,
+    sizes: Vec<String>,
+    jacobian: Code,
+    jacobian_rows: Vec<Vec<String>>,
+    preference: Option<PreferenceText>,
+    needs: Needs,
+}
+
+/// An input or a joint.
+#[derive(Serialize)]
+struct Quantity {
+    name: String,
+    quoted: String,
+    unit: &'static str,
+    is_angle: bool,
+}
+
+#[derive(Serialize)]
+struct Tolerances {
+    accept: String,
+    merge: String,
+    near: String,
+    tiny: String,
+    pivot: String,
+    polish_steps: usize,
+}
+
+#[derive(Serialize)]
+struct Parameters {
+    lines: Vec<String>,
+    fields: Vec<String>,
+    /// The expression of the magnitude, if something reads it.
+    magnitude: Option<String>,
+    reads_target: bool,
+}
+
+#[derive(Serialize)]
+struct ChartText {
+    label: String,
+    quoted: String,
+    guards: Vec<String>,
+    free: Vec<String>,
+    open: bool,
+    lines: Vec<String>,
+    /// An open chart's.
+    condition: String,
+    reads_p: bool,
+}
+
+/// Lines of code, values, and what they read.
+#[derive(Serialize)]
+struct Code {
+    lines: Vec<String>,
+    values: Vec<String>,
+    reads_p: bool,
+    reads_q: bool,
+    reads_extra: bool,
+}
+
+#[derive(Serialize)]
+struct PreferenceText {
+    value: String,
+    reads_q: bool,
+    greatest: bool,
+}
+
+/// Which functions the file needs.
+#[derive(Serialize)]
+struct Needs {
+    answers: bool,
+    polish: bool,
+    near: bool,
+    away: bool,
+    pivot: bool,
+    angles: bool,
+    lengths: bool,
+    sort: bool,
+}
+
+impl Outline {
+    /// The outline of a valid program.
+    pub fn new(program: &Program, language: &dyn Language) -> Self {
+        let scene = Scene { program, language, names: Names::new(program, language), extra: extra_unknowns(program) };
+        let needs = Needs::new(program);
+        let (checks, sizes) = equations(&scene, &needs);
+        let jacobian: Vec<&[Operand]> = program.checks.jacobian.iter().map(Vec::as_slice).collect();
+        let (jacobian_lines, jacobian_rows) = scene.checks(&jacobian);
+        let name = word(&program.name);
+        Outline {
+            upper: name.to_ascii_uppercase(),
+            name,
+            version: remark(&program.version),
+            inputs: program.inputs.iter().map(|i| Quantity::new(language, &i.name, i.unit, false)).collect(),
+            joints: program
+                .joints
+                .iter()
+                .map(|j| Quantity::new(language, &j.name, j.unit, is_angle(j.value)))
+                .collect(),
+            extra: scene.extra.iter().map(|&unknown| remark(&program.unknowns[unknown])).collect(),
+            capacity: program.capacity,
+            equations: checks.values.len(),
+            degree: root_steps(program).map(|(step, _)| slots(step)).max().unwrap_or(0),
+            scale: number(program.scale),
+            tolerances: Tolerances::new(),
+            parameters: Parameters::new(&scene, &needs),
+            charts: program.charts.iter().map(|chart| ChartText::new(&scene, chart)).collect(),
+            checks,
+            sizes,
+            jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
+            jacobian_rows,
+            preference: PreferenceText::new(&scene).filter(|_| needs.answers),
+            needs,
+        }
+    }
+}
+
+/// The equations' values with their code, and their sizes if there are answers to measure.
+fn equations(scene: &Scene<'_>, needs: &Needs) -> (Code, Vec<String>) {
+    let checks = &scene.program.checks;
+    let sizes: &[Operand] = if needs.answers { &checks.scales } else { &[] };
+    let (lines, mut rows) = scene.checks(&[&checks.residuals, sizes]);
+    let sizes = rows.pop().unwrap_or_default();
+    let values = rows.concat();
+    let read = [values.as_slice(), sizes.as_slice()].concat();
+    (Code { values, ..Code::new(scene.language, lines, read) }, sizes)
+}
+
+impl Quantity {
+    fn new(language: &dyn Language, name: &str, unit: Unit, is_angle: bool) -> Self {
+        Quantity { name: remark(name), quoted: language.quote(name), unit: unit_text(unit), is_angle }
+    }
+}
+
+impl Tolerances {
+    fn new() -> Self {
+        Tolerances {
+            accept: number(ACCEPT),
+            merge: number(MERGE),
+            near: number(NEAR),
+            tiny: number(TINY),
+            pivot: number(PIVOT),
+            polish_steps: POLISH_STEPS,
+        }
+    }
+}
+
+impl Parameters {
+    fn new(scene: &Scene<'_>, needs: &Needs) -> Self {
+        let program = scene.program;
+        let wanted = scene.wanted();
+        let mut readers: Vec<Demand> = program
+            .charts
+            .iter()
+            .map(|chart| Demand::of_chart(chart, if chart.open { &[] } else { &wanted }))
+            .collect();
+        let checks = &program.checks;
+        readers.push(Demand::of_code(&checks.code, &checks.residuals));
+        if needs.answers {
+            readers.push(Demand::of_code(&checks.code, &checks.scales));
+        }
+        if needs.polish {
+            readers.push(Demand::of_code(&checks.code, checks.jacobian.iter().flatten()));
+        }
+        let demand = ParameterDemand::new(program, &readers.iter().collect::<Vec<_>>());
+        let lines = scene.parameters(&demand);
+        let named = scene.names.parameters.iter().zip(&demand.fields);
+        Parameters {
+            reads_target: lines.iter().any(|line| line.contains("target[")),
+            lines,
+            fields: named.filter(|(_, read)| **read).map(|(name, _)| name.clone()).collect(),
+            magnitude: demand.magnitude.then(|| scene.magnitude()),
+        }
+    }
+}
+
+impl ChartText {
+    fn new(scene: &Scene<'_>, chart: &Chart) -> Self {
+        let (lines, condition) = if chart.open { scene.open_chart(chart) } else { (scene.chart(chart), String::new()) };
+        let p = scene.language.field("");
+        let free = chart.free.iter().map(|&joint| remark(&scene.program.joints[joint].name));
+        ChartText {
+            label: remark(&chart.label),
+            quoted: scene.language.quote(&chart.label),
+            guards: chart.guards.iter().map(|guard| guard_text(&guard.text, guard.near)).collect(),
+            free: free.collect(),
+            open: chart.open,
+            reads_p: !chart.open || lines.iter().chain([&condition]).any(|line| line.contains(&p)),
+            lines,
+            condition,
+        }
+    }
+}
+
+impl Code {
+    fn new(language: &dyn Language, lines: Vec<String>, values: Vec<String>) -> Self {
+        let reads = |what: &str| lines.iter().chain(&values).any(|line| line.contains(what));
+        Code { reads_p: reads(&language.field("")), reads_q: reads("q["), reads_extra: reads("extra["), lines, values }
+    }
+}
+
+impl PreferenceText {
+    fn new(scene: &Scene<'_>) -> Option<Self> {
+        let preference = scene.program.preference?;
+        let value = scene.unknown_at(preference.unknown);
+        Some(PreferenceText {
+            reads_q: value.is_some(),
+            value: value.unwrap_or_else(|| number(0.0)),
+            greatest: preference.greatest,
+        })
+    }
+}
+
+impl Needs {
+    fn new(program: &Program) -> Self {
+        let guards = || program.charts.iter().flat_map(|chart| &chart.guards);
+        let closed = || program.charts.iter().filter(|chart| !chart.open);
+        let branches: Vec<(usize, usize)> = closed()
+            .map(|chart| (chart.first_branch, chart.first_branch.saturating_add(Program::branches(chart))))
+            .collect();
+        let angles = program.joints.iter().filter(|joint| is_angle(joint.value)).count();
+        Needs {
+            answers: closed().next().is_some(),
+            polish: closed().any(|chart| chart.free.is_empty()),
+            near: guards().any(|guard| guard.near),
+            away: guards().any(|guard| !guard.near),
+            pivot: root_steps(program).any(|(_, polynomials)| polynomials > 1),
+            angles: angles > 0,
+            lengths: angles < program.joints.len(),
+            sort: branches.windows(2).any(|pair| pair[0].1 > pair[1].0),
+        }
+    }
+}
+
+/// The root steps that are printed, each with its number of polynomials.
+fn root_steps(program: &Program) -> impl Iterator<Item = (&Step, usize)> {
+    let steps = program.charts.iter().filter(|chart| !chart.open).flat_map(|chart| &chart.steps);
+    steps.filter_map(|step| match step {
+        Step::Roots { polynomials, .. } => Some((step, polynomials.len())),
+        _ => None,
+    })
+}
+
+/// Unknowns that the checks read and that follow from no joint.
+fn extra_unknowns(program: &Program) -> Vec<usize> {
+    let checks = &program.checks;
+    let results = checks.residuals.iter().chain(&checks.scales).chain(checks.jacobian.iter().flatten());
+    let demand = Demand::of_code(&checks.code, results);
+    let is_joints = |unknown: usize| {
+        program.joints.iter().any(|joint| match joint.value {
+            JointValue::Angle { cosine, sine } => cosine == unknown || sine == unknown,
+            JointValue::Plain(plain) => plain == unknown,
+        })
+    };
+    (0..program.unknowns.len()).filter(|&unknown| demand.wants_unknown(unknown) && !is_joints(unknown)).collect()
+}
+
+fn is_angle(value: JointValue) -> bool {
+    matches!(value, JointValue::Angle { .. })
+}
+
+fn unit_text(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Metre => "m",
+        Unit::Millimetre => "mm",
+        Unit::Radian => "rad",
+        Unit::One => "1",
+    }
+}
+
+fn guard_text(factor: &str, near: bool) -> String {
+    format!("{} is {}", remark(factor), if near { "near zero" } else { "not zero" })
+}

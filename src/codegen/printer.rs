@@ -1,0 +1,193 @@
+//! The expression printer: straight-line code as declarations and expressions of a language.
+//!
+//! A register that is read once becomes part of the expression that reads it. No operation is moved, merged or
+//! reordered, so each printed expression rounds exactly as the instructions do.
+
+use std::collections::HashMap;
+
+use super::demand::Demand;
+use super::names::Names;
+use crate::solver::{Instruction, Operand, Operation};
+
+/// Longest expression that becomes part of another one, in characters.
+const INLINE: usize = 44;
+
+/// Longest line of listed values, in characters, without indentation.
+const LINE: usize = 96;
+
+/// One level of indentation.
+pub(super) const INDENT: &str = "    ";
+
+/// What differs between the languages inside functions.
+pub(super) trait Language {
+    /// Whether the language or its library keeps this word for itself.
+    fn is_reserved(&self, word: &str) -> bool;
+    /// A field of the parameters `p`.
+    fn field(&self, name: &str) -> String;
+    /// `function` (`abs`, `sqrt`, `cos` or `sin`) of an expression; the argument of all but `abs` is typed.
+    fn call(&self, function: &str, argument: &str) -> String;
+    /// The greater of two typed expressions.
+    fn greater(&self, a: &str, b: &str) -> String;
+    /// A new immutable number.
+    fn declare(&self, name: &str, value: &str) -> String;
+    /// A piece of text in quotation marks.
+    fn quote(&self, text: &str) -> String;
+    /// Lines that name the roots `roots{depth}` of the first polynomial (each a list of coefficients) that leads.
+    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>]) -> Vec<String>;
+    /// Lines that open the loop over `roots{depth}` with index `i{depth}`, and over its values if they have a name.
+    fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String>;
+    /// Leaving a chart unless a condition holds.
+    fn leave_unless(&self, condition: &str) -> Vec<String>;
+    /// Handing over an answer: its branch, joint values, free joints, and values of the unknowns that are no joint's.
+    fn finish(&self, branch: &str, q: &[String], free: &[String], extra: &[String]) -> Vec<String>;
+}
+
+/// How tightly a text binds: what it needs parentheses for.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+/// A printed expression.
+#[derive(Clone)]
+struct Expression {
+    text: String,
+    binding: Binding,
+}
+
+impl Expression {
+    fn atom(text: impl Into<String>) -> Self {
+        Expression { text: text.into(), binding: Binding::Atom }
+    }
+
+    /// The text, in parentheses if it binds less than `least`.
+    fn within(self, least: Binding) -> String {
+        if self.binding < least { format!("({})", self.text) } else { self.text }
+    }
+}
+
+/// `head`, the items and `tail` on one line, or, where that would be long, each item on its own.
+pub(super) fn spread(head: &str, items: &[String], tail: &str) -> Vec<String> {
+    let line = format!("{head}{}{tail}", items.join(", "));
+    if line.len() <= LINE {
+        return vec![line];
+    }
+    let items = items.iter().map(|item| format!("{INDENT}{item},"));
+    [head.to_owned()].into_iter().chain(items).chain([tail.to_owned()]).collect()
+}
+
+/// The shortest decimal that reads back as the same double.
+pub(super) fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+/// Prints code of one function.
+pub(super) struct Printer<'a> {
+    language: &'a dyn Language,
+    names: &'a Names,
+    demand: Demand,
+    /// Parameters are local variables, not fields.
+    local_parameters: bool,
+    /// Number of register 0.
+    first_register: usize,
+    /// Registers that are read once, until they are.
+    waiting: HashMap<usize, Expression>,
+}
+
+impl<'a> Printer<'a> {
+    pub fn new(language: &'a dyn Language, names: &'a Names, demand: Demand) -> Self {
+        let waiting = HashMap::new();
+        Printer { language, names, demand, local_parameters: false, first_register: 0, waiting }
+    }
+
+    /// For code in which parameters are local variables and the registers count from `first_register`.
+    pub fn among_parameters(mut self, first_register: usize) -> Self {
+        (self.local_parameters, self.first_register) = (true, first_register);
+        self
+    }
+
+    pub fn language(&self) -> &'a dyn Language {
+        self.language
+    }
+
+    pub fn names(&self) -> &'a Names {
+        self.names
+    }
+
+    pub fn demand(&self) -> &Demand {
+        &self.demand
+    }
+
+    /// Declarations of the registers that are read, but for those that become part of an expression.
+    pub fn code(&mut self, code: &[Instruction]) -> Vec<String> {
+        let mut lines = Vec::new();
+        for instruction in code {
+            let reads = self.demand.register(instruction.target);
+            if reads == 0 {
+                continue;
+            }
+            let expression = self.operation(instruction.operation);
+            if reads == 1 && expression.text.len() <= INLINE {
+                self.waiting.insert(instruction.target, expression);
+            } else {
+                lines.push(self.language.declare(&self.register(instruction.target), &expression.text));
+            }
+        }
+        lines
+    }
+
+    /// Declarations of all registers that wait to become part of an expression.
+    pub fn settle(&mut self) -> Vec<String> {
+        let mut waiting: Vec<(usize, Expression)> = self.waiting.drain().collect();
+        waiting.sort_by_key(|(index, _)| *index);
+        waiting.iter().map(|(index, value)| self.language.declare(&self.register(*index), &value.text)).collect()
+    }
+
+    /// An operand that stands alone, as an expression.
+    pub fn operand(&mut self, operand: Operand) -> String {
+        self.expression(operand).text
+    }
+
+    fn register(&self, index: usize) -> String {
+        format!("r{}", self.first_register + index)
+    }
+
+    fn expression(&mut self, operand: Operand) -> Expression {
+        match operand {
+            Operand::Constant(value) if value.is_sign_negative() => {
+                Expression { text: number(value), binding: Binding::Sign }
+            }
+            Operand::Constant(value) => Expression::atom(number(value)),
+            Operand::Parameter(index) if self.local_parameters => Expression::atom(&self.names.parameters[index]),
+            Operand::Parameter(index) => Expression::atom(self.language.field(&self.names.parameters[index])),
+            Operand::Unknown(index) => Expression::atom(&self.names.unknowns[index]),
+            Operand::Register(index) => {
+                self.waiting.remove(&index).unwrap_or_else(|| Expression::atom(self.register(index)))
+            }
+            Operand::Magnitude => Expression::atom(self.language.field("magnitude")),
+        }
+    }
+
+    fn operation(&mut self, operation: Operation) -> Expression {
+        let (sign, a, b) = match operation {
+            Operation::Add(a, b) => ('+', a, b),
+            Operation::Sub(a, b) => ('-', a, b),
+            Operation::Mul(a, b) => ('*', a, b),
+            Operation::Div(a, b) => ('/', a, b),
+            Operation::Abs(a) => {
+                let argument = self.operand(a);
+                return Expression::atom(self.language.call("abs", &argument));
+            }
+        };
+        let (binding, right) = match sign {
+            '+' | '-' => (Binding::Sum, Binding::Product),
+            _ => (Binding::Product, Binding::Atom),
+        };
+        let (a, b) = (self.expression(a).within(binding), self.expression(b));
+        let right = if b.binding == Binding::Sign { Binding::Atom } else { right };
+        Expression { text: format!("{a} {sign} {}", b.within(right)), binding }
+    }
+}

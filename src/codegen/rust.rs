@@ -1,0 +1,87 @@
+//! Rust: a file on `core` alone.
+
+use super::outline::Outline;
+use super::printer::{INDENT, Language, spread};
+use crate::solver::Program;
+
+const SKELETON: &str = include_str!("skeleton/solver.rs.txt");
+
+const RESERVED: &str = "as async await break const continue crate dyn else enum extern false fn for gen if impl in let \
+    loop match mod move mut pub ref return self Self static struct super trait true type unsafe use where while abstract \
+    become box do final macro override priv try typeof unsized virtual yield union None Some Ok Err f64 usize bool str \
+    core std libm";
+
+/// The solver of a valid program ([`Program::validate`]) as one Rust file (edition 2021 or 2024, Rust 1.85 or later).
+///
+/// It is a module or the root of a crate, allocates nothing and needs no dependency. Its head says how it is used.
+pub fn emit(program: &Program) -> String {
+    super::fill(SKELETON, &Outline::new(program, &Rust))
+}
+
+struct Rust;
+
+impl Language for Rust {
+    fn is_reserved(&self, word: &str) -> bool {
+        RESERVED.split_whitespace().any(|reserved| reserved == word)
+    }
+
+    fn field(&self, name: &str) -> String {
+        format!("p.{name}")
+    }
+
+    fn call(&self, function: &str, argument: &str) -> String {
+        match function {
+            "abs" => format!("f64::abs({argument})"),
+            _ => format!("{argument}.{function}()"),
+        }
+    }
+
+    fn greater(&self, a: &str, b: &str) -> String {
+        format!("f64::max({a}, {b})")
+    }
+
+    fn declare(&self, name: &str, value: &str) -> String {
+        format!("let {name} = {value};")
+    }
+
+    fn quote(&self, text: &str) -> String {
+        format!("\"{}\"", text.escape_default())
+    }
+
+    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>]) -> Vec<String> {
+        if let [only] = polynomials {
+            return spread(&format!("let roots{depth} = real_roots(&["), only, "]);");
+        }
+        let mut lines = Vec::new();
+        for (index, list) in polynomials.iter().enumerate() {
+            let head = format!("let choice{depth}_{index}: [f64; {}] = [", list.len());
+            lines.extend(spread(&head, list, "];"));
+        }
+        let last = polynomials.len() - 1;
+        for index in 0..last {
+            let open = if index == 0 { format!("let roots{depth} = if") } else { "} else if".to_owned() };
+            lines.push(format!("{open} leads(&choice{depth}_{index}) {{"));
+            lines.push(format!("{INDENT}real_roots(&choice{depth}_{index})"));
+        }
+        lines.extend(["} else {".to_owned(), format!("{INDENT}real_roots(&choice{depth}_{last})"), "};".to_owned()]);
+        lines
+    }
+
+    fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String> {
+        let value = name.map_or_else(|| "_".to_owned(), |name| format!("&{name}"));
+        vec![format!("for (i{depth}, {value}) in roots{depth}.as_slice().iter().enumerate() {{")]
+    }
+
+    fn leave_unless(&self, condition: &str) -> Vec<String> {
+        let negation = if condition.contains(" && ") { format!("!({condition})") } else { format!("!{condition}") };
+        vec![format!("if {negation} {{"), format!("{INDENT}return;"), "}".to_owned()]
+    }
+
+    fn finish(&self, branch: &str, q: &[String], free: &[String], extra: &[String]) -> Vec<String> {
+        let mut lines = spread("let q = [", q, "];");
+        let free = if free.is_empty() { "NONE_FREE".to_owned() } else { format!("[{}]", free.join(", ")) };
+        let extra = if extra.is_empty() { String::new() } else { format!(", &[{}]", extra.join(", ")) };
+        lines.push(format!("answers.finish(p, {branch}, q, {free}{extra});"));
+        lines
+    }
+}

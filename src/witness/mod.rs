@@ -1,0 +1,265 @@
+//! Numeric checks of a derived program by witnesses that share nothing with it: the original equations in floating point, joint
+//! values that made the target, forward kinematics, the exact number of real roots (Sturm), the screw solver, a numeric oracle.
+
+mod exact;
+mod model;
+mod newton;
+mod random;
+mod report;
+mod screws;
+mod targets;
+
+pub use report::{Fault, Kind, Report, Row, Summary, Verdict};
+
+use crate::derive::Source;
+use crate::kinematics::oracle::Oracle;
+use crate::solver::{Program, Solution};
+use crate::{Error, ErrorKind, Result, Watch};
+use model::{EXACT, Model, ORDINARY, RESIDUAL};
+use screws::Screws;
+use targets::{Target, Targets};
+
+/// Two answers nearer than this (rad, or a share of the typical length) are the same answer twice.
+const DUPLICATE: f64 = 5e-8;
+/// A joint may be called free where the scaled Jacobian's smallest singular value is at most this.
+const SINGULAR: f64 = 1e-5;
+/// Answers are compared with the exact number of solutions where the smallest singular value exceeds this: nearer to a singular
+/// configuration than about its square, rounding decides whether two solutions are one or none.
+const TIE: f64 = 1e-4;
+/// The oracle's answers are this accurate where they are ordinary (rad, or a share of the typical length).
+const ORACLE: f64 = 1e-6;
+/// Starting points of the oracle: at first, and again before it objects.
+const SEEDS: [usize; 2] = [60, 600];
+
+/// How much is checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Number of targets.
+    pub targets: usize,
+    /// Number of rows, from the first, at which the numeric oracle is asked.
+    pub oracle: usize,
+    /// Number of rows, from the first, at which real solutions are counted exactly.
+    pub exact: usize,
+    /// Where the random numbers start: the same seed gives the same report.
+    pub seed: u64,
+}
+
+impl Default for Options {
+    /// 500 targets, the oracle at 20, exact counts at 50.
+    fn default() -> Self {
+        Options { targets: 500, oracle: 20, exact: 50, seed: 1 }
+    }
+}
+
+/// The checks of one program against what it was derived from.
+pub struct Check<'a> {
+    source: &'a Source,
+    program: &'a Program,
+    model: &'a Model<'a>,
+    screws: Option<Screws>,
+    options: Options,
+    watch: &'a Watch,
+}
+
+impl<'a> Check<'a> {
+    /// Checks `program` at targets of all kinds against `source`, which it was derived from.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for an invalid program or one with other inputs or joints than the source;
+    /// [`ErrorKind::Unsupported`] when no reachable target is found; what `watch` stops with. Failed checks are in the report.
+    pub fn run(source: &Source, program: &Program, options: &Options, watch: &Watch) -> Result<Report> {
+        program.validate()?;
+        let system = &source.system;
+        if program.inputs.len() != system.inputs.len() || program.joints.len() != system.joints.len() {
+            let text = "the program has other inputs or joints than its source; derive it again";
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        // Where the equations hold no lengths of their own, a program's scale is next to zero.
+        let unit = if program.scale > 1e-9 { program.scale } else { 1.0 };
+        let model = Model::new(system, unit);
+        let screws = source.chain.as_ref().and_then(Screws::new);
+        let check = Check { source, program, model: &model, screws, options: *options, watch };
+        let mut targets = Targets::new(&model, program, options.seed);
+        let mut rows = Vec::with_capacity(options.targets);
+        for number in 0..options.targets {
+            watch.check()?;
+            watch.report("check", number, options.targets - number);
+            let target = targets.draw(number).ok_or_else(|| {
+                Error::new(
+                    ErrorKind::Unsupported,
+                    "no target was found that random joint values reach; check the equations",
+                )
+            })?;
+            rows.push(check.row(number, target)?);
+        }
+        Ok(Report {
+            inputs: system.inputs.iter().map(|input| input.name.clone()).collect(),
+            joints: system.joints.iter().map(|joint| joint.name.clone()).collect(),
+            rows,
+        })
+    }
+
+    fn row(&self, number: usize, target: Target) -> Result<Row> {
+        let Target { kind, inputs: target, joints } = target;
+        let answers = match self.program.solve(&target) {
+            Ok(answers) => Some(answers),
+            Err(error) if error.kind() == ErrorKind::Unsupported => None,
+            Err(error) => return Err(error),
+        };
+        let mut row = Row {
+            number: number + 1,
+            kind,
+            target,
+            joints,
+            solutions: answers.as_ref().map_or(0, Vec::len),
+            exact: None,
+            screw: None,
+            oracle: None,
+            worst_residual: None,
+            nearest: None,
+            verdict: Verdict::Open,
+        };
+        if let Some(answers) = answers {
+            let faults = self.faults(number, &mut row, &answers)?;
+            row.verdict = if faults.is_empty() { Verdict::Pass } else { Verdict::Fail(faults) };
+        }
+        Ok(row)
+    }
+
+    fn faults(&self, number: usize, row: &mut Row, answers: &[Solution]) -> Result<Vec<Fault>> {
+        let mut faults = self.each(row, answers);
+        faults.extend(self.together(&row.target, answers));
+        if let Some(q) = &row.joints {
+            let target = &row.target;
+            row.nearest = answers.iter().map(|answer| self.gap(target, q, answer)).reduce(f64::min);
+            let found = answers.iter().any(|answer| self.stands_for(target, answer, q));
+            faults.extend((!found).then_some(Fault::Missing));
+        }
+        if number < self.options.exact {
+            row.exact = exact::count(&self.source.system, &row.target, self.watch)?;
+            let wrong = row.exact.is_some_and(|exact| exact != answers.len()) && !self.is_tie(row, answers);
+            faults.extend(wrong.then_some(Fault::Count));
+        }
+        if let Some(screws) = &self.screws {
+            let others = screws.solve(&row.target)?;
+            row.screw = Some(others.len());
+            faults.extend((!self.agrees(&row.target, answers, &others)).then_some(Fault::Screw));
+        }
+        if number < self.options.oracle {
+            let (count, agrees) = self.oracle(&row.target, answers)?;
+            row.oracle = Some(count);
+            faults.extend((!agrees).then_some(Fault::Oracle));
+        }
+        Ok(faults)
+    }
+
+    /// Checks each answer by itself, and records the worst residual.
+    fn each(&self, row: &mut Row, answers: &[Solution]) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        let mut add = |wrong: bool, fault: Fault| {
+            if wrong && !faults.contains(&fault) {
+                faults.push(fault);
+            }
+        };
+        for answer in answers {
+            if !self.model.is_well_formed(&answer.q) {
+                add(true, Fault::Range);
+                continue;
+            }
+            let misfit = self.model.misfit(&row.target, &answer.q);
+            row.worst_residual = Some(row.worst_residual.map_or(misfit, |worst| worst.max(misfit)));
+            let chain = self.source.chain.as_ref();
+            let missed = chain.map_or(0.0, |chain| screws::misplacement(chain, &answer.q, &row.target));
+            add(misfit.max(missed) > RESIDUAL, Fault::Residual);
+            let free = !answer.free.is_empty();
+            add(free && self.model.sigma(&row.target, &answer.q) > SINGULAR, Fault::Free);
+        }
+        faults
+    }
+
+    /// Checks the answers as a set.
+    fn together(&self, target: &[f64], answers: &[Solution]) -> Vec<Fault> {
+        let twice = |(index, a): (usize, &Solution)| {
+            answers[..index].iter().any(|b| self.model.distance(target, &a.q, &b.q) <= DUPLICATE)
+        };
+        let bound = self.program.charts.iter().map(Program::branches).max().unwrap_or(0);
+        let duplicate = answers.iter().enumerate().any(twice).then_some(Fault::Duplicate);
+        let bound = (answers.len() > bound).then_some(Fault::Bound);
+        duplicate.into_iter().chain(bound).collect()
+    }
+
+    /// `answer` with its free joints at the values of `q`.
+    fn member(answer: &Solution, q: &[f64]) -> Vec<f64> {
+        let pick = |(joint, value): (usize, &f64)| if answer.free.contains(&joint) { q[joint] } else { *value };
+        answer.q.iter().enumerate().map(pick).collect()
+    }
+
+    /// The distance of `q` from `answer`, free joints left out.
+    fn gap(&self, target: &[f64], q: &[f64], answer: &Solution) -> f64 {
+        self.model.distance(target, q, &Self::member(answer, q))
+    }
+
+    /// Whether `q` is `answer`, or a member of the family that it stands for.
+    fn stands_for(&self, target: &[f64], answer: &Solution, q: &[f64]) -> bool {
+        if answer.free.is_empty() {
+            return self.model.matches(target, q, &answer.q);
+        }
+        let member = Self::member(answer, q);
+        if self.model.misfit(target, &member) <= RESIDUAL {
+            return self.model.matches(target, q, &member);
+        }
+        // The other joints move with the free ones: all that is known without solving is that `q` lies on some family.
+        self.model.sigma(target, q) <= SINGULAR
+    }
+
+    /// Whether the number of answers hangs on rounding.
+    fn is_tie(&self, row: &Row, answers: &[Solution]) -> bool {
+        let known = answers.iter().map(|answer| answer.q.as_slice()).chain(row.joints.as_deref());
+        known.into_iter().any(|q| self.model.sigma(&row.target, q) <= TIE)
+    }
+
+    /// Whether each answer has its match among those of the screw solver, and the other way round. Answers that hold within a
+    /// solver's tolerance only, out of reach by less than 1e-11, may be missing on the other side.
+    fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
+        let covers = |some: &[Solution], answer: &Solution| {
+            let sure = self.model.misfit(target, &answer.q) <= EXACT;
+            !sure || some.iter().any(|other| self.stands_for(target, other, &answer.q))
+        };
+        answers.iter().all(|answer| covers(others, answer)) && others.iter().all(|other| covers(answers, other))
+    }
+
+    /// The number of the oracle's answers, and whether its ordinary ones are ours.
+    fn oracle(&self, target: &[f64], answers: &[Solution]) -> Result<(usize, bool)> {
+        let mut verdict = (0, false);
+        for seeds in SEEDS {
+            let found = self.search(target, seeds)?;
+            verdict = (found.len(), self.agrees_with_search(target, answers, &found));
+            if verdict.1 {
+                break;
+            }
+        }
+        Ok(verdict)
+    }
+
+    /// The oracle's joint vectors. A plain joint is its typical size times the tangent of half the oracle's angle.
+    fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>> {
+        let sizes = self.model.joint_sizes(target);
+        let joints = |angles: &[f64]| -> Vec<f64> {
+            let value = |(joint, angle): (usize, &f64)| {
+                if self.model.is_angle(joint) { *angle } else { sizes[joint] * (0.5 * angle).tan() }
+            };
+            angles.iter().enumerate().map(value).collect()
+        };
+        let oracle = Oracle { seeds, ..Oracle::default() };
+        let found = oracle.solve(sizes.len(), |angles| self.model.shares(target, &joints(angles)))?;
+        Ok(found.iter().map(|answer| joints(&answer.q)).collect())
+    }
+
+    fn agrees_with_search(&self, target: &[f64], answers: &[Solution], found: &[Vec<f64>]) -> bool {
+        let ordinary = |q: &[f64]| self.model.sigma(target, q) > ORDINARY;
+        let near = |a: &[f64], b: &[f64]| self.model.distance(target, a, b) <= ORACLE;
+        let ours = |q: &Vec<f64>| !ordinary(q) || answers.iter().any(|answer| near(q, &answer.q));
+        let theirs = |answer: &Solution| !ordinary(&answer.q) || found.iter().any(|q| near(q, &answer.q));
+        found.iter().all(ours) && answers.iter().all(theirs)
+    }
+}

@@ -1,0 +1,227 @@
+//! What the checks found: [`Report`], its table `6_check.csv` and its summary.
+
+use std::fmt;
+
+/// How a row's target was made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// From random joint values.
+    Random,
+    /// From a singular configuration, or with one angle at 0 or pi.
+    Boundary,
+    /// On or near the zero set of factors; the text says which and how near, such as `pz = 1e-7`.
+    Stratum(String),
+    /// A reachable target times ten.
+    Far,
+}
+
+/// What is wrong with the answers at a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The joint values that made the target are not among the answers.
+    Missing,
+    /// An answer does not satisfy the equations.
+    Residual,
+    /// An answer is malformed: not finite, or an angle outside (-pi, pi].
+    Range,
+    /// Two answers are the same.
+    Duplicate,
+    /// There are more answers than the program's largest chart has branches.
+    Bound,
+    /// A joint is called free where the Jacobian is regular.
+    Free,
+    /// The number of answers differs from the exact number of real solutions.
+    Count,
+    /// The answers differ from those of the screw solver.
+    Screw,
+    /// The answers differ from those of the numeric oracle.
+    Oracle,
+}
+
+/// Whether the answers at a target are right.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// All checks passed.
+    Pass,
+    /// The target lies on a stratum that the program says it does not cover.
+    Open,
+    /// Some checks failed.
+    Fail(Vec<Fault>),
+}
+
+/// The checks at one target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The number of the row, from 1.
+    pub number: usize,
+    /// How the target was made.
+    pub kind: Kind,
+    /// The target: one number an input, in the system's unit or radians.
+    pub target: Vec<f64>,
+    /// The joint values that it was made from.
+    pub joints: Option<Vec<f64>>,
+    /// The number of the program's answers.
+    pub solutions: usize,
+    /// The exact number of distinct real solutions, where it was counted.
+    pub exact: Option<usize>,
+    /// The number of the screw solver's answers, where it applies.
+    pub screw: Option<usize>,
+    /// The number of the oracle's answers, where it was asked.
+    pub oracle: Option<usize>,
+    /// The largest value of an equation at an answer, as a share of the sum of its terms' sizes.
+    pub worst_residual: Option<f64>,
+    /// The distance of the nearest answer from `joints`: radians, or a share of the typical length.
+    pub nearest: Option<f64>,
+    /// Whether all is right.
+    pub verdict: Verdict,
+}
+
+/// The checks of one program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// The names of the inputs.
+    pub inputs: Vec<String>,
+    /// The names of the joints.
+    pub joints: Vec<String>,
+    /// One row for each target.
+    pub rows: Vec<Row>,
+}
+
+/// A report in a few numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Targets.
+    pub rows: usize,
+    /// Rows that failed.
+    pub failed: usize,
+    /// Targets on a stratum that the program does not cover.
+    pub open: usize,
+    /// Targets whose real solutions were counted exactly.
+    pub exact: usize,
+    /// Targets that the screw solver solved too.
+    pub screw: usize,
+    /// Targets that the oracle solved too.
+    pub oracle: usize,
+    /// The largest residual of all rows.
+    pub worst_residual: f64,
+}
+
+impl Report {
+    /// The rows that failed.
+    pub fn failures(&self) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(|row| matches!(row.verdict, Verdict::Fail(_)))
+    }
+
+    /// The report in a few numbers.
+    pub fn summary(&self) -> Summary {
+        let count = |holds: fn(&Row) -> bool| self.rows.iter().filter(|row| holds(row)).count();
+        Summary {
+            rows: self.rows.len(),
+            failed: self.failures().count(),
+            open: count(|row| row.verdict == Verdict::Open),
+            exact: count(|row| row.exact.is_some()),
+            screw: count(|row| row.screw.is_some()),
+            oracle: count(|row| row.oracle.is_some()),
+            worst_residual: self.rows.iter().filter_map(|row| row.worst_residual).fold(0.0, f64::max),
+        }
+    }
+
+    /// The stage file `6_check.csv`: a heading, then one line a row. Residuals and distances are rounded up to a power of ten.
+    pub fn to_csv(&self) -> String {
+        let heading = ["kind"].into_iter().chain(self.inputs.iter().chain(&self.joints).map(String::as_str));
+        let checks = ["solutions", "exact", "screw", "oracle", "worst_residual", "nearest", "verdict"];
+        let mut text = line(heading.chain(checks).map(str::to_owned));
+        for row in &self.rows {
+            text += &row.line(self.joints.len());
+        }
+        text
+    }
+}
+
+impl Row {
+    fn line(&self, joints: usize) -> String {
+        let count = |count: Option<usize>| count.map(|count| count.to_string()).unwrap_or_default();
+        let mut cells = vec![self.kind.to_string()];
+        cells.extend(self.target.iter().map(|value| format!("{value:.16e}")));
+        match &self.joints {
+            Some(q) => cells.extend(q.iter().map(|value| format!("{value:.8e}"))),
+            None => cells.extend(vec![String::new(); joints]),
+        }
+        cells.extend([self.solutions.to_string(), count(self.exact), count(self.screw), count(self.oracle)]);
+        cells.extend([self.worst_residual, self.nearest].map(|value| value.map(decade).unwrap_or_default()));
+        cells.push(self.verdict.to_string());
+        line(cells.into_iter())
+    }
+}
+
+/// One line of a CSV file (RFC 4180), ending in a line feed.
+fn line(cells: impl Iterator<Item = String>) -> String {
+    let quoted = |cell: String| {
+        if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell }
+    };
+    cells.map(quoted).collect::<Vec<_>>().join(",") + "\n"
+}
+
+/// The least power of ten that is not less than `value`: `1e-15`; `0` for zero.
+fn decade(value: f64) -> String {
+    match value {
+        0.0 => "0".to_owned(),
+        value if value.is_finite() => format!("1e{}", value.log10().ceil()),
+        _ => "inf".to_owned(),
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Kind::Random => f.write_str("random"),
+            Kind::Boundary => f.write_str("boundary"),
+            Kind::Stratum(text) => f.write_str(text),
+            Kind::Far => f.write_str("far"),
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Fault::Missing => "missing",
+            Fault::Residual => "residual",
+            Fault::Range => "range",
+            Fault::Duplicate => "duplicate",
+            Fault::Bound => "bound",
+            Fault::Free => "free",
+            Fault::Count => "count",
+            Fault::Screw => "screw",
+            Fault::Oracle => "oracle",
+        })
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Verdict::Pass => f.write_str("pass"),
+            Verdict::Open => f.write_str("open"),
+            Verdict::Fail(faults) => {
+                let words: Vec<String> = faults.iter().map(Fault::to_string).collect();
+                write!(f, "FAIL {}", words.join(" "))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "row {}, {}, target {:?}: {}", self.number, self.kind, self.target, self.verdict)
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let worst = decade(self.worst_residual);
+        write!(f, "{} targets, {} failed, {} open; ", self.rows, self.failed, self.open)?;
+        write!(f, "{} counted exactly, {} by screws, {} by the oracle; ", self.exact, self.screw, self.oracle)?;
+        write!(f, "residuals up to {worst}")
+    }
+}

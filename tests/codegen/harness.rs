@@ -1,0 +1,242 @@
+//! Compiles the printed solvers of a program, runs them, and compares each answer with [`Program::solve`].
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use groebot::ErrorKind;
+use groebot::codegen;
+use groebot::solver::{Program, Solution};
+
+/// Joint values may differ by this, absolutely: the languages' elementary functions need not round alike.
+const TOLERANCE: f64 = 1e-12;
+
+/// What a comparison saw.
+#[derive(Debug, Default)]
+pub struct Report {
+    /// Answers of the evaluator.
+    pub answers: usize,
+    /// Those of them with a free joint.
+    pub families: usize,
+    /// Targets that are an error.
+    pub refused: usize,
+    /// The largest difference of a joint value in any language.
+    pub largest: f64,
+    /// Answers, over all languages, with a joint value that is not the same double.
+    pub unequal: usize,
+}
+
+/// Compares the C99 file and both variants of the Rust file with the evaluator at every target. Panics where they differ;
+/// `None` when a compiler is missing (an error with `GROEBOT_REQUIRE_TOOLS=1`).
+pub fn compare(program: &Program, targets: &[Vec<f64>]) -> Option<Report> {
+    program.validate().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let expected: Vec<_> = targets.iter().map(|target| program.solve(target)).collect();
+    let mut report = Report::default();
+    for solution in &expected {
+        match solution {
+            Ok(answers) => {
+                report.answers += answers.len();
+                report.families += answers.iter().filter(|answer| !answer.free.is_empty()).count();
+            }
+            Err(_) => report.refused += 1,
+        }
+    }
+    for (language, executable) in executables(program, folder.path())? {
+        let output = run(&executable, targets);
+        let mut numbers = output.split_whitespace().map(|word| word.parse::<f64>().unwrap());
+        for (target, expected) in targets.iter().zip(&expected) {
+            let place = format!("{} in {language} at {target:?}", program.name);
+            check(program, expected, &mut numbers, &place, &mut report);
+        }
+        assert_eq!(numbers.next(), None, "{language} says more than it was asked");
+    }
+    println!("{}: {} targets, {report:?}", program.name, targets.len());
+    Some(report)
+}
+
+/// One target's answers, read from a solver's output.
+fn check(
+    program: &Program,
+    expected: &groebot::Result<Vec<Solution>>,
+    numbers: &mut impl Iterator<Item = f64>,
+    place: &str,
+    report: &mut Report,
+) {
+    let mut next = || numbers.next().unwrap_or_else(|| panic!("{place}: no more output"));
+    let count = next();
+    let answers = match expected {
+        Ok(answers) => answers,
+        Err(error) => {
+            let code = if error.kind() == ErrorKind::BadValue { -1.0 } else { -2.0 };
+            assert_eq!(count, code, "{place}: {error}");
+            return;
+        }
+    };
+    assert_eq!(count, answers.len() as f64, "{place}: number of solutions, {answers:?}");
+    for answer in answers {
+        assert_eq!(next(), answer.branch as f64, "{place}: branch");
+        assert_eq!(next() == 1.0, answer.chosen, "{place}: choice");
+        let (residual, again) = (next(), next());
+        let slack = 1e-13 * program.scale.max(1.0) + 8.0 * answer.residual;
+        assert!(residual <= slack, "{place}: residual {residual}, {}", answer.residual);
+        assert_eq!(residual.to_bits(), again.to_bits(), "{place}: residual of the answer");
+        let free: Vec<usize> = (0..answer.q.len()).filter(|_| next() == 1.0).collect();
+        assert_eq!(free, answer.free, "{place}: free joints");
+        let q: Vec<f64> = answer.q.iter().map(|_| next()).collect();
+        let difference = q.iter().zip(&answer.q).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        assert!(difference <= TOLERANCE, "{place}: {q:?} instead of {:?}", answer.q);
+        report.largest = report.largest.max(difference);
+        report.unequal += usize::from(difference > 0.0);
+    }
+}
+
+fn run(executable: &Path, targets: &[Vec<f64>]) -> String {
+    let mut text = format!("{}\n", targets.len());
+    for target in targets {
+        let words: Vec<String> = target.iter().map(|value| format!("{value:e}")).collect();
+        writeln!(text, "{}", words.join(" ")).unwrap();
+    }
+    let mut child = Command::new(executable).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let writer = std::thread::spawn(move || input.write_all(text.as_bytes()));
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap().unwrap();
+    assert!(output.status.success(), "{} ends with {}", executable.display(), output.status);
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The compiled solvers with their languages' names; `None` when a compiler is missing.
+pub fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, PathBuf)>> {
+    let rust = codegen::rust::emit(program);
+    let has_extra = rust.contains("pub const EXTRAS");
+    fs::write(folder.join("5_solver.rs"), rust).unwrap();
+    fs::write(folder.join("5_solver.c"), codegen::c99::emit(program)).unwrap();
+    fs::write(folder.join("main.c"), c_driver(&program.name, has_extra)).unwrap();
+    let again = if has_extra { "answer.residual" } else { "solver::residual(&target, &answer.q)" };
+    let driver = RUST_DRIVER.replace("AGAIN", again);
+    fs::write(folder.join("module.rs"), format!("#[path = \"5_solver.rs\"]\nmod solver;\n{driver}")).unwrap();
+    fs::write(folder.join("crate.rs"), format!("use no_std_root::solver;\n{driver}")).unwrap();
+    fs::write(folder.join("root.rs"), "#![no_std]\n#[path = \"5_solver.rs\"]\npub mod solver;\n").unwrap();
+    let library = ["--crate-type=lib", "--crate-name=no_std_root", "--cfg=feature=\"libm\"", "root.rs"];
+    rustc(folder, &["--crate-type=lib", "--crate-name=solver", "5_solver.rs"])?;
+    rustc(folder, &["module.rs"])?;
+    rustc(folder, &library)?;
+    rustc(folder, &["--extern=no_std_root=libno_std_root.rlib", "crate.rs"])?;
+    compile_c(folder, &["-c", "5_solver.c", "-o", "solver.o"])?;
+    compile_c(folder, &["main.c", "solver.o", "-lm", "-o", "c99"])?;
+    let at = |name: &str| folder.join(name);
+    Some(vec![("Rust", at("module")), ("Rust without std", at("crate")), ("C99", at("c99"))])
+}
+
+fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
+    let name = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
+    let mut command = Command::new(name);
+    command.args(["--edition=2024", "-Dwarnings", "-Dmissing_docs", "-Copt-level=1"]).args(arguments);
+    if arguments.iter().any(|name| ["module.rs", "crate.rs", "root.rs"].contains(name)) {
+        command.arg("-Amissing_docs");
+    }
+    build(command.current_dir(folder))
+}
+
+fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
+    let mut command = Command::new("cc");
+    command.args("-std=c99 -O2 -Wall -Wextra -Werror -pedantic -Wconversion -Wsign-conversion".split(' '));
+    build(command.args(arguments).current_dir(folder))
+}
+
+/// Runs a compiler, which must succeed; `None` when there is none.
+fn build(command: &mut Command) -> Option<()> {
+    match command.output() {
+        Ok(output) => {
+            let text = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success() && text.is_empty(), "{command:?}\n{text}");
+            Some(())
+        }
+        Err(error) => {
+            let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
+            assert!(!required, "{command:?}: {error}");
+            println!("skipped, a compiler is missing: {command:?}: {error}");
+            None
+        }
+    }
+}
+
+/// Reads the number of targets and the targets; prints for each the count or error code, and each answer.
+const RUST_DRIVER: &str = r#"
+use std::io::Read;
+
+fn main() {
+    let mut text = String::new();
+    std::io::stdin().read_to_string(&mut text).unwrap();
+    let mut words = text.split_whitespace();
+    let count: usize = words.next().unwrap().parse().unwrap();
+    let mut out = [solver::Solution::EMPTY; solver::CAPACITY];
+    for _ in 0..count {
+        let mut target = [0.0; solver::INPUTS];
+        target.fill_with(|| words.next().unwrap().parse().unwrap());
+        let count = match solver::solve(&target, &mut out) {
+            Ok(count) => count,
+            Err(solver::Error::BadTarget) => {
+                println!("-1");
+                continue;
+            }
+            Err(solver::Error::OpenStratum(_)) => {
+                println!("-2");
+                continue;
+            }
+        };
+        println!("{count}");
+        for answer in &out[..count] {
+            print!("{} {} {:e} {:e}", answer.branch, u8::from(answer.chosen), answer.residual, AGAIN);
+            answer.free.iter().for_each(|&free| print!(" {}", u8::from(free)));
+            answer.q.iter().for_each(|value| print!(" {value:e}"));
+            println!();
+        }
+    }
+}
+"#;
+
+fn c_driver(name: &str, has_extra: bool) -> String {
+    let again = if has_extra { "answer->residual" } else { "NAME_residual(target, answer->q)" };
+    C_DRIVER.replace("AGAIN", again).replace("NAME", name).replace("UPPER", &name.to_ascii_uppercase())
+}
+
+const C_DRIVER: &str = r#"
+#define UPPER_DECLARATIONS_ONLY
+#include "5_solver.c"
+#include <stdio.h>
+
+int main(void)
+{
+    int targets;
+    double target[UPPER_INPUTS + 1];
+    NAME_solution out[UPPER_CAPACITY + 1];
+    if (scanf("%d", &targets) != 1) {
+        return 1;
+    }
+    for (int line = 0; line < targets; line++) {
+        for (int i = 0; i < UPPER_INPUTS; i++) {
+            if (scanf("%lf", &target[i]) != 1) {
+                return 1;
+            }
+        }
+        const int count = NAME_solve(target, out);
+        printf("%d\n", count);
+        for (int k = 0; k < count; k++) {
+            const NAME_solution *answer = &out[k];
+            printf("%zu %d %.17g %.17g", answer->branch, answer->chosen, answer->residual, AGAIN);
+            for (int i = 0; i < UPPER_JOINTS; i++) {
+                printf(" %d", answer->free[i]);
+            }
+            for (int i = 0; i < UPPER_JOINTS; i++) {
+                printf(" %.17g", answer->q[i]);
+            }
+            printf("\n");
+        }
+    }
+    return 0;
+}
+"#;

@@ -1,0 +1,3 @@
+//! Tests of `groebot::groebner`.
+
+mod known;
