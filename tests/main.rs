@@ -2,6 +2,8 @@
 
 mod architecture;
 mod codegen;
+#[cfg(feature = "cli")]
+mod cli;
 mod corpus;
 mod derive;
 mod document;

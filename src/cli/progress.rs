@@ -35,7 +35,14 @@ impl Session {
     pub fn start(limits: Limits) -> Result<Session> {
         let cancel = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&cancel);
-        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        let interrupt = move || {
+            // The work ends at its next look at the watch; who cannot wait for that asks twice. Staging looks before each file,
+            // so that the second time finds nothing half-written.
+            if flag.swap(true, Ordering::Relaxed) {
+                std::process::exit(130);
+            }
+        };
+        ctrlc::set_handler(interrupt)
             .map_err(|error| Error::new(ErrorKind::Io, format!("Ctrl-C cannot be caught: {error}")))?;
         let mut watch = Watch::none().with_cancel(cancel);
         if let Some(time) = limits.time {

@@ -198,10 +198,10 @@ fn run_time(page: &mut Page, derivation: &Derivation) -> Result<()> {
     let (asked, used) = (&derivation.requested, derivation.solving());
     page.heading("What runs");
     if strata::order(asked) == strata::order(used) {
-        page.line("The solver uses this order: no other one has denominators that vanish on fewer targets.");
+        page.line("The solver uses this order: none of those tried has denominators that vanish on fewer targets.");
         return Ok(());
     }
-    page.line("The solver uses the order whose denominators vanish on the fewest targets; the sets where they do:");
+    page.line("Of the orders tried, the solver uses the one whose denominators vanish on the fewest targets. Strata:");
     let entry = |node| Ok((strata::order(node), strata::breakdowns(&strata::score(node)?)));
     let (asked, (order, sets)) = (entry(asked)?, entry(used)?);
     page.entries(&[asked, (order, format!("{sets}  <- used"))]);

@@ -1,6 +1,7 @@
 //! Reading targets: from an argument, or as CSV with or without a line of names.
 
-use std::io::Read;
+use std::io::{self, BufRead, Lines};
+use std::iter::Enumerate;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -51,20 +52,19 @@ pub struct Row {
     pub target: Vec<f64>,
 }
 
-/// The rows of a CSV.
+/// The rows of a CSV: one a line, empty lines left out.
 pub struct Reader<'a, R> {
     program: &'a Program,
-    csv: csv::Reader<R>,
+    lines: Enumerate<Lines<R>>,
     /// Once the first row is read: which column each input is in, when it has names.
     columns: Option<Vec<usize>>,
     is_first: bool,
 }
 
-impl<'a, R: Read> Reader<'a, R> {
+impl<'a, R: BufRead> Reader<'a, R> {
     /// Reads from `input`.
     pub fn new(program: &'a Program, input: R) -> Self {
-        let csv = ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(input);
-        Reader { program, csv, columns: None, is_first: true }
+        Reader { program, lines: input.lines().enumerate(), columns: None, is_first: true }
     }
 
     /// The next target; a first row of names is taken note of.
@@ -73,15 +73,13 @@ impl<'a, R: Read> Reader<'a, R> {
     /// [`ErrorKind::BadValue`], [`ErrorKind::UnknownName`] for a row of names that lacks an input, [`ErrorKind::Io`],
     /// [`ErrorKind::Syntax`]: all with file and line.
     pub fn next(&mut self) -> Option<Result<Row>> {
-        let mut record = StringRecord::new();
         loop {
-            let line = usize::try_from(self.csv.position().line()).unwrap_or(usize::MAX);
-            let read = match self.csv.read_record(&mut record) {
-                Ok(false) => return None,
-                Ok(true) => self.row(&record),
-                Err(error) => Err(unreadable(&error)),
-            };
-            let line = record.position().and_then(|at| usize::try_from(at.line()).ok()).unwrap_or(line);
+            let (index, text) = self.lines.next()?;
+            let line = index + 1;
+            let read = text.map_err(|error| unreadable(&error)).and_then(|text| match text.trim() {
+                "" => Ok(None),
+                text => self.row(&record(text)?),
+            });
             match read {
                 Ok(None) => {}
                 Ok(Some(target)) => return Some(Ok(Row { line, target })),
@@ -121,10 +119,20 @@ fn columns(program: &Program, record: &StringRecord) -> Result<Vec<usize>> {
     program.inputs.iter().map(column).collect()
 }
 
-fn unreadable(error: &csv::Error) -> Error {
+/// The cells of a line.
+fn record(line: &str) -> Result<StringRecord> {
+    let mut options = ReaderBuilder::new();
+    options.has_headers(false).trim(Trim::All).buffer_capacity(line.len());
+    let mut record = StringRecord::new();
+    match options.from_reader(line.as_bytes()).read_record(&mut record) {
+        Ok(_) => Ok(record),
+        Err(_) => Err(Error::new(ErrorKind::Syntax, "this is no CSV; give numbers with commas between them")),
+    }
+}
+
+fn unreadable(error: &io::Error) -> Error {
     match error.kind() {
-        csv::ErrorKind::Io(error) => Error::io(Path::new(STDIN), error),
-        csv::ErrorKind::Utf8 { .. } => Error::new(ErrorKind::Syntax, "the text is not UTF-8; give UTF-8"),
-        _ => Error::new(ErrorKind::Syntax, "this is no CSV; give numbers with commas between them"),
+        io::ErrorKind::InvalidData => Error::new(ErrorKind::Syntax, "the text is not UTF-8; give UTF-8"),
+        _ => Error::io(Path::new(STDIN), error),
     }
 }

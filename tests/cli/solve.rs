@@ -1,0 +1,155 @@
+//! `groebot solve`: text, JSON and CSV tell the same solutions, and these are solutions.
+
+use std::f64::consts::PI;
+use std::io::{BufRead, BufReader, Write};
+
+use serde_json::Value;
+
+use super::{Ran, groebot, leg, run_on, succeed};
+
+/// Forward kinematics of the NAO leg, written down here from its drawing: thigh 100 mm, tibia 102.9 mm.
+fn ankle(q: &[f64]) -> [f64; 2] {
+    let (hip, both) = (q[0], q[0] + q[1]);
+    [100.0 * hip.sin() + 102.9 * both.sin(), 100.0 * hip.cos() + 102.9 * both.cos()]
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+fn json(target: &str, more: &[&str]) -> Value {
+    let text = succeed(&[&["solve", leg().path(), "--json", "--target", target], more].concat());
+    serde_json::from_str(&text).unwrap()
+}
+
+/// Standard input through `solve`.
+fn stream(input: &str, more: &[&str]) -> Ran {
+    run_on(&[&["solve", leg().path()], more].concat(), input.as_bytes())
+}
+
+#[test]
+fn every_solution_reaches_its_target() {
+    for (target, count) in [("60,150", 2), ("-60,-150", 2), ("100,0", 2), ("0,-120.5", 2), ("0,0", 0), ("500,1", 0)] {
+        let answer = json(target, &[]);
+        let solutions = answer["solutions"].as_array().unwrap();
+        assert_eq!(solutions.len(), count, "{target}");
+        let wanted = numbers(&answer["target"]);
+        for solution in solutions {
+            let reached = ankle(&numbers(&solution["q"]));
+            let off = (reached[0] - wanted[0]).hypot(reached[1] - wanted[1]);
+            assert!(off < 1e-10, "{target}: off by {off}");
+            assert!(solution["residual"].as_f64().unwrap() < 1e-10 && solution["free"] == Value::Array(Vec::new()));
+        }
+        let chosen: Vec<f64> = solutions
+            .iter()
+            .filter(|solution| solution["chosen"] == true)
+            .map(|solution| numbers(&solution["q"])[0].sin())
+            .collect();
+        let least = solutions.iter().map(|solution| numbers(&solution["q"])[0].sin()).fold(f64::INFINITY, f64::min);
+        assert!(count == 0 || chosen.iter().all(|s3| (s3 - least).abs() < 1e-9) && !chosen.is_empty(), "NAO (6.7.20)");
+    }
+}
+
+#[test]
+fn the_program_file_may_be_given_itself() {
+    let file = format!("{}/5_program.json", leg().path());
+    let by_file = succeed(&["solve", &file, "--target", "60,150"]);
+    assert_eq!(by_file, succeed(&["solve", leg().path(), "--target", "60,150"]));
+}
+
+#[test]
+fn text_shows_joints_units_and_the_choice() {
+    let answer = json("60,150", &[]);
+    let text = succeed(&["solve", leg().path(), "--target", "60,150", "--target", "0,0"]);
+    assert!(text.contains("px = 60 mm, pz = 150 mm: 2 solutions") && text.contains("HipPitch"), "{text}");
+    assert!(text.contains("px = 0 mm, pz = 0 mm: unreachable: no solution"), "{text}");
+    for solution in answer["solutions"].as_array().unwrap() {
+        let q = numbers(&solution["q"]);
+        let line = text.lines().find(|line| line.contains(&format!("({:.9} rad)", q[0]))).unwrap();
+        assert!(line.contains(&format!("{:.6} deg", q[1] * 180.0 / PI)), "{line}");
+        assert_eq!(line.contains("the source's choice"), solution["chosen"] == true, "{line}");
+    }
+}
+
+#[test]
+fn degrees_are_radians_in_degrees() {
+    let (radians, degrees) = (json("60,150", &[]), json("60,150", &["--degrees"]));
+    assert_eq!(degrees["unit"]["joints"][0], "deg");
+    assert_eq!(radians["unit"]["joints"][0], "rad");
+    for index in 0..2 {
+        let solution = |answer: &Value| numbers(&answer["solutions"][index]["q"]);
+        for (a, b) in solution(&radians).iter().zip(solution(&degrees)) {
+            assert!((a / PI * 180.0 - b).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn csv_says_what_json_says_and_reads_its_own_output() {
+    let ran = stream("60,150\n0,0\n -60 , -150 \n", &[]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    let rows: Vec<Vec<&str>> = ran.out.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0][..5], ["target", "px", "pz", "solutions", "branch"]);
+    assert_eq!(rows.len(), 1 + 2 + 1 + 2, "{}", ran.out);
+    assert_eq!(rows[3], ["2", "0", "0", "0", "", "", "", "", "", ""]);
+    let answer = json("60,150", &[]);
+    for (row, solution) in rows[1..3].iter().zip(answer["solutions"].as_array().unwrap()) {
+        let q: Vec<f64> = row[5..7].iter().map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(q, numbers(&solution["q"]));
+    }
+    let again = stream(&ran.out, &[]);
+    assert_eq!(again.code, 0, "{}", again.err);
+    assert_eq!(again.out.lines().count(), 1 + 2 * 2 + 1 + 2 * 2, "one target a row");
+}
+
+#[test]
+fn a_row_of_names_orders_the_columns() {
+    let (named, plain) = (stream("pz,px\n150,60\n", &["--target", "-"]), stream("60,150\n", &[]));
+    assert_eq!((named.code, named.out), (0, plain.out));
+}
+
+#[test]
+fn json_of_many_targets_is_one_object_a_line() {
+    let ran = stream("60,150\n0,0\n", &["--json"]);
+    let answers: Vec<Value> = ran.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let counts: Vec<usize> = answers.iter().map(|answer| answer["solutions"].as_array().unwrap().len()).collect();
+    assert_eq!((ran.code, counts), (0, vec![2, 0]));
+    assert_eq!(answers[0], json("60,150", &[]));
+}
+
+#[test]
+fn a_bad_row_names_its_line() {
+    let cases = [
+        ("px,pz\n60,150\n60,x\n", "<stdin>: line 3: cell 2 (`pz`) is `x`"),
+        ("60,150\n\n60\n", "<stdin>: line 3: 1 numbers given"),
+        ("60,150\n1,NaN\n", "<stdin>: line 2: `pz` is NaN"),
+        ("a,b\n1,2\n", "<stdin>: line 1: the first row"),
+        ("1,x\n", "<stdin>: line 1: cell 2"),
+    ];
+    for (input, words) in cases {
+        let ran = stream(input, &[]);
+        assert_eq!(ran.code, 1, "{input}");
+        assert!(ran.err.starts_with(&format!("error: {words}")), "{}", ran.err);
+    }
+    assert_eq!(run_on(&["solve", leg().path()], &[b'1', b',', 0xff, b'\n']).code, 1);
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let mut child = groebot(&["solve", leg().path()]).spawn().unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let feeder = std::thread::spawn(move || {
+        for _ in 0..50_000 {
+            if stdin.write_all(b"60,150\n").is_err() {
+                break;
+            }
+        }
+    });
+    let mut first = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut first).unwrap();
+    assert!(first.starts_with("target,"));
+    // The reader is dropped: the pipe is broken from here on.
+    let output = child.wait_with_output().unwrap();
+    feeder.join().unwrap();
+    assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap()), (Some(0), String::new()));
+}
