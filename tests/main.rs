@@ -1,9 +1,9 @@
 //! All integration tests, in one binary; the modules mirror `src/`.
 
 mod architecture;
-mod codegen;
 #[cfg(feature = "cli")]
 mod cli;
+mod codegen;
 mod corpus;
 mod derive;
 mod document;
