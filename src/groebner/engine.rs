@@ -96,6 +96,9 @@ impl<F: Field> Basis<F> {
 }
 
 /// Buchberger's loop: select a pair, reduce its S-polynomial, update the pairs with what remains.
+///
+/// Redundant elements stay among the divisors: they are older and simpler than what made them so. Without them the
+/// lexicographic basis of cyclic-5 modulo 32003 takes minutes instead of milliseconds.
 fn complete<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
@@ -109,7 +112,7 @@ fn complete<F: Field>(
     for (index, f) in generators.iter().enumerate() {
         let sugar = ring.degree(f);
         let element = generator(ring, f, index, generators.len(), options.cofactors);
-        let element = reduce(ring, element, &live(&elements, &heads), watch)?;
+        let element = reduce(ring, element, &elements, watch)?;
         adjoin(ring, element, sugar, &mut elements, &mut heads, &mut pairs)?;
     }
     while let Some(pair) = pairs.select(ring) {
@@ -117,17 +120,12 @@ fn complete<F: Field>(
         watch.check_terms(elements.iter().map(term_count).sum())?;
         watch.report("Groebner basis", done, pairs.len());
         let element = s_element(ring, &pair, &elements)?;
-        let element = reduce(ring, element, &live(&elements, &heads), watch)?;
+        let element = reduce(ring, element, &elements, watch)?;
         adjoin(ring, element, pair.sugar, &mut elements, &mut heads, &mut pairs)?;
         done += 1;
     }
     let live = elements.into_iter().zip(heads).filter(|(_, head)| !head.redundant);
     Ok(live.map(|(element, _)| element).collect())
-}
-
-/// The elements to reduce by: where a redundant one fits, a later one fits too.
-fn live<'a, E>(elements: &'a [Tracked<E>], heads: &[Head]) -> Vec<&'a Tracked<E>> {
-    elements.iter().zip(heads).filter(|(_, head)| !head.redundant).map(|(element, _)| element).collect()
 }
 
 fn term_count<E>(element: &Tracked<E>) -> usize {
@@ -197,7 +195,7 @@ fn s_element<F: Field>(
 pub(super) fn reduce<F: Field>(
     ring: &PolynomialRing<F>,
     element: Tracked<F::Element>,
-    divisors: &[&Tracked<F::Element>],
+    divisors: &[Tracked<F::Element>],
     watch: &Watch,
 ) -> Result<Tracked<F::Element>> {
     let polynomials: Vec<_> = divisors.iter().map(|divisor| &divisor.polynomial).collect();

@@ -40,7 +40,7 @@ pub(super) fn interreduce<F: Field>(
     }
     for index in 0..minimal.len() {
         let element = minimal.remove(index);
-        let element = monic(ring, reduce(ring, element, &minimal.iter().collect::<Vec<_>>(), watch)?)?;
+        let element = monic(ring, reduce(ring, element, &minimal, watch)?)?;
         minimal.insert(index, element);
     }
     Ok(minimal)
