@@ -101,7 +101,9 @@ impl<'a> Targets<'a> {
         let turn = self.boundaries_done % (2 * angles.len() + 2);
         self.boundaries_done += 1;
         match angles.get(turn / 2) {
-            Some(&joint) => self.reachable(Kind::Boundary, Some((joint, if turn % 2 == 0 { 0.0 } else { PI }))),
+            Some(&joint) => {
+                self.reachable(Kind::Boundary, Some((joint, if turn.is_multiple_of(2) { 0.0 } else { PI })))
+            }
             None => (0..DRAWS).find_map(|_| self.singular()),
         }
     }
