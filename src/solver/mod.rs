@@ -17,6 +17,11 @@ pub use program::{
 pub const ACCEPT: f64 = 1e-12;
 /// Two answers whose joints all differ by no more than this (rad, or relative to the length scale) are one.
 pub const MERGE: f64 = 1e-7;
+/// Two answers within this distance are one too when the equations hold half-way between them as well as at the worse of the
+/// two, or within [`ROUNDING`]: at a singular configuration rounding moves the joints that far.
+pub const BLUR: f64 = 1e-3;
+/// What rounding leaves of an equation that holds, as a share of its scale.
+pub const ROUNDING: f64 = 1e-14;
 /// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
 pub const NEAR: f64 = 1e-6;
 /// A chart does not run where a denominator is below this share of its scale: a factor of degree two in the distance from its

@@ -41,7 +41,8 @@ impl Links {
         (tip.x - target[0]).hypot(tip.z - target[1]) / self.solver.reach()
     }
 
-    /// Whether `b` stands for `a`: design.md section 5, "matching".
+    /// Whether `b` stands for `a`: "matching" as the design has it, or, where two answers are about to become one, any answer to
+    /// a pose within 1e-12 of the reach: a double root may stand for both until polishing can split it.
     fn same(&self, a: Answer, b: Answer, target: [f64; 2]) -> bool {
         let from = [0, 1].map(|j| a[j].or(b[j]).unwrap_or(0.0));
         let way = [0, 1].map(|j| b[j].map_or(0.0, |b| angle::difference(b, from[j])));
@@ -49,7 +50,8 @@ impl Links {
         let sigma = self.sigma(from);
         let tolerance = if sigma > 1e-3 { 1e-9 } else { (1e-13 / sigma).max(1e-7) };
         let between = |share: f64| self.miss([from[0] + share * way[0], from[1] + share * way[1]], target);
-        gap <= tolerance && [0.25, 0.5, 0.75].iter().all(|share| between(*share) <= 1e-11)
+        let worst = [0.25, 0.5, 0.75, 1.0].map(between).into_iter().fold(0.0, f64::max);
+        gap <= tolerance && worst <= 1e-11 || gap <= 1e-4 && worst <= 1e-12
     }
 
     /// Why the two solvers disagree at a target.
