@@ -1,6 +1,7 @@
 //! Printed solvers: compiled, run, and compared with the evaluator of the same program.
 
 mod builder;
+mod derivations;
 pub mod harness;
 mod names;
 mod samples;
