@@ -21,10 +21,10 @@ pub mod derive;
 
 pub mod solver;
 
-pub mod codegen;
-pub mod witness;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod codegen;
+pub mod witness;
 
 pub use error::{Error, ErrorKind, Result};
 pub use watch::Watch;

@@ -3,10 +3,10 @@
 mod architecture;
 #[cfg(feature = "cli")]
 mod cli;
+mod codegen;
 mod corpus;
 mod derive;
 mod document;
-mod codegen;
 mod files;
 mod groebner;
 mod kinematics;
