@@ -3,11 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::console::{self, Paint};
+use super::derive::refuse_failures;
+use super::files::{CHECKS, printed_solvers};
 use super::{Halt, Outcome};
 use crate::derive::{Derivation, Source, certificate};
 use crate::document::read_text;
 use crate::solver::Program;
-use crate::{Error, ErrorKind, Result};
+use crate::witness::{Check, Options};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest stage file that is read, in bytes.
 const LIMIT: u64 = 256_000_000;
@@ -39,6 +42,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Ok(derivation) => {
             findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Ok(proved(&derivation)) });
             findings.extend(stored_stages(folder, &derivation)?);
+            findings.push(numeric_checks(folder, &source, &derivation)?);
         }
         Err(error) => findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Err(error) }),
     }
@@ -76,7 +80,8 @@ fn proved(derivation: &Derivation) -> String {
 /// Compares every stage file with what the proved derivation says.
 fn stored_stages(folder: &Path, derivation: &Derivation) -> Result<Vec<Finding>> {
     let mut findings = Vec::new();
-    for (name, bytes) in derivation.stage_files()? {
+    let stages = derivation.stage_files()?;
+    for (name, bytes) in stages.into_iter().chain(printed_solvers(&derivation.program)) {
         if name == CERTIFICATE {
             continue;
         }
@@ -88,6 +93,20 @@ fn stored_stages(folder: &Path, derivation: &Derivation) -> Result<Vec<Finding>>
         findings.push(Finding { what: name, verdict: verdict.map_err(|error| error.in_file(&path)) });
     }
     Ok(findings)
+}
+
+/// Runs the numeric checks again and looks at what the stored ones say.
+fn numeric_checks(folder: &Path, source: &Source, derivation: &Derivation) -> Result<Finding> {
+    let checked = Check::run(source, &derivation.program, &Options::default(), &Watch::none())?;
+    let path = folder.join(CHECKS);
+    let stored = read_text(&path, LIMIT).and_then(|stored| {
+        let count = stored.lines().count();
+        if count == checked.rows.len() + 1 { Ok(()) } else { Err(differs("the table of numeric checks")) }
+    });
+    let verdict = refuse_failures(&checked).and(stored.map_err(|error| error.in_file(&path)));
+    let summary = checked.summary();
+    let verdict = verdict.map(|()| format!("{} targets solved again and right", summary.rows));
+    Ok(Finding { what: CHECKS.to_owned(), verdict })
 }
 
 /// Whether the stored program is the derived one, whichever version of this crate wrote it.

@@ -10,7 +10,8 @@ use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
 use crate::derive::{Derivation, Source};
 use crate::files::write_folder_atomically;
-use crate::{ErrorKind, Result, Watch};
+use crate::witness::{self, Check, Options};
+use crate::{Error, ErrorKind, Result, Watch};
 
 const EXAMPLES: &str = "Examples:
   groebot derive derivations/nao_leg_sagittal          files beside its 0_chain.toml
@@ -49,7 +50,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     clock.lap("read");
     let derivation = derive(&source, &session.watch)?;
     clock.lap("derive and prove");
-    let files = assemble_files(&source, &derivation, &folder)?;
+    let checked = Check::run(&source, &derivation.program, &Options::default(), &session.watch)?;
+    refuse_failures(&checked)?;
+    clock.lap("check numerically");
+    let files = assemble_files(&source, &derivation, &checked, &folder)?;
     clock.lap("print the stages");
     write_folder_atomically(&folder, &files, &session.watch)?;
     clock.lap("write");
@@ -58,8 +62,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
         return Ok(());
     }
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let told =
-        Report { source: &source, derivation: &derivation, folder: &folder, files: &names, timings: &clock.laps };
+    let told = Report {
+        source: &source,
+        derivation: &derivation,
+        checked: &checked,
+        folder: &folder,
+        files: &names,
+        timings: &clock.laps,
+    };
     console::print(&report(&told, Paint::of(&std::io::stdout()))?)
 }
 
@@ -68,6 +78,23 @@ fn derive(source: &Source, watch: &Watch) -> Result<Derivation> {
         ErrorKind::Cancelled => error,
         _ => error.in_file(&source.path),
     })
+}
+
+/// Fails at the first target whose answers are wrong.
+///
+/// # Errors
+/// [`ErrorKind::Certificate`] with the row, its target and what is wrong.
+pub fn refuse_failures(checked: &witness::Report) -> Result<()> {
+    let Some(row) = checked.failures().next() else { return Ok(()) };
+    let target: Vec<String> = row.target.iter().map(f64::to_string).collect();
+    let text = format!(
+        "numeric check, row {} ({}): the answers at the target {} are wrong: {}",
+        row.number,
+        row.kind,
+        target.join(","),
+        row.verdict
+    );
+    Err(Error::new(ErrorKind::Certificate, text))
 }
 
 /// How long each stage took.

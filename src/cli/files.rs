@@ -3,9 +3,15 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::codegen;
 use crate::derive::input::INPUT_NAMES;
 use crate::derive::{Derivation, Source};
+use crate::solver::Program;
+use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
+
+/// The file of the numeric checks.
+pub const CHECKS: &str = "6_check.csv";
 
 /// The folder for the files of a derivation of `source`, which was asked for as `input`: `out` if it is given, the input's own folder
 /// if it is a mechanism's, else the folder `foo` beside `foo.toml`.
@@ -35,17 +41,34 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
     }
 }
 
-/// Every file of a derivation with its name: the stages, and the input itself when `folder` does not hold it yet.
+/// Every file of a derivation with its name: the stages, the printed solvers, the numeric checks, and the input itself when `folder`
+/// does not hold it yet.
 ///
 /// # Errors
 /// As [`Derivation::stage_files`].
-pub fn assemble_files(source: &Source, derivation: &Derivation, folder: &Path) -> Result<Vec<(String, Vec<u8>)>> {
+pub fn assemble_files(
+    source: &Source,
+    derivation: &Derivation,
+    checked: &Report,
+    folder: &Path,
+) -> Result<Vec<(String, Vec<u8>)>> {
     let mut files = Vec::new();
     if !is_same_file(&source.path, &folder.join(source.name)) {
         files.push((source.name.to_owned(), source.text.clone().into_bytes()));
     }
     files.extend(derivation.stage_files()?);
+    files.extend(printed_solvers(&derivation.program));
+    files.push((CHECKS.to_owned(), checked.to_csv().into_bytes()));
+    files.sort_by(|a, b| a.0.cmp(&b.0));
     Ok(files)
+}
+
+/// The program as source code, one file a language.
+pub fn printed_solvers(program: &Program) -> Vec<(String, Vec<u8>)> {
+    vec![
+        ("5_solver.c".to_owned(), codegen::c99::emit(program).into_bytes()),
+        ("5_solver.rs".to_owned(), codegen::rust::emit(program).into_bytes()),
+    ]
 }
 
 fn is_same_file(a: &Path, b: &Path) -> bool {

@@ -12,6 +12,7 @@ use crate::derive::setting::{Poly, Unknowns};
 use crate::derive::triangular::{Stair, Triangular};
 use crate::derive::{Derivation, JointKindUnknown, ParameterSource, Quantity, Root, Source, System};
 use crate::groebner::Basis;
+use crate::witness;
 
 /// The column where lines end.
 const WIDTH: usize = 100;
@@ -22,6 +23,8 @@ pub struct Report<'a> {
     pub source: &'a Source,
     /// What came of it.
     pub derivation: &'a Derivation,
+    /// What the numeric witnesses found.
+    pub checked: &'a witness::Report,
     /// Where the files are.
     pub folder: &'a Path,
     /// Their names.
@@ -47,6 +50,7 @@ pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
     count(&mut page, derivation);
     strata::describe(&mut page, derivation);
     proofs(&mut page, derivation);
+    checks(&mut page, told.checked);
     written(&mut page, told);
     Ok(page.text)
 }
@@ -242,6 +246,28 @@ fn proofs(page: &mut Page, derivation: &Derivation) {
         (sum(|proof| proof.generators).to_string(), "equations reduce to zero".to_owned()),
         (sum(|proof| proof.pairs).to_string(), "S-polynomials reduce to zero".to_owned()),
     ]);
+}
+
+fn checks(page: &mut Page, checked: &witness::Report) {
+    let summary = checked.summary();
+    page.heading("Checked numerically, by witnesses that share nothing with the solver");
+    let mut entries = vec![
+        (summary.rows.to_string(), "targets: the joints that made them are found, all equations hold".to_owned()),
+        (summary.exact.to_string(), "of them: as many solutions as exact real roots (Sturm)".to_owned()),
+    ];
+    if summary.screw > 0 {
+        entries
+            .push((summary.screw.to_string(), "of them: the screw solver (Paden-Kahan) gives the same set".to_owned()));
+    }
+    entries.push((
+        summary.oracle.to_string(),
+        "of them: damped least squares from many seeds gives the same set".to_owned(),
+    ));
+    if summary.open > 0 {
+        entries.push((summary.open.to_string(), "of them: on a stratum that is not derived, and said so".to_owned()));
+    }
+    entries.push((format!("{:.0e}", summary.worst_residual), "the largest residual of all answers".to_owned()));
+    page.entries(&entries);
 }
 
 fn written(page: &mut Page, told: &Report<'_>) {

@@ -105,7 +105,15 @@ impl Builder<'_> {
                 Outcome::Solved(solved) => Some(solved.as_ref()),
                 _ => None,
             };
-            let child = self.node(place, setting, parent, depth + 1)?;
+            let label = place.label.clone();
+            let child = match self.node(place, setting.clone(), parent, depth + 1) {
+                Ok(child) => child,
+                Err(error) if is_final(&error) => return Err(error),
+                Err(error) => {
+                    let open = open_node(node, expression.clone(), error.message().to_owned());
+                    Node { label, setting, ..open }
+                }
+            };
             node.children.push(child);
         }
         Ok(())
@@ -115,6 +123,11 @@ impl Builder<'_> {
 /// All substitutions of a zero set, one after the other.
 pub(super) fn apply(setting: &Setting, substitutions: &[Substitution]) -> Result<Setting> {
     substitutions.iter().try_fold(setting.clone(), |setting, substitution| setting.substitute(substitution))
+}
+
+/// Errors that end the whole derivation; others leave one stratum open.
+fn is_final(error: &Error) -> bool {
+    matches!(error.kind(), ErrorKind::Cancelled | ErrorKind::Budget | ErrorKind::Certificate)
 }
 
 fn place_of(node: &Node, factor: &Expression, setting: &Setting) -> Place {

@@ -134,9 +134,7 @@ impl Setting {
     pub fn split_roots(&self) -> Result<Vec<Setting>> {
         for (index, symbol) in self.symbols.iter().enumerate() {
             let Some(square) = &symbol.square else { continue };
-            let before = Setting { symbols: self.symbols[..index].to_vec(), ..self.clone() }.field()?;
-            let Some(root) = square_root(before.ring(), &square.evaluate(before.ring())?) else { continue };
-            let root = expression_of(before.ring(), &root);
+            let Some(root) = self.root_among_earlier(index, square)? else { continue };
             let mut settings = Vec::new();
             for value in [root.clone(), root.negated()] {
                 let substitution = Substitution { name: symbol.name.clone(), value };
@@ -145,6 +143,32 @@ impl Setting {
             return Ok(settings);
         }
         Ok(vec![self.clone()])
+    }
+
+    /// An expression of the parameters before symbol `index` whose square is `square`: a polynomial, or one times an earlier root.
+    fn root_among_earlier(&self, index: usize, square: &Expression) -> Result<Option<Expression>> {
+        let field = Setting { symbols: self.symbols[..index].to_vec(), ..self.clone() }.field()?;
+        let ring = field.ring();
+        let square = field.reduce(&square.evaluate(ring)?);
+        if let Some(root) = square_root(ring, &square) {
+            return Ok(Some(expression_of(ring, &root)));
+        }
+        for earlier in &self.symbols[..index] {
+            let Some(other) = &earlier.square else { continue };
+            let other = other.evaluate(ring)?;
+            if let Some(root) = square_root(ring, &ring.mul(&square, &other)) {
+                let name = Expression::name(earlier.name.clone());
+                let parts = match ring.exact_div(&root, &other) {
+                    Some(factor) => vec![expression_of(ring, &factor), name],
+                    None => {
+                        let inverse = Expression::Inverse(Box::new(expression_of(ring, &other)));
+                        vec![expression_of(ring, &root), name, inverse]
+                    }
+                };
+                return Ok(Some(Expression::product(parts)));
+            }
+        }
+        Ok(None)
     }
 
     /// A parameter whose square is zero.

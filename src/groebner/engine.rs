@@ -96,6 +96,9 @@ impl<F: Field> Basis<F> {
 }
 
 /// Buchberger's loop: select a pair, reduce its S-polynomial, update the pairs with what remains.
+///
+/// Redundant elements stay among the divisors: they are older and simpler than what made them so. Without them the
+/// lexicographic basis of cyclic-5 modulo 32003 takes minutes instead of milliseconds.
 fn complete<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],

@@ -67,7 +67,8 @@ impl<F: Field> Basis<F> {
             .map(|m| (0..count).filter(|&v| layout.exponent(m, v) > 0).collect())
             .collect();
         let mut best = Vec::new();
-        largest_independent(&supports, count, &mut Vec::new(), 0, &mut best);
+        let limit = count - disjoint_supports(&supports, count);
+        largest_independent(&supports, 0..count, limit, &mut Vec::new(), &mut best);
         Some(best)
     }
 
@@ -105,26 +106,43 @@ fn collect_standard(leads: &[Vec<u32>], exponents: &mut Vec<u32>, variable: usiz
     exponents[variable] = 0;
 }
 
-/// Extends `chosen` by variables from `next` on, in all ways that may beat `best`; the first of equals stays.
+/// How many pairwise disjoint sets the first fit finds: each must lose a variable.
+fn disjoint_supports(supports: &[Vec<usize>], count: usize) -> usize {
+    let mut taken = vec![false; count];
+    let mut sorted: Vec<_> = supports.iter().collect();
+    sorted.sort_by_key(|support| support.len());
+    let free = sorted.into_iter().filter(|support| {
+        let free = !support.iter().any(|&v| taken[v]);
+        if free {
+            support.iter().for_each(|&v| taken[v] = true);
+        }
+        free
+    });
+    free.count()
+}
+
+/// Extends `chosen` by variables of `rest`, in all ways that may beat `best`; the first of equals stays, and nothing beats
+/// `limit`.
 fn largest_independent(
     supports: &[Vec<usize>],
-    count: usize,
+    rest: std::ops::Range<usize>,
+    limit: usize,
     chosen: &mut Vec<usize>,
-    next: usize,
     best: &mut Vec<usize>,
 ) {
     if chosen.len() > best.len() {
         best.clone_from(chosen);
     }
-    if next == count || chosen.len() + (count - next) <= best.len() {
+    if chosen.len() + rest.len() <= best.len() || best.len() == limit {
         return;
     }
-    chosen.push(next);
+    let after = rest.start + 1..rest.end;
+    chosen.push(rest.start);
     if !supports.iter().any(|support| support.iter().all(|v| chosen.contains(v))) {
-        largest_independent(supports, count, chosen, next + 1, best);
+        largest_independent(supports, after.clone(), limit, chosen, best);
     }
     chosen.pop();
-    largest_independent(supports, count, chosen, next + 1, best);
+    largest_independent(supports, after, limit, chosen, best);
 }
 
 /// The elimination ideal: the reduced basis of the ideal of `generators` intersected with the ring without the variables named

@@ -137,15 +137,45 @@ impl<F: Field> Fractions<F> {
         numerator: Polynomial<F::Element>,
         denominator: Polynomial<F::Element>,
     ) -> Fraction<F::Element> {
-        let mut common = denominator.clone();
-        for part in self.parts_over_roots(&numerator) {
-            common = gcd(&self.ring, &common, &part);
-        }
-        let divide = |f: &Polynomial<F::Element>| self.ring.exact_div(f, &common).expect("a gcd divides");
-        let (top, bottom) = (divide(&numerator), divide(&denominator));
+        let common = self.shared_factor(&numerator, &denominator);
+        let (top, bottom) = (self.divided(&numerator, &common), self.divided(&denominator, &common));
         let lead = &bottom.leading().expect("a denominator is not zero").coefficient;
         let inverse = self.ring.field().inverse(lead).expect("a leading coefficient is not zero");
         Fraction { numerator: self.ring.scale(&top, &inverse), denominator: self.ring.scale(&bottom, &inverse) }
+    }
+
+    /// The gcd of `divisor`, which is free of roots, and all parts of `f` over the roots.
+    fn shared_factor(&self, f: &Polynomial<F::Element>, divisor: &Polynomial<F::Element>) -> Polynomial<F::Element> {
+        let mut parts = self.parts_over_roots(f);
+        parts.sort_by_key(|part| part.terms().len());
+        parts.iter().fold(self.ring.monic(divisor), |common, part| gcd(&self.ring, &common, part))
+    }
+
+    fn divided(&self, f: &Polynomial<F::Element>, divisor: &Polynomial<F::Element>) -> Polynomial<F::Element> {
+        self.ring.exact_div(f, divisor).expect("a gcd divides")
+    }
+
+    /// The sum over different denominators: only a factor that the denominators share can cancel (Henrici 1956; Knuth 4.5.1).
+    fn add_unlike(&self, a: &Fraction<F::Element>, b: &Fraction<F::Element>) -> Fraction<F::Element> {
+        let shared = gcd(&self.ring, &a.denominator, &b.denominator);
+        let (left, right) = (self.divided(&a.denominator, &shared), self.divided(&b.denominator, &shared));
+        let sum = self.ring.add(&self.ring.mul(&a.numerator, &right), &self.ring.mul(&b.numerator, &left));
+        let cancelled = self.shared_factor(&sum, &shared);
+        let denominator = self.ring.mul(&left, &self.divided(&b.denominator, &cancelled));
+        Fraction { numerator: self.divided(&sum, &cancelled), denominator }
+    }
+
+    /// The product after cancelling crosswise; roots that multiply may cancel once more.
+    fn mul_crosswise(&self, a: &Fraction<F::Element>, b: &Fraction<F::Element>) -> Fraction<F::Element> {
+        let first = self.shared_factor(&a.numerator, &b.denominator);
+        let second = self.shared_factor(&b.numerator, &a.denominator);
+        let top = self.ring.mul(&self.divided(&a.numerator, &first), &self.divided(&b.numerator, &second));
+        let bottom = self.ring.mul(&self.divided(&a.denominator, &second), &self.divided(&b.denominator, &first));
+        let reduced = self.reduce(&top);
+        if reduced == top {
+            return Fraction { numerator: reduced, denominator: bottom };
+        }
+        self.lowest_terms(reduced, bottom)
     }
 
     /// The coefficients of `f` as a polynomial in the algebraic parameters.
@@ -183,19 +213,17 @@ impl<F: Field> Ring for Fractions<F> {
                 self.lowest_terms(sum, a.denominator.clone())
             };
         }
-        let left = self.ring.mul(&a.numerator, &b.denominator);
-        let right = self.ring.mul(&b.numerator, &a.denominator);
-        self.lowest_terms(self.ring.add(&left, &right), self.ring.mul(&a.denominator, &b.denominator))
+        self.add_unlike(a, b)
     }
     fn neg(&self, a: &Self::Element) -> Self::Element {
         Fraction { numerator: self.ring.neg(&a.numerator), denominator: a.denominator.clone() }
     }
     fn mul(&self, a: &Self::Element, b: &Self::Element) -> Self::Element {
-        let numerator = self.reduce(&self.ring.mul(&a.numerator, &b.numerator));
         if self.ring.is_one(&a.denominator) && self.ring.is_one(&b.denominator) {
+            let numerator = self.reduce(&self.ring.mul(&a.numerator, &b.numerator));
             return Fraction { numerator, denominator: a.denominator.clone() };
         }
-        self.lowest_terms(numerator, self.ring.mul(&a.denominator, &b.denominator))
+        self.mul_crosswise(a, b)
     }
     fn is_zero(&self, a: &Self::Element) -> bool {
         a.numerator.is_zero()

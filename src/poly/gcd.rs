@@ -57,16 +57,34 @@ fn gcd_without_monomials<F: Field>(
         let (with, without) = if degrees(v).0 > 0 { (f, g) } else { (g, f) };
         return gcd(ring, &content(ring, with, v), without);
     }
-    let main = variables.filter(|&v| degrees(v).0 > 0).min_by_key(|&v| degrees(v).0.max(degrees(v).1));
+    if let Some(divisor) = divisor_of_the_other(ring, f, g) {
+        return divisor;
+    }
+    let shared = variables.filter(|&v| degrees(v).0 > 0);
+    let (absent, open): (Vec<usize>, Vec<usize>) = shared.partition(|&v| coprime_at_a_point(ring, f, g, v));
+    if open.is_empty() {
+        return ring.one();
+    }
+    if let Some(&v) = absent.first() {
+        return gcd(ring, &content(ring, f, v), &content(ring, g, v));
+    }
+    let main = open.into_iter().min_by_key(|&v| degrees(v).0.max(degrees(v).1));
     let main = main.expect("two non-constants share a variable here");
     let (f_content, g_content) = (content(ring, f, main), content(ring, g, main));
     let shared = gcd(ring, &f_content, &g_content);
-    if coprime_at_a_point(ring, f, g, main) {
-        return shared;
-    }
     let f = ring.exact_div(f, &f_content).expect("a content divides");
     let g = ring.exact_div(g, &g_content).expect("a content divides");
     ring.monic(&ring.mul(&shared, &primitive_remainders(ring, f, g, main)))
+}
+
+/// The shorter polynomial when it divides the other.
+fn divisor_of_the_other<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
+) -> Option<Polynomial<F::Element>> {
+    let (short, long) = if f.terms().len() <= g.terms().len() { (f, g) } else { (g, f) };
+    ring.exact_div(long, short).map(|_| ring.monic(short))
 }
 
 /// The gcd of the coefficients of `f` as a polynomial in `variable`.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::instruction::{Instruction, Operand, Operation};
 use super::program::{Chart, Guard, JointValue, Program, Rule, Step, root_slots};
-use super::{MERGE, NEAR, PIVOT, TINY, refine};
+use super::{BLUR, MERGE, NEAR, PIVOT, ROUNDING, TINY, refine};
 use crate::{Error, ErrorKind, Result, roots};
 
 /// One answer of a program.
@@ -20,6 +20,12 @@ pub struct Solution {
     pub free: Vec<usize>,
     /// Whether the source document would choose this one.
     pub chosen: bool,
+}
+
+/// A solution with the largest share of an equation's value in its scale.
+struct Answer {
+    solution: Solution,
+    relative: f64,
 }
 
 /// The values that operands refer to.
@@ -85,6 +91,7 @@ impl Program {
                 self.walk(chart, 0, chart.first_branch, &mut frame, &mut answers);
             }
         }
+        let mut answers: Vec<Solution> = answers.into_iter().map(|answer| answer.solution).collect();
         answers.sort_by_key(|answer| answer.branch);
         self.mark_choice(&mut answers);
         Ok(answers)
@@ -126,7 +133,7 @@ impl Program {
     }
 
     /// Runs the steps of `chart` from number `next` on, once for each choice of roots.
-    fn walk(&self, chart: &Chart, next: usize, branch: usize, frame: &mut Frame<'_>, answers: &mut Vec<Solution>) {
+    fn walk(&self, chart: &Chart, next: usize, branch: usize, frame: &mut Frame<'_>, answers: &mut Vec<Answer>) {
         let Some(step) = chart.steps.get(next) else {
             return self.finish(chart, branch, frame, answers);
         };
@@ -179,7 +186,7 @@ impl Program {
     }
 
     /// Turns the unknowns into joints, polishes them, and keeps the answer if the equations hold.
-    fn finish(&self, chart: &Chart, branch: usize, frame: &mut Frame<'_>, answers: &mut Vec<Solution>) {
+    fn finish(&self, chart: &Chart, branch: usize, frame: &mut Frame<'_>, answers: &mut Vec<Answer>) {
         let mut q: Vec<f64> = self.joints.iter().map(|joint| joint_value(joint.value, &frame.unknowns)).collect();
         if chart.free.is_empty() {
             refine::polish(self, &mut q, frame);
@@ -188,27 +195,56 @@ impl Program {
         if !fit.accepted {
             return;
         }
-        let answer = Solution { q, residual: fit.residual, branch, free: chart.free.clone(), chosen: false };
-        match answers.iter_mut().find(|other| self.same(other, &answer)) {
-            Some(other) if answer.residual < other.residual => *other = Solution { branch: other.branch, ..answer },
-            Some(_) => {}
-            None => answers.push(answer),
+        let solution = Solution { q, residual: fit.residual, branch, free: chart.free.clone(), chosen: false };
+        let mut answer = Answer { solution, relative: fit.relative };
+        let same: Vec<bool> =
+            answers.iter().map(|other| self.same(other, &answer) || self.blurred(other, &answer, frame)).collect();
+        let doubles = || answers.iter().zip(&same).filter(|(_, same)| **same).map(|(other, _)| other);
+        if doubles().any(|other| other.relative <= answer.relative) {
+            return;
         }
+        if let Some(other) = doubles().next() {
+            answer.solution.branch = other.solution.branch;
+        }
+        let mut same = same.into_iter();
+        answers.retain(|_| !same.next().unwrap_or(false));
+        answers.push(answer);
     }
 
-    /// Whether two answers are one within [`MERGE`].
-    fn same(&self, a: &Solution, b: &Solution) -> bool {
-        let close = |(index, joint): (usize, &super::Joint)| {
-            let difference = a.q[index] - b.q[index];
-            match joint.value {
-                JointValue::Angle { .. } => {
-                    let turn = std::f64::consts::TAU;
-                    (difference - turn * (difference / turn).round()).abs() <= MERGE
-                }
-                JointValue::Plain(_) => difference.abs() <= MERGE * self.scale.max(a.q[index].abs()),
-            }
+    /// Whether two answers are one within [`MERGE`], joints left out that are free in either.
+    fn same(&self, a: &Answer, b: &Answer) -> bool {
+        self.close(&a.solution, &b.solution, MERGE)
+    }
+
+    /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open
+    /// beyond [`MERGE`]: half-way between them the equations hold as well as at the worse of the two, or within rounding.
+    fn blurred(&self, a: &Answer, b: &Answer, frame: &mut Frame<'_>) -> bool {
+        let isolated = a.solution.free.is_empty() && b.solution.free.is_empty();
+        if !isolated || !self.close(&a.solution, &b.solution, BLUR) {
+            return false;
+        }
+        let way = self.differences(&a.solution.q, &b.solution.q);
+        let middle: Vec<f64> = b.solution.q.iter().zip(way).map(|(q, way)| q + 0.5 * way).collect();
+        refine::measure(self, &middle, frame).relative <= ROUNDING.max(a.relative).max(b.relative)
+    }
+
+    fn close(&self, a: &Solution, b: &Solution, tolerance: f64) -> bool {
+        let close = |(index, difference): (usize, f64)| match self.joints[index].value {
+            _ if a.free.contains(&index) || b.free.contains(&index) => true,
+            JointValue::Angle { .. } => difference.abs() <= tolerance,
+            JointValue::Plain(_) => difference.abs() <= tolerance * self.scale.max(a.q[index].abs()),
         };
-        a.free == b.free && self.joints.iter().enumerate().all(close)
+        self.differences(&a.q, &b.q).into_iter().enumerate().all(close)
+    }
+
+    /// `a - b`, for angles by the shorter way round.
+    fn differences(&self, a: &[f64], b: &[f64]) -> Vec<f64> {
+        let turn = std::f64::consts::TAU;
+        let one = |(joint, (a, b)): (&super::Joint, (&f64, &f64))| match joint.value {
+            JointValue::Angle { .. } => a - b - turn * ((a - b) / turn).round(),
+            JointValue::Plain(_) => a - b,
+        };
+        self.joints.iter().zip(a.iter().zip(b)).map(one).collect()
     }
 
     fn mark_choice(&self, answers: &mut [Solution]) {

@@ -101,7 +101,9 @@ impl<'a> Targets<'a> {
         let turn = self.boundaries_done % (2 * angles.len() + 2);
         self.boundaries_done += 1;
         match angles.get(turn / 2) {
-            Some(&joint) => self.reachable(Kind::Boundary, Some((joint, if turn % 2 == 0 { 0.0 } else { PI }))),
+            Some(&joint) => {
+                self.reachable(Kind::Boundary, Some((joint, if turn.is_multiple_of(2) { 0.0 } else { PI })))
+            }
             None => (0..DRAWS).find_map(|_| self.singular()),
         }
     }
@@ -156,11 +158,23 @@ impl<'a> Targets<'a> {
         if let Some((inputs, joints)) = found {
             return Some(Target { kind, inputs, joints: Some(joints) });
         }
-        let near = self.reachable(kind.clone(), None)?;
-        let variables: Vec<usize> = (0..near.inputs.len()).collect();
-        let scales: Vec<f64> = variables.iter().map(|&input| self.model.input_size(input)).collect();
-        let (inputs, _) = newton(near.inputs, &scales, &|x| self.misses(&factors, share, x));
+        let inputs = self.beyond_reach(&factors, share)?;
         Some(Target { kind, inputs, joints: None })
+    }
+
+    /// Inputs where each factor is `share` of its typical size, reachable or not.
+    fn beyond_reach(&mut self, factors: &[Expression], share: f64) -> Option<Vec<f64>> {
+        let start = self.reachable(Kind::Random, None)?.inputs;
+        let scales: Vec<f64> = (0..start.len()).map(|input| self.model.input_size(input)).collect();
+        let (mut inputs, norm) = newton(start, &scales, &|x| self.misses(factors, share, x));
+        if share == 0.0 {
+            for (value, scale) in inputs.iter_mut().zip(&scales) {
+                *value = if value.abs() <= SNAP * scale { 0.0 } else { *value };
+            }
+        }
+        let allowed =
+            self.model.system.inputs.iter().zip(&inputs).all(|(input, value)| !input.positive || *value > 0.0);
+        (allowed && norm <= EXACT).then_some(inputs)
     }
 
     /// By how much each factor misses `share` of its typical size.

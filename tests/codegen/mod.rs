@@ -50,6 +50,7 @@ fn arm_with_charts_and_nested_roots_in_every_language_equals_the_evaluator() {
         let small = 10f64.powi(-(k % 17));
         let height = between(-0.9, 0.9);
         targets.push(vec![small * between(-1.0, 1.0), small * between(-1.0, 1.0), height]);
+        targets.push(vec![small * between(-1.0, 1.0), 0.0, height]);
         targets.push(vec![0.0, 0.0, height]);
         targets.push(vec![between(-2.0, 2.0), between(-2.0, 2.0), between(-2.0, 2.0)]);
     }

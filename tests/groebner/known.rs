@@ -232,8 +232,41 @@ fn a_change_of_order_goes_back_and_eliminates() {
     assert!(check_all(small, |case| over(&case.field, &case.parameters, &Back(case))) >= 15);
 }
 
-/// Cases on which the algorithm of NAO section 6.3, without any criterion, takes longer than a second.
-const REFERENCE_IS_SLOW: [&str; 0] = [];
+/// Systems on which the algorithm of NAO section 6.3, which has no criteria, takes longer than a second.
+const REFERENCE_IS_SLOW: [&str; 14] = [
+    "cyclic_5",
+    "cyclic_6",
+    "enneper-lex",
+    "katsura_2-lex",
+    "katsura_3",
+    "katsura_4",
+    "katsura_5",
+    "katsura_6",
+    "nao_arm-",
+    "nao_arm_symbolic",
+    "nao_leg-",
+    "nao_leg_inverted",
+    "nao_leg_symbolic",
+    "noon_3-lex",
+];
+
+/// Systems whose cofactors are too large to be found and checked in a second.
+const PROOF_IS_SLOW: [&str; 10] = [
+    "cyclic_5-lex",
+    "cyclic_6",
+    "enneper-lex",
+    "katsura_3-lex",
+    "katsura_4-lex",
+    "katsura_5-grevlex-q",
+    "katsura_5-lex",
+    "katsura_6",
+    "noon_3-lex",
+    "large_coefficients-lex",
+];
+
+fn is_none_of(list: &'static [&str]) -> impl Fn(&Case) -> bool {
+    |case| !list.iter().any(|start| case.file.starts_with(start))
+}
 
 /// The reference's basis and the known one reduce each other to zero, and it passes the criterion.
 struct Reference<'a>(&'a Case);
@@ -243,31 +276,19 @@ impl Check for Reference<'_> {
         let case = self.0;
         let ring = case.ring(&field);
         let known = read_basis(&ring, &case.basis);
-        let start = std::time::Instant::now();
-        let watch = Watch::none().with_time(std::time::Duration::from_secs(3));
-        let found = match buchberger(&ring, &case.generators(&ring), &watch) {
-            Ok(f) => f,
-            Err(_) => {
-                eprintln!("REF {} slow", case.file);
-                return;
-            }
-        };
-        eprintln!("REF {} {:.2}", case.file, start.elapsed().as_secs_f64());
-        if start.elapsed().as_secs_f64() > 1.0 {
-            return;
-        }
+        let found = buchberger(&ring, &case.generators(&ring), &Watch::none()).unwrap();
         assert!(is_groebner_basis(&ring, &found).unwrap(), "{}", case.file);
         let reduces = |f, by: &[_]| normal_form(&ring, f, by).unwrap().is_zero();
         assert!(found.iter().all(|f| reduces(f, &known)), "{}", case.file);
         assert!(known.iter().all(|f| reduces(f, &found)), "{}", case.file);
-        eprintln!("REFALL {} {:.2}", case.file, start.elapsed().as_secs_f64());
     }
 }
 
 #[test]
 fn the_reference_finds_the_known_ideals() {
-    let quick = |case: &Case| !REFERENCE_IS_SLOW.contains(&case.file.as_str());
-    check_all(quick, |case| over(&case.field, &case.parameters, &Reference(case)));
+    let select = |case: &Case| is_none_of(&REFERENCE_IS_SLOW)(case) && case.file != "nao_leg_pose-lex-q";
+    let cases = check_all(select, |case| over(&case.field, &case.parameters, &Reference(case)));
+    assert!(cases >= 45, "{cases}");
 }
 
 /// The engine's cofactors prove the known basis.
@@ -278,29 +299,20 @@ impl Check for Proved<'_> {
         let case = self.0;
         let ring = case.ring(&field);
         let generators = case.generators(&ring);
-        let start = std::time::Instant::now();
-        let watch = Watch::none().with_time(std::time::Duration::from_secs(3));
         let options = Options { strategy: Strategy::Normal, cofactors: true };
-        let found = match basis(&ring, &generators, &options, &watch) {
-            Ok(f) => f,
-            Err(_) => {
-                eprintln!("PRF {} slow", case.file);
-                return;
-            }
-        };
-        eprintln!("PRF {} {:.2}", case.file, start.elapsed().as_secs_f64());
+        let found = basis(&ring, &generators, &options, &Watch::none()).unwrap();
         let claim = Claim { generators: &generators, basis: &found.polynomials, cofactors: &found.cofactors };
         let proof = verify(&ring, &claim).unwrap_or_else(|error| panic!("{}: {error}", case.file));
         let size = found.polynomials.len();
         assert_eq!((proof.cofactor_rows, proof.generators), (size, generators.len()), "{}", case.file);
         assert_eq!(proof.pairs, size * size.saturating_sub(1) / 2, "{}", case.file);
-        eprintln!("PRFALL {} {:.2}", case.file, start.elapsed().as_secs_f64());
     }
 }
 
 #[test]
 fn the_checker_accepts_what_the_engine_proves() {
-    check_all(|_| true, |case| over(&case.field, &case.parameters, &Proved(case)));
+    let cases = check_all(is_none_of(&PROOF_IS_SLOW), |case| over(&case.field, &case.parameters, &Proved(case)));
+    assert!(cases >= 60, "{cases}");
 }
 
 /// A stale name or a basis read wrongly would make all of the above vacuous.

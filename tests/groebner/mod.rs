@@ -1,3 +1,6 @@
 //! Tests of `groebot::groebner`.
 
+mod claims;
 mod known;
+mod limits;
+mod random;

@@ -8,6 +8,6 @@ mod monomial;
 mod parse;
 mod print;
 mod ring;
-mod sparse;
+pub mod sparse;
 mod trees;
 mod univariate;

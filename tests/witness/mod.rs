@@ -35,3 +35,28 @@ pub fn assert_passes(source: &Source, program: &Program, targets: usize) -> Repo
     assert!(failures.is_empty(), "{}: {}\n{}", source.system.name, report.summary(), failures.join("\n"));
     report
 }
+
+/// Two links along z that turn about y, in millimetres; the knee and the tip stand at these heights.
+pub fn two_link_text(knee: &str, tip: &str) -> String {
+    format!(
+        r#"
+name = "two_links"
+length_unit = "mm"
+[task]
+kind = "planar_position"
+plane = "xz"
+[[joint]]
+name = "hip"
+type = "revolute"
+axis = [0, 1, 0]
+point = [0, 0, 0]
+[[joint]]
+name = "knee"
+type = "revolute"
+axis = [0, 1, 0]
+point = [0, 0, "{knee}"]
+[tip]
+point = [0, 0, "{tip}"]
+"#
+    )
+}
