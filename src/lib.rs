@@ -78,8 +78,6 @@ pub mod witness;
 
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod codegen;
-pub mod witness;
 
 pub use error::{Error, ErrorKind, Result};
 pub use watch::Watch;
