@@ -205,7 +205,7 @@ fn run_time(page: &mut Page, derivation: &Derivation) -> Result<()> {
         page.line("The solver uses this order: none of those tried has denominators that vanish on fewer targets.");
         return Ok(());
     }
-    page.line("Of the orders tried, the solver uses the one whose denominators vanish on the fewest targets. Strata:");
+    page.line("Of the orders tried, the solver uses the one whose denominators vanish on the fewest strata:");
     let entry = |node| Ok((strata::order(node), strata::breakdowns(&strata::score(node)?)));
     let (asked, (order, sets)) = (entry(asked)?, entry(used)?);
     page.entries(&[asked, (order, format!("{sets}  <- used"))]);
