@@ -92,7 +92,7 @@ impl Scene<'_> {
 
     /// The body of a chart, without indentation; an open chart's is its condition alone.
     pub fn chart(&self, chart: &Chart) -> Vec<String> {
-        let mut printer = self.printer(Demand::of_chart(chart, &self.wanted()));
+        let mut printer = self.printer(Demand::of_chart(self.program, chart, &self.wanted()));
         let mut lines = printer.code(&chart.guard_code);
         if !chart.guards.is_empty() {
             let condition = self.condition(&chart.guards, &mut printer);
@@ -105,7 +105,7 @@ impl Scene<'_> {
 
     /// The code before an open chart's condition, and the condition.
     pub fn open_chart(&self, chart: &Chart) -> (Vec<String>, String) {
-        let mut printer = self.printer(Demand::of_chart(chart, &[]));
+        let mut printer = self.printer(Demand::of_chart(self.program, chart, &[]));
         let lines = printer.code(&chart.guard_code);
         (lines, self.condition(&chart.guards, &mut printer))
     }
@@ -169,7 +169,8 @@ impl Walk<'_> {
             polynomials.iter().map(|list| list.iter().map(|&c| printer.operand(c)).collect()).collect();
         let lines = printer.settle();
         self.push(lines);
-        self.push(language.find_roots(self.depth, &lists));
+        let typical = if self.scene.program.is_plain(unknown) { language.field("magnitude") } else { number(1.0) };
+        self.push(language.find_roots(self.depth, &lists, &typical));
         let name = printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str());
         self.push(language.open_loop(self.depth, name));
         let stride: usize = self.chart.steps[index + 1..].iter().map(slots).product();

@@ -59,7 +59,7 @@ impl Language for C99 {
         format!("\"{body}\"")
     }
 
-    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>]) -> Vec<String> {
+    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
         let mut lines = Vec::new();
         for (index, list) in polynomials.iter().enumerate() {
             let head = format!("const double choice{depth}_{index}[{}] = {{", list.len());
@@ -67,12 +67,12 @@ impl Language for C99 {
         }
         let mut head = format!("const Roots roots{depth} =");
         for (index, list) in polynomials.iter().enumerate() {
-            let arguments = format!("(choice{depth}_{index}, {})", list.len());
+            let arguments = format!("choice{depth}_{index}, {}", list.len());
             if index + 1 < polynomials.len() {
-                lines.push(format!("{head} leads{arguments} ? real_roots{arguments}"));
+                lines.push(format!("{head} leads({arguments}) ? real_roots({arguments}, {typical})"));
                 head = format!("{INDENT}:");
             } else {
-                lines.push(format!("{head} real_roots{arguments};"));
+                lines.push(format!("{head} real_roots({arguments}, {typical});"));
             }
         }
         lines

@@ -28,11 +28,11 @@ fn at(counts: &[usize], index: usize) -> usize {
 
 impl Demand {
     /// What the chart's guards, its root steps and the unknowns in `wanted` ask for.
-    pub fn of_chart(chart: &Chart, wanted: &[usize]) -> Self {
+    pub fn of_chart(program: &Program, chart: &Chart, wanted: &[usize]) -> Self {
         let mut demand = Demand::default();
         if !chart.open {
             wanted.iter().for_each(|&unknown| demand.read(Operand::Unknown(unknown)));
-            chart.steps.iter().rev().for_each(|step| demand.step(step));
+            chart.steps.iter().rev().for_each(|step| demand.step(program, step));
         }
         for guard in &chart.guards {
             demand.read(guard.value);
@@ -50,12 +50,15 @@ impl Demand {
         demand
     }
 
-    fn step(&mut self, step: &Step) {
+    fn step(&mut self, program: &Program, step: &Step) {
         match step {
             Step::Compute(code) => self.code(code),
             Step::Set { unknown, value } if self.wants_unknown(*unknown) => self.read(*value),
             Step::Set { .. } => {}
-            Step::Roots { polynomials, .. } => polynomials.iter().flatten().for_each(|&operand| self.read(operand)),
+            Step::Roots { unknown, polynomials } => {
+                polynomials.iter().flatten().for_each(|&operand| self.read(operand));
+                self.magnitude += usize::from(program.is_plain(*unknown));
+            }
         }
     }
 

@@ -178,7 +178,7 @@ impl Parameters {
         let mut readers: Vec<Demand> = program
             .charts
             .iter()
-            .map(|chart| Demand::of_chart(chart, if chart.open { &[] } else { &wanted }))
+            .map(|chart| Demand::of_chart(program, chart, if chart.open { &[] } else { &wanted }))
             .collect();
         let checks = &program.checks;
         readers.push(Demand::of_code(&checks.code, &checks.residuals));

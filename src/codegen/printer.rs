@@ -32,8 +32,9 @@ pub(super) trait Language {
     fn declare(&self, name: &str, value: &str) -> String;
     /// A piece of text in quotation marks.
     fn quote(&self, text: &str) -> String;
-    /// Lines that name the roots `roots{depth}` of the first polynomial (each a list of coefficients) that leads.
-    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>]) -> Vec<String>;
+    /// Lines that name the roots `roots{depth}` of the first polynomial (each a list of coefficients) that leads; `typical` is
+    /// the unknown's typical size.
+    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String>;
     /// Lines that open the loop over `roots{depth}` with index `i{depth}`, and over its values if they have a name.
     fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String>;
     /// Leaving a chart unless a condition holds.

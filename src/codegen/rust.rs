@@ -48,9 +48,9 @@ impl Language for Rust {
         format!("\"{}\"", text.escape_default())
     }
 
-    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>]) -> Vec<String> {
+    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
         if let [only] = polynomials {
-            return spread(&format!("let roots{depth} = real_roots(&["), only, "]);");
+            return spread(&format!("let roots{depth} = real_roots(&["), only, &format!("], {typical});"));
         }
         let mut lines = Vec::new();
         for (index, list) in polynomials.iter().enumerate() {
@@ -61,9 +61,13 @@ impl Language for Rust {
         for index in 0..last {
             let open = if index == 0 { format!("let roots{depth} = if") } else { "} else if".to_owned() };
             lines.push(format!("{open} leads(&choice{depth}_{index}) {{"));
-            lines.push(format!("{INDENT}real_roots(&choice{depth}_{index})"));
+            lines.push(format!("{INDENT}real_roots(&choice{depth}_{index}, {typical})"));
         }
-        lines.extend(["} else {".to_owned(), format!("{INDENT}real_roots(&choice{depth}_{last})"), "};".to_owned()]);
+        lines.extend([
+            "} else {".to_owned(),
+            format!("{INDENT}real_roots(&choice{depth}_{last}, {typical})"),
+            "};".to_owned(),
+        ]);
         lines
     }
 
