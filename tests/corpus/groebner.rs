@@ -106,11 +106,6 @@ impl Case {
     pub fn generators<F: Field>(&self, ring: &PolynomialRing<F>) -> Vec<Polynomial<F::Element>> {
         read_all(ring, &self.generators)
     }
-
-    /// Whether the coefficients are rational functions.
-    pub fn is_parametric(&self) -> bool {
-        !self.parameters.is_empty()
-    }
 }
 
 /// A known basis as the engine gives it: monic, smallest leading monomial first.

@@ -2,7 +2,7 @@
 
 use groebot::ErrorKind;
 use groebot::number::{BigInt, BigRational, Field, Rationals, Ring, Zp, laws};
-use groebot::poly::{Block, Fractions, Order, Polynomial, PolynomialRing, Width};
+use groebot::poly::{Fractions, Order, Polynomial, PolynomialRing, Width};
 use proptest::prelude::*;
 
 use super::sparse::{Sparse, build, orders, quotient, sparse};
