@@ -23,13 +23,13 @@ pub const BLUR: f64 = 1e-3;
 /// What rounding leaves of an equation that holds, as a share of its scale.
 pub const ROUNDING: f64 = 1e-14;
 /// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
-pub const NEAR: f64 = 1e-6;
+pub const NEAR: f64 = 1e-3;
 /// A chart does not run where a denominator is below this share of its scale: a factor of degree two in the distance from its
 /// stratum is as small as the square of what rounding leaves of that distance. Wrong candidates are measured and dropped.
 pub const TINY: f64 = 1e-30;
 /// Among polynomials for one unknown, the first whose leading coefficient exceeds this share of the largest one is used.
 pub const PIVOT: f64 = 1e-9;
 /// Newton steps that polish each answer; a step that does not lower the residual is not taken.
-pub const POLISH_STEPS: usize = 3;
+pub const POLISH_STEPS: usize = 8;
 /// The most joints that a program may have.
 pub const MAX_JOINTS: usize = 8;
