@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::console::{self, Paint};
 use super::derive::refuse_failures;
-use super::files::{CHECKS, printed_solvers};
+use super::files::{CHECKS, is_ours, printed_solvers};
 use super::{Halt, Outcome};
 use crate::derive::{Derivation, Source, certificate};
 use crate::document::read_text;
@@ -82,7 +82,7 @@ fn stored_stages(folder: &Path, derivation: &Derivation) -> Result<Vec<Finding>>
     let mut findings = Vec::new();
     let stages = derivation.stage_files()?;
     for (name, bytes) in stages.into_iter().chain(printed_solvers(&derivation.program)) {
-        if name == CERTIFICATE {
+        if name == CERTIFICATE || !is_ours(folder, &name) {
             continue;
         }
         let path = folder.join(&name);

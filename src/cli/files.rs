@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::codegen;
 use crate::derive::input::INPUT_NAMES;
-use crate::derive::{Derivation, Source};
+use crate::derive::{Derivation, Source, stages};
 use crate::solver::Program;
 use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
@@ -56,11 +56,17 @@ pub fn assemble_files(
     if !is_same_file(&source.path, &folder.join(source.name)) {
         files.push((source.name.to_owned(), source.text.clone().into_bytes()));
     }
-    files.extend(derivation.stage_files()?);
+    files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
     files.extend(printed_solvers(&derivation.program));
     files.push((CHECKS.to_owned(), checked.to_csv().into_bytes()));
     files.sort_by(|a, b| a.0.cmp(&b.0));
     Ok(files)
+}
+
+/// Whether a stage file may be written and compared: a page that a person wrote in the place of ours is left alone.
+pub fn is_ours(folder: &Path, name: &str) -> bool {
+    let by_hand = |text: String| !text.contains(stages::MARK);
+    name != stages::PAGE || !fs::read_to_string(folder.join(name)).is_ok_and(by_hand)
 }
 
 /// The program as source code, one file a language.

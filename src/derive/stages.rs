@@ -16,6 +16,11 @@ use crate::groebner::Basis;
 pub const STAGES: [&str; 6] =
     ["1_equations.txt", "2_plan.txt", "3_basis.txt", "4_triangular.txt", "5_program.json", "certificate.json"];
 
+/// The page about the mechanism, for people.
+pub const PAGE: &str = "README.md";
+/// What tells our page from one that a person wrote.
+pub const MARK: &str = "Written by `groebot derive`";
+
 impl Derivation {
     /// The stage files with their names: the same bytes at every run.
     ///
@@ -32,7 +37,7 @@ impl Derivation {
         ];
         let mut files: Vec<(String, Vec<u8>)> =
             STAGES.iter().zip(texts).map(|(name, text)| ((*name).to_owned(), text.into_bytes())).collect();
-        files.push(("README.md".to_owned(), self.readme().into_bytes()));
+        files.push((PAGE.to_owned(), self.readme().into_bytes()));
         Ok(files)
     }
 
@@ -144,7 +149,8 @@ impl Derivation {
             }
             text += "\n";
         }
-        text += "Written by `groebot derive`; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
+        text += MARK;
+        text += "; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
         let example = vec!["..."; system.inputs.len()].join(",");
         let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", system.name);
         text
