@@ -11,9 +11,9 @@
 //! A target has 4 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
 //!
 //! Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
-//! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 1e-6 of its
+//! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
 //! scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
-//! answer is polished by 3 Newton steps at most.
+//! answer is polished by 8 Newton steps at most.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
 //! `sin`, `cos`, `atan2` and `round` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
@@ -75,9 +75,10 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
         return Err(Error::BadTarget);
     }
     let p = &parameters(target);
-    let mut answers = Answers { out, count: 0 };
+    let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0 };
     chart_1(p, &mut answers);
     chart_2(p, &mut answers);
+    answers.sort();
     answers.mark_choice();
     Ok(answers.count)
 }
@@ -104,10 +105,14 @@ const EQUATIONS: usize = 2;
 const ACCEPT: f64 = 1e-12;
 /// Answers whose joints all differ by no more than this are one.
 const MERGE: f64 = 1e-7;
+/// At a singular configuration, answers within this distance may be one.
+const BLUR: f64 = 0.001;
+/// What rounding leaves of an equation that holds, as a share of its size.
+const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
-const POLISH_STEPS: usize = 3;
+const POLISH_STEPS: usize = 8;
 /// A factor is near zero up to this share of its scale.
-const NEAR: f64 = 1e-6;
+const NEAR: f64 = 0.001;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -138,7 +143,7 @@ fn chart_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r9 = r0 * (10000.0 * r0 + 20000.0 * r1 - 38053800.0);
     let r13 = r1 * (10000.0 * r1 - 479053800.0) + 36202292361.0;
     let r18 = 7991298000.0 - 4200000.0 * r0 - 4200000.0 * r1;
-    let roots0 = real_roots(&[r9 + r13, p.py * r18, 441000000.0 * r0 + 441000000.0 * r1]);
+    let roots0 = real_roots(&[r9 + r13, p.py * r18, 441000000.0 * r0 + 441000000.0 * r1], 1.0);
     for (i0, &s2) in roots0.as_slice().iter().enumerate() {
         let r23 = 21000.0 * s2;
         let r24 = 100.0 * p.py;
@@ -163,7 +168,7 @@ fn chart_2(p: &Parameters, answers: &mut Answers<'_>) {
     let r1 = 100.0 * r0;
     let s2 = (r1 - 190269.0) / (21000.0 * p.py);
     let r8 = r0 * (10000.0 * r0 - 479053800.0) + 36202292361.0;
-    let roots0 = real_roots(&[r8, 0.0, 517107600.0 * r0]);
+    let roots0 = real_roots(&[r8, 0.0, 517107600.0 * r0], 1.0);
     for (i0, &s4) in roots0.as_slice().iter().enumerate() {
         let c2 = -379.0 * s4 / 350.0;
         let c4 = (r1 + 190269.0) / (22740.0 * p.py);
@@ -212,15 +217,16 @@ fn preference(q: &[f64; JOINTS]) -> f64 {
     q[0].sin()
 }
 
-/// Answers so far.
+/// Answers so far, and the largest share of an equation's value in its size for each.
 struct Answers<'a> {
     out: &'a mut [Solution; CAPACITY],
+    relative: [f64; CAPACITY],
     count: usize,
 }
 
 impl Answers<'_> {
-    /// Polishes a candidate unless it is one of a family, and keeps it if the equations hold. Of two that are one, the branch
-    /// of the first and the joints of the better are kept.
+    /// Polishes a candidate unless it is one of a family, and keeps it if the equations hold. Of answers that are one, the branch
+    /// of the first and the joints of the best are kept.
     fn finish(&mut self, p: &Parameters, branch: usize, mut q: [f64; JOINTS], free: [bool; JOINTS]) {
         if free == NONE_FREE {
             q = polish(p, q);
@@ -229,18 +235,53 @@ impl Answers<'_> {
         if !fit.accepted {
             return;
         }
-        let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
-        match self.out[..self.count].iter_mut().find(|other| same(other, &answer)) {
-            Some(other) if answer.residual < other.residual => *other = Solution { branch: other.branch, ..answer },
-            Some(_) => {}
-            None => self.push(answer),
+        let mut answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
+        let mut doubles = [false; CAPACITY];
+        let mut first = None;
+        for i in 0..self.count {
+            let (other, relative) = (&self.out[i], self.relative[i]);
+            doubles[i] = close(other, &answer, MERGE) || blurred(p, other, &answer, f64::max(relative, fit.relative));
+            if doubles[i] && relative <= fit.relative {
+                return;
+            }
+            if doubles[i] && first.is_none() {
+                first = Some(other.branch);
+            }
+        }
+        answer.branch = first.unwrap_or(branch);
+        self.drop_doubles(&doubles);
+        self.push(answer, fit.relative);
+    }
+
+    fn drop_doubles(&mut self, doubles: &[bool; CAPACITY]) {
+        let mut kept = 0;
+        for i in 0..self.count {
+            if !doubles[i] {
+                self.out[kept] = self.out[i];
+                self.relative[kept] = self.relative[i];
+                kept += 1;
+            }
+        }
+        self.count = kept;
+    }
+
+    fn push(&mut self, answer: Solution, relative: f64) {
+        if self.count < CAPACITY {
+            self.out[self.count] = answer;
+            self.relative[self.count] = relative;
+            self.count += 1;
         }
     }
 
-    fn push(&mut self, answer: Solution) {
-        if let Some(slot) = self.out.get_mut(self.count) {
-            *slot = answer;
-            self.count += 1;
+    /// Insertion sort by branch.
+    fn sort(&mut self) {
+        for end in 1..self.count {
+            for place in (1..=end).rev() {
+                if self.out[place - 1].branch <= self.out[place].branch {
+                    break;
+                }
+                self.out.swap(place - 1, place);
+            }
         }
     }
 
@@ -255,16 +296,40 @@ impl Answers<'_> {
     }
 }
 
-/// Whether two answers are one.
-fn same(a: &Solution, b: &Solution) -> bool {
-    a.free == b.free
-        && same_angle(a.q[0], b.q[0])
-        && same_angle(a.q[1], b.q[1])
+/// `a - b` joint by joint, angles by the shorter way round.
+fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
+    [
+        shorter(a[0] - b[0]),
+        shorter(a[1] - b[1]),
+    ]
 }
 
-fn same_angle(a: f64, b: f64) -> bool {
-    let difference = a - b;
-    (difference - TAU * (difference / TAU).round()).abs() <= MERGE
+fn shorter(difference: f64) -> f64 {
+    difference - TAU * (difference / TAU).round()
+}
+
+/// Whether two answers differ by `tolerance` at most, joints left out that are free in either.
+fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
+    let difference = differences(&a.q, &b.q);
+    let limit = [
+tolerance,
+tolerance,
+    ];
+    (0..JOINTS).all(|i| a.free[i] || b.free[i] || difference[i].abs() <= limit[i])
+}
+
+/// Whether two answers near one another are one at a singular configuration: half-way between them the equations hold as well as
+/// at the worse of the two, whose relative residual is `relative`, or within rounding.
+fn blurred(p: &Parameters, a: &Solution, b: &Solution, relative: f64) -> bool {
+    if a.free != NONE_FREE || b.free != NONE_FREE || !close(a, b, BLUR) {
+        return false;
+    }
+    let way = differences(&a.q, &b.q);
+    let mut middle = b.q;
+    for i in 0..JOINTS {
+        middle[i] += 0.5 * way[i];
+    }
+    measure(p, &middle).relative <= f64::max(RESOLUTION, relative)
 }
 
 /// How well joint values solve the equations.
@@ -383,7 +448,8 @@ fn is_away(value: f64, scale: f64) -> bool {
 const DEGREE: usize = 2;
 /// A leading coefficient below this share of the largest coefficient counts as zero.
 const NEGLIGIBLE: f64 = 1e-290;
-/// A critical point with `|p| <= TANGENT sum |a_i x^i|` counts as a root.
+/// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
+/// typical size.
 const TANGENT: f64 = 1e-10;
 /// Values of `p` up to `degree ROUNDING sum |a_i x^i|` have no sign.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
@@ -413,6 +479,8 @@ impl Roots {
 struct Polynomial {
     a: [f64; DEGREE + 1],
     degree: usize,
+    /// The unknown's typical size.
+    scale: f64,
 }
 
 fn largest(coefficients: &[f64]) -> f64 {
@@ -420,15 +488,15 @@ fn largest(coefficients: &[f64]) -> f64 {
 }
 
 /// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
-/// a double root that misses the axis by rounding, are reported once.
-fn real_roots(coefficients: &[f64]) -> Roots {
-    let Some(p) = Polynomial::new(coefficients) else { return Roots::NONE };
+/// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
+fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
+    let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
     if p.degree < 2 { p.linear_root() } else { p.quadratic_roots() }
 }
 
 impl Polynomial {
     /// Drops negligible leading coefficients and divides by the largest; none when nothing solvable is left.
-    fn new(coefficients: &[f64]) -> Option<Self> {
+    fn new(coefficients: &[f64], scale: f64) -> Option<Self> {
         let largest = largest(coefficients);
         let mut length = coefficients.len();
         while length > 0 && coefficients[length - 1].abs() <= NEGLIGIBLE * largest {
@@ -439,7 +507,7 @@ impl Polynomial {
         }
         let mut a = [0.0; DEGREE + 1];
         a[..length].copy_from_slice(&coefficients[..length]);
-        Some(Polynomial { a, degree: length - 1 }.scaled())
+        Some(Polynomial { a, degree: length - 1, scale }.scaled())
     }
 
     /// The polynomial divided by its largest coefficient.
@@ -465,7 +533,8 @@ impl Polynomial {
         let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
         let discriminant = b * b - 4.0 * a * c;
         let size = b * b + (4.0 * a * c).abs();
-        if discriminant < -TANGENT * size {
+        let typical = 2.0 * a * self.scale;
+        if discriminant < -TANGENT * f64::max(size, typical * typical) {
             return roots;
         }
         if discriminant <= ROUNDING * size {

@@ -10,9 +10,9 @@
  * A target has 2 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
  * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 1e-6 of its
+ * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
  * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 3 Newton steps at most.
+ * answer is polished by 8 Newton steps at most.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * NAO_LEG_SAGITTAL_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -79,8 +79,12 @@ double nao_leg_sagittal_residual(const double *target, const double *q);
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
 #define MERGE 1e-7
+/* At a singular configuration, answers within this distance may be one. */
+#define BLUR 0.001
+/* What rounding leaves of an equation that holds, as a share of its size. */
+#define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
-#define POLISH_STEPS 3
+#define POLISH_STEPS 8
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -95,7 +99,8 @@ const char *const nao_leg_sagittal_joint_names[JOINTS] = {"HipPitch", "KneePitch
 #define DEGREE 2
 /* A leading coefficient below this share of the largest coefficient counts as zero. */
 #define NEGLIGIBLE 1e-290
-/* A critical point with |p| <= TANGENT sum |a_i x^i| counts as a root. */
+/* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
+ * size. */
 #define TANGENT 1e-10
 /* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
 #define ROUNDING (2.0 * DBL_EPSILON)
@@ -110,6 +115,8 @@ typedef struct {
 typedef struct {
     double a[DEGREE + 1];
     size_t degree;
+    /* The unknown's typical size. */
+    double scale;
 } Polynomial;
 
 static void push(Roots *roots, double x)
@@ -154,7 +161,7 @@ static bool polynomial(const double *coefficients, size_t length, Polynomial *re
     if (length == 0) {
         return false;
     }
-    Polynomial p = {{0.0}, length - 1};
+    Polynomial p = {{0.0}, length - 1, 0.0};
     for (size_t i = 0; i < length; i++) {
         p.a[i] = coefficients[i];
     }
@@ -178,7 +185,8 @@ static Roots quadratic_roots(const Polynomial *p)
     const double c = p->a[0], b = p->a[1], a = p->a[2];
     const double discriminant = b * b - 4.0 * a * c;
     const double size = b * b + fabs(4.0 * a * c);
-    if (discriminant < -TANGENT * size) {
+    const double typical = 2.0 * a * p->scale;
+    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
         return roots;
     }
     if (discriminant <= ROUNDING * size) {
@@ -193,14 +201,15 @@ static Roots quadratic_roots(const Polynomial *p)
 }
 
 /* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length)
+ * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
+static Roots real_roots(const double *coefficients, size_t length, double scale)
 {
     Polynomial p;
     if (!polynomial(coefficients, length, &p)) {
         const Roots none = {{0.0}, 0};
         return none;
     }
+    p.scale = scale;
     return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
@@ -385,48 +394,92 @@ static void polish(const Parameters *p, double *q)
     }
 }
 
-/* Answers so far. */
+/* Answers so far, and the largest share of an equation's value in its size for each. */
 typedef struct {
     Solution *out;
+    double relative[NAO_LEG_SAGITTAL_CAPACITY];
     size_t count;
 } Answers;
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-static bool same_angle(double a, double b)
+static double shorter(double difference)
 {
-    const double difference = a - b;
-    return fabs(difference - TAU * round(difference / TAU)) <= MERGE;
+    return difference - TAU * round(difference / TAU);
 }
 
-/* Whether two answers are one. */
-static bool same(const Solution *a, const Solution *b)
+/* a - b joint by joint, angles by the shorter way round. */
+static void differences(const double *a, const double *b, double *difference)
 {
+    difference[0] = shorter(a[0] - b[0]);
+    difference[1] = shorter(a[1] - b[1]);
+}
+
+/* Whether two answers differ by tolerance at most, joints left out that are free in either. */
+static bool is_close(const Solution *a, const Solution *b, double tolerance)
+{
+    double difference[JOINTS];
+    differences(a->q, b->q, difference);
+    const double limit[JOINTS] = {
+tolerance,
+tolerance,
+    };
     for (size_t i = 0; i < JOINTS; i++) {
-        if (a->free[i] != b->free[i]) {
+        if (!a->free[i] && !b->free[i] && !(fabs(difference[i]) <= limit[i])) {
             return false;
         }
     }
-    return same_angle(a->q[0], b->q[0])
-        && same_angle(a->q[1], b->q[1]);
+    return true;
 }
 
-/* Keeps an answer. Of two that are one, the branch of the first and the joints of the better are kept. */
-static void keep(Answers *answers, const Solution *answer)
+/* Whether two answers near one another are one at a singular configuration: half-way between them the equations hold as well as at
+ * the worse of the two, whose relative residual is given, or within rounding. */
+static bool blurred(const Parameters *p, const Solution *a, const Solution *b, double relative)
 {
+    for (size_t i = 0; i < JOINTS; i++) {
+        if (a->free[i] || b->free[i]) {
+            return false;
+        }
+    }
+    if (!is_close(a, b, BLUR)) {
+        return false;
+    }
+    double way[JOINTS], middle[JOINTS];
+    differences(a->q, b->q, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        middle[i] = b->q[i] + 0.5 * way[i];
+    }
+    return measure(p, middle).relative <= fmax(RESOLUTION, relative);
+}
+
+/* Keeps an answer. Of answers that are one, the branch of the first and the joints of the best are kept. */
+static void keep(const Parameters *p, Answers *answers, Solution answer, double relative)
+{
+    bool doubles[NAO_LEG_SAGITTAL_CAPACITY];
+    bool met = false;
     for (size_t i = 0; i < answers->count; i++) {
-        Solution *other = &answers->out[i];
-        if (same(other, answer)) {
-            if (answer->residual < other->residual) {
-                const size_t branch = other->branch;
-                *other = *answer;
-                other->branch = branch;
-            }
+        const Solution *other = &answers->out[i];
+        const double worse = fmax(answers->relative[i], relative);
+        doubles[i] = is_close(other, &answer, MERGE) || blurred(p, other, &answer, worse);
+        if (doubles[i] && answers->relative[i] <= relative) {
             return;
         }
     }
+    size_t kept = 0;
+    for (size_t i = 0; i < answers->count; i++) {
+        if (!doubles[i]) {
+            answers->out[kept] = answers->out[i];
+            answers->relative[kept] = answers->relative[i];
+            kept++;
+        } else if (!met) {
+            answer.branch = answers->out[i].branch;
+            met = true;
+        }
+    }
+    answers->count = kept;
     if (answers->count < NAO_LEG_SAGITTAL_CAPACITY) {
-        answers->out[answers->count] = *answer;
+        answers->out[answers->count] = answer;
+        answers->relative[answers->count] = relative;
         answers->count++;
     }
 }
@@ -451,7 +504,7 @@ static void finish(const Parameters *p, size_t branch, const double *q, const bo
     answer.residual = fit.residual;
     answer.branch = branch;
     answer.chosen = false;
-    keep(answers, &answer);
+    keep(p, answers, answer, fit.relative);
 }
 
 /* The source chooses the answer with the least value of this. */
@@ -495,7 +548,7 @@ static void chart_1(const Parameters *p, Answers *answers)
         0.0,
         4235364000000.0,
     };
-    const Roots roots0 = real_roots(choice0_0, 3);
+    const Roots roots0 = real_roots(choice0_0, 3, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double s4 = roots0.values[i0];
         const double r17 = 100.0 * r0 + 100.0 * r1;
@@ -527,7 +580,9 @@ int nao_leg_sagittal_solve(const double *target, nao_leg_sagittal_solution *out)
         return NAO_LEG_SAGITTAL_BAD_TARGET;
     }
     const Parameters p = parameters(target);
-    Answers answers = {out, 0};
+    Answers answers;
+    answers.out = out;
+    answers.count = 0;
     chart_1(&p, &answers);
     mark_choice(&answers);
     return (int)answers.count;

@@ -6,7 +6,9 @@ use super::body::{Scene, slots};
 use super::demand::{Demand, ParameterDemand};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
-use crate::solver::{ACCEPT, Chart, JointValue, MERGE, NEAR, Operand, PIVOT, POLISH_STEPS, Program, Step, TINY, Unit};
+use crate::solver::{
+    ACCEPT, BLUR, Chart, JointValue, MERGE, NEAR, Operand, PIVOT, POLISH_STEPS, Program, ROUNDING, Step, TINY, Unit,
+};
 
 /// Everything that the skeletons name.
 #[derive(Serialize)]
@@ -46,6 +48,8 @@ struct Quantity {
 struct Tolerances {
     accept: String,
     merge: String,
+    blur: String,
+    resolution: String,
     near: String,
     tiny: String,
     pivot: String,
@@ -163,6 +167,8 @@ impl Tolerances {
         Tolerances {
             accept: number(ACCEPT),
             merge: number(MERGE),
+            blur: number(BLUR),
+            resolution: number(ROUNDING),
             near: number(NEAR),
             tiny: number(TINY),
             pivot: number(PIVOT),
@@ -241,9 +247,6 @@ impl Needs {
     fn new(program: &Program) -> Self {
         let guards = || program.charts.iter().flat_map(|chart| &chart.guards);
         let closed = || program.charts.iter().filter(|chart| !chart.open);
-        let branches: Vec<(usize, usize)> = closed()
-            .map(|chart| (chart.first_branch, chart.first_branch.saturating_add(Program::branches(chart))))
-            .collect();
         let angles = program.joints.iter().filter(|joint| is_angle(joint.value)).count();
         Needs {
             answers: closed().next().is_some(),
@@ -253,7 +256,7 @@ impl Needs {
             pivot: root_steps(program).any(|(_, polynomials)| polynomials > 1),
             angles: angles > 0,
             lengths: angles < program.joints.len(),
-            sort: branches.windows(2).any(|pair| pair[0].1 > pair[1].0),
+            sort: program.capacity > 2,
         }
     }
 }

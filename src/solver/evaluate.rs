@@ -188,14 +188,22 @@ impl Program {
     /// Turns the unknowns into joints, polishes them, and keeps the answer if the equations hold.
     fn finish(&self, chart: &Chart, branch: usize, frame: &mut Frame<'_>, answers: &mut Vec<Answer>) {
         let mut q: Vec<f64> = self.joints.iter().map(|joint| joint_value(joint.value, &frame.unknowns)).collect();
+        let unknowns = frame.unknowns.clone();
+        self.judge(chart, branch, &mut q, frame, answers);
+        frame.unknowns = unknowns;
+    }
+
+    /// Polishes a candidate and takes it among the answers when the equations hold and none of them is the same and better.
+    fn judge(&self, chart: &Chart, branch: usize, q: &mut Vec<f64>, frame: &mut Frame<'_>, answers: &mut Vec<Answer>) {
         if chart.free.is_empty() {
-            refine::polish(self, &mut q, frame);
+            refine::polish(self, q, frame);
         }
-        let fit = refine::measure(self, &q, frame);
+        let fit = refine::measure(self, q, frame);
         if !fit.accepted {
             return;
         }
-        let solution = Solution { q, residual: fit.residual, branch, free: chart.free.clone(), chosen: false };
+        let solution =
+            Solution { q: q.clone(), residual: fit.residual, branch, free: chart.free.clone(), chosen: false };
         let mut answer = Answer { solution, relative: fit.relative };
         let same: Vec<bool> =
             answers.iter().map(|other| self.same(other, &answer) || self.blurred(other, &answer, frame)).collect();

@@ -52,7 +52,7 @@ fn forged_claims_are_refused_and_located() {
     });
     expect(&error, "searched order: stratum `generic`");
     let error = damaged(|v| drop(v["requested"].as_array_mut().unwrap().remove(1)));
-    expect(&error, "stratum `px = 0` is missing");
+    expect(&error, "stratum `pz = 0` is missing");
     let error = damaged(|v| {
         let extra = v["requested"][1].clone();
         v["requested"].as_array_mut().unwrap().push(extra);
