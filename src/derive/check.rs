@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::radicals::check_root;
 use super::system::{
-    Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
+    Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
     ParameterSource, Quantity, SystemParts, are_partners, complement, is_circle,
 };
 use crate::poly::{Expression, is_identifier};
@@ -236,6 +236,11 @@ fn check_names(
 }
 
 fn check_size(expression: &Expression, part: Part, context: &str) -> Checked {
+    let degree = expression.degree_bound();
+    if degree > MAX_DEGREE {
+        let text = format!("{context}: its degree may be {degree}; at most {MAX_DEGREE} is allowed");
+        return Err(mistake(part, ErrorKind::Overflow, text));
+    }
     let bound = expression.expansion_bound();
     if bound.terms <= MAX_TERMS && bound.bits <= MAX_BITS {
         return Ok(());

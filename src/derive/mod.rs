@@ -30,6 +30,6 @@ pub use grow::{derive_tree, describe};
 pub use input::Source;
 pub use prover::Orders;
 pub use system::{
-    Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
-    ParameterSource, Quantity, System, SystemParts,
+    Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,
+    Parameter, ParameterSource, Quantity, System, SystemParts,
 };

@@ -15,6 +15,8 @@ pub const MAX_UNKNOWNS: usize = 16;
 pub const MAX_PARAMETERS: usize = 64;
 /// The most terms that the expansion of an equation or a square may take, by [`Expression::expansion_bound`].
 pub const MAX_TERMS: f64 = 1e5;
+/// The highest total degree that an equation or a square may have.
+pub const MAX_DEGREE: u64 = 1000;
 /// The most bits that a coefficient of such an expansion may take.
 pub const MAX_BITS: f64 = 2e5;
 

@@ -60,6 +60,18 @@ impl Expression {
         }
     }
 
+    /// The total degree that the expanded polynomial cannot exceed, divisors counted like factors.
+    pub fn degree_bound(&self) -> u64 {
+        match self {
+            Expression::Number(_) => 0,
+            Expression::Name(_) => 1,
+            Expression::Negation(a) | Expression::Inverse(a) => a.degree_bound(),
+            Expression::Sum(parts) => parts.iter().map(Expression::degree_bound).max().unwrap_or(0),
+            Expression::Product(parts) => parts.iter().map(Expression::degree_bound).fold(0, u64::saturating_add),
+            Expression::Power(a, n) => a.degree_bound().saturating_mul(u64::from(*n)),
+        }
+    }
+
     /// What the expanded polynomial cannot exceed, names being variables: a caller refuses what is hopeless before it
     /// evaluates.
     pub fn expansion_bound(&self) -> ExpansionBound {

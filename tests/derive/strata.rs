@@ -119,6 +119,15 @@ fn error_of(text: &str) -> groebot::Error {
 const JOINTS: &str = "[[joint]]\nname = \"a\"\ncosine = \"c1\"\nsine = \"s1\"\n\
                       [[joint]]\nname = \"b\"\ncosine = \"c2\"\nsine = \"s2\"\n";
 
+/// One term, and a degree beyond every monomial: it is refused before it is expanded.
+#[test]
+fn a_hopeless_degree_is_refused() {
+    let text = format!("name = \"x\"\nequations = [\"(c1^1000)^1000 = 1\", \"c2 = s1\"]\n{JOINTS}");
+    let error = System::from_toml(&text).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Overflow);
+    assert_eq!(error.place().line, Some(2));
+}
+
 #[test]
 fn contradicting_equations_are_refused() {
     let text = format!("name = \"x\"\nequations = [\"c1 + c2 = 1\", \"c1 + c2 = 2\", \"s1 = s2\"]\n{JOINTS}");
