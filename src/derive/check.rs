@@ -238,7 +238,7 @@ fn check_names(
 fn check_size(expression: &Expression, part: Part, context: &str) -> Checked {
     let degree = expression.degree_bound();
     if degree > MAX_DEGREE {
-        let text = format!("{context}: its degree may be {degree}; at most {MAX_DEGREE} is allowed");
+        let text = format!("{context}: its degree may be {degree}; at most {MAX_DEGREE} is allowed: lower its powers");
         return Err(mistake(part, ErrorKind::Overflow, text));
     }
     let bound = expression.expansion_bound();

@@ -30,7 +30,7 @@ impl Source {
     ///
     /// # Errors
     /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; as
-    /// [`Chain::from_toml`], [`System::from_toml`] and [`formulate`], with file and line.
+    /// [`Chain::from_toml`], [`System::from_toml`] and [`mod@formulate`], with file and line.
     pub fn read(path: &Path) -> Result<Source> {
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
         let text = read_text(&file, TEXT_LIMIT)?;
