@@ -185,25 +185,50 @@ impl Program {
         self.joints.iter().any(|joint| joint.value == JointValue::Plain(unknown))
     }
 
-    /// Turns the unknowns into joints, polishes them, and keeps the answer if the equations hold.
+    /// Turns the unknowns into joints, polishes them, and keeps what solves the equations. The frame is left as it was.
     fn finish(&self, chart: &Chart, branch: usize, frame: &mut Frame<'_>, answers: &mut Vec<Answer>) {
-        let mut q: Vec<f64> = self.joints.iter().map(|joint| joint_value(joint.value, &frame.unknowns)).collect();
         let unknowns = frame.unknowns.clone();
-        self.judge(chart, branch, &mut q, frame, answers);
+        let mut q: Vec<f64> = self.joints.iter().map(|joint| joint_value(joint.value, &unknowns)).collect();
+        if chart.free.is_empty() {
+            refine::polish(self, &mut q, frame);
+            for mut start in self.around(&q, frame) {
+                refine::polish(self, &mut start, frame);
+                self.keep(chart, branch, start, frame, answers);
+            }
+        }
+        self.keep(chart, branch, q, frame, answers);
         frame.unknowns = unknowns;
     }
 
-    /// Polishes a candidate and takes it among the answers when the equations hold and none of them is the same and better.
-    fn judge(&self, chart: &Chart, branch: usize, q: &mut Vec<f64>, frame: &mut Frame<'_>, answers: &mut Vec<Answer>) {
-        if chart.free.is_empty() {
-            refine::polish(self, q, frame);
+    /// Where a candidate stands at a singular configuration and misses the equations by little, it is a double root that rounding
+    /// made of two: points to either side of it, as far as the square root of the miss leads.
+    fn around(&self, q: &[f64], frame: &mut Frame<'_>) -> Vec<Vec<f64>> {
+        let miss = refine::measure(self, q, frame).relative;
+        if !(ROUNDING..=NEAR).contains(&miss) {
+            return Vec::new();
         }
-        let fit = refine::measure(self, q, frame);
+        let moved = |(joint, sign): (usize, f64)| {
+            let mut q = q.to_vec();
+            let way = 2.0 * sign * miss.sqrt();
+            q[joint] = match self.joints[joint].value {
+                JointValue::Angle { .. } => refine::wrap(q[joint] + way),
+                JointValue::Plain(_) => q[joint] + way * frame.magnitude,
+            };
+            q
+        };
+        (0..q.len()).flat_map(|joint| [(joint, -1.0), (joint, 1.0)]).map(moved).collect()
+    }
+
+    /// Adds an answer if the equations hold, in place of a worse equal one. A second root of a double one takes the next number.
+    fn keep(&self, chart: &Chart, branch: usize, q: Vec<f64>, frame: &mut Frame<'_>, answers: &mut Vec<Answer>) {
+        let fit = refine::measure(self, &q, frame);
         if !fit.accepted {
             return;
         }
-        let solution =
-            Solution { q: q.clone(), residual: fit.residual, branch, free: chart.free.clone(), chosen: false };
+        let taken = |branch: &usize| answers.iter().any(|answer| answer.solution.branch == *branch);
+        let last = chart.first_branch + Program::branches(chart);
+        let branch = (branch..last).find(|branch| !taken(branch)).unwrap_or(branch);
+        let solution = Solution { q, residual: fit.residual, branch, free: chart.free.clone(), chosen: false };
         let mut answer = Answer { solution, relative: fit.relative };
         let same: Vec<bool> =
             answers.iter().map(|other| self.same(other, &answer) || self.blurred(other, &answer, frame)).collect();

@@ -44,38 +44,45 @@ pub(super) fn measure(program: &Program, q: &[f64], frame: &mut Frame<'_>) -> Fi
     fit
 }
 
-/// Up to [`POLISH_STEPS`] Gauss-Newton steps; each is taken only if the relative residual falls.
+/// Shares of the Jacobian's squared size that are added where a plain step fails, as at a singular configuration.
+const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 1e-3];
+
+/// Up to [`POLISH_STEPS`] Gauss-Newton steps, damped where that is needed (Levenberg 1944, Marquardt 1963); each is taken only
+/// if the relative residual falls.
 pub(super) fn polish(program: &Program, q: &mut Vec<f64>, frame: &mut Frame<'_>) {
     let mut fit = measure(program, q, frame);
     for _ in 0..POLISH_STEPS {
-        let Some(step) = newton_step(program, q, frame) else { return };
-        let candidate: Vec<f64> = program
-            .joints
-            .iter()
-            .zip(q.iter().zip(step))
-            .map(|(joint, (value, change))| match joint.value {
-                JointValue::Angle { .. } => wrap(value - change),
-                JointValue::Plain(_) => value - change,
-            })
-            .collect();
-        let next = measure(program, &candidate, frame);
-        if !next.relative.is_finite() || next.relative >= fit.relative {
-            return;
-        }
-        (*q, fit) = (candidate, next);
+        let better = DAMPINGS.iter().find_map(|damping| {
+            let step = newton_step(program, q, *damping, frame)?;
+            let candidate = moved(program, q, &step);
+            let next = measure(program, &candidate, frame);
+            (next.relative < fit.relative).then_some((candidate, next))
+        });
+        let Some(better) = better else { return };
+        (*q, fit) = better;
     }
 }
 
+/// `q - step`, angles in (-pi, pi].
+fn moved(program: &Program, q: &[f64], step: &[f64; MAX_JOINTS]) -> Vec<f64> {
+    let values = program.joints.iter().zip(q.iter().zip(step));
+    let one = |(joint, (value, change)): (&super::Joint, (&f64, &f64))| match joint.value {
+        JointValue::Angle { .. } => wrap(value - change),
+        JointValue::Plain(_) => value - change,
+    };
+    values.map(one).collect()
+}
+
 /// The angle moved by at most one turn into (-pi, pi].
-fn wrap(angle: f64) -> f64 {
+pub(super) fn wrap(angle: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     if angle > std::f64::consts::PI { angle - turn } else { half_open(angle) }
 }
 
 type Square = [[f64; MAX_JOINTS + 1]; MAX_JOINTS];
 
-/// The least-squares step `(J^T J)^-1 J^T f`, or `J^-1 f` for a square Jacobian; `None` when it is singular.
-fn newton_step(program: &Program, q: &[f64], frame: &mut Frame<'_>) -> Option<[f64; MAX_JOINTS]> {
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`, or `J^-1 f` for a square Jacobian and `d = 0`; `None` when it is singular.
+fn newton_step(program: &Program, q: &[f64], damping: f64, frame: &mut Frame<'_>) -> Option<[f64; MAX_JOINTS]> {
     unknowns_of(program, q, &mut frame.unknowns);
     let kept = std::mem::take(&mut frame.registers);
     frame.run(&program.checks.code);
@@ -83,7 +90,7 @@ fn newton_step(program: &Program, q: &[f64], frame: &mut Frame<'_>) -> Option<[f
     let mut system: Square = [[0.0; MAX_JOINTS + 1]; MAX_JOINTS];
     for (index, (row, residual)) in checks.jacobian.iter().zip(&checks.residuals).enumerate() {
         let residual = frame.value(*residual);
-        if checks.residuals.len() == joints {
+        if damping == 0.0 && checks.residuals.len() == joints {
             for column in 0..joints {
                 system[index][column] = frame.value(row[column]);
             }
@@ -99,6 +106,8 @@ fn newton_step(program: &Program, q: &[f64], frame: &mut Frame<'_>) -> Option<[f
         }
     }
     drop(std::mem::replace(&mut frame.registers, kept));
+    let size = (0..joints).fold(0.0, |size: f64, i| size.max(system[i][i].abs()));
+    (0..joints).for_each(|i| system[i][i] += damping * size);
     solve_linear(&mut system, joints)
 }
 
