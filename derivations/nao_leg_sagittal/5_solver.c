@@ -85,6 +85,8 @@ double nao_leg_sagittal_residual(const double *target, const double *q);
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 8
+/* A candidate that misses the equations by this share of their size at most may be a double root. */
+#define SPLIT 0.001
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -358,39 +360,87 @@ static bool solve_linear(double system[JOINTS][JOINTS + 1], double *solution)
     return true;
 }
 
-/* J^-1 f; false when the Jacobian is singular. */
-static bool newton_step(const Parameters *p, const double *q, double *step)
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f, or J^-1 f without damping d; false when the matrix is singular. */
+static bool newton_step(const Parameters *p, const double *q, double damping, double *step)
 {
     const Jacobian j = jacobian(p, q);
     const Equations f = equations(p, q);
-    double system[JOINTS][JOINTS + 1];
-    for (size_t row = 0; row < JOINTS; row++) {
-        for (size_t column = 0; column < JOINTS; column++) {
-            system[row][column] = j.rows[row][column];
+    double system[JOINTS][JOINTS + 1] = {{0.0}};
+    if (damping == 0.0) {
+        for (size_t row = 0; row < JOINTS; row++) {
+            for (size_t column = 0; column < JOINTS; column++) {
+                system[row][column] = j.rows[row][column];
+            }
+            system[row][JOINTS] = f.value[row];
         }
-        system[row][JOINTS] = f.value[row];
+        return solve_linear(system, step);
+    }
+    for (size_t i = 0; i < EQUATIONS; i++) {
+        const double *left = j.rows[i];
+        for (size_t row = 0; row < JOINTS; row++) {
+            for (size_t column = 0; column < JOINTS; column++) {
+                system[row][column] += left[row] * left[column];
+            }
+            system[row][JOINTS] += left[row] * f.value[i];
+        }
+    }
+    double size = 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        size = fmax(size, fabs(system[i][i]));
+    }
+    for (size_t i = 0; i < JOINTS; i++) {
+        system[i][i] += damping * size;
     }
     return solve_linear(system, step);
 }
 
-/* Newton steps, each taken only if the relative residual falls. */
+/* One step, taken if the relative residual falls. */
+static bool improve(const Parameters *p, double *q, double damping, Fit *fit)
+{
+    double step[JOINTS];
+    if (!newton_step(p, q, damping, step)) {
+        return false;
+    }
+    const double next[JOINTS] = {
+        wrap(q[0] - step[0]),
+        wrap(q[1] - step[1]),
+    };
+    const Fit next_fit = measure(p, next);
+    if (!(next_fit.relative < fit->relative)) {
+        return false;
+    }
+    for (size_t i = 0; i < JOINTS; i++) {
+        q[i] = next[i];
+    }
+    *fit = next_fit;
+    return true;
+}
+
+/* Newton steps, damped where a plain one fails; each is taken only if the relative residual falls. */
 static void polish(const Parameters *p, double *q)
 {
+    static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
     Fit fit = measure(p, q);
-    double step[JOINTS];
-    for (int i = 0; i < POLISH_STEPS && newton_step(p, q, step); i++) {
-        const double next[JOINTS] = {
-            wrap(q[0] - step[0]),
-            wrap(q[1] - step[1]),
-        };
-        const Fit next_fit = measure(p, next);
-        if (!isfinite(next_fit.relative) || next_fit.relative >= fit.relative) {
+    for (int i = 0; i < POLISH_STEPS; i++) {
+        bool better = false;
+        for (size_t d = 0; d < sizeof dampings / sizeof dampings[0] && !better; d++) {
+            better = improve(p, q, dampings[d], &fit);
+        }
+        if (!better) {
             return;
         }
-        for (size_t j = 0; j < JOINTS; j++) {
-            q[j] = next[j];
-        }
-        fit = next_fit;
+    }
+}
+
+/* q with joint i moved: an angle by way, a length by that share of its size. */
+static void move(const double *q, size_t i, double way, double *next)
+{
+    const double ends[JOINTS] = {
+        wrap(q[0] + way),
+        wrap(q[1] + way),
+    };
+    for (size_t j = 0; j < JOINTS; j++) {
+        next[j] = j == i ? ends[j] : q[j];
     }
 }
 
@@ -452,9 +502,39 @@ static bool blurred(const Parameters *p, const Solution *a, const Solution *b, d
     return measure(p, middle).relative <= fmax(RESOLUTION, relative);
 }
 
-/* Keeps an answer. Of answers that are one, the branch of the first and the joints of the best are kept. */
-static void keep(const Parameters *p, Answers *answers, Solution answer, double relative)
+static bool has_branch(const Answers *answers, size_t branch)
 {
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->out[i].branch == branch) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept; a second
+ * root of a double one takes the next free number below last. */
+static void keep(const Parameters *p, Answers *answers, size_t branch, size_t last, const double *q, const bool *free)
+{
+    const Fit fit = measure(p, q);
+    if (!fit.accepted) {
+        return;
+    }
+    const double relative = fit.relative;
+    Solution answer;
+    answer.residual = fit.residual;
+    answer.branch = branch;
+    answer.chosen = false;
+    for (size_t i = 0; i < JOINTS; i++) {
+        answer.q[i] = q[i];
+        answer.free[i] = free[i];
+    }
+    for (size_t next = branch; next < last; next++) {
+        if (!has_branch(answers, next)) {
+            answer.branch = next;
+            break;
+        }
+    }
     bool doubles[NAO_LEG_SAGITTAL_CAPACITY];
     bool met = false;
     for (size_t i = 0; i < answers->count; i++) {
@@ -484,27 +564,30 @@ static void keep(const Parameters *p, Answers *answers, Solution answer, double 
     }
 }
 
-/* Polishes a candidate unless it is one of a family, and keeps it if the equations hold. */
-static void finish(const Parameters *p, size_t branch, const double *q, const bool *free, Answers *answers)
+/* Polishes a candidate unless it is one of a family, and keeps what solves the equations. A candidate that misses them by little is a
+ * double root that rounding made of two: points to either side of it are polished too. */
+static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
-    Solution answer;
+    double q[JOINTS];
     bool polished = true;
     for (size_t i = 0; i < JOINTS; i++) {
-        answer.q[i] = q[i];
-        answer.free[i] = free[i];
+        q[i] = candidate[i];
         polished = polished && !free[i];
     }
     if (polished) {
-        polish(p, answer.q);
+        polish(p, q);
+        const double miss = measure(p, q).relative;
+        if (RESOLUTION <= miss && miss <= SPLIT) {
+            for (size_t i = 0; i < 2 * JOINTS; i++) {
+                const double sign = i % 2 == 0 ? -1.0 : 1.0;
+                double start[JOINTS];
+                move(q, i / 2, 2.0 * sign * sqrt(miss), start);
+                polish(p, start);
+                keep(p, answers, branch, last, start, free);
+            }
+        }
     }
-    const Fit fit = measure(p, answer.q);
-    if (!fit.accepted) {
-        return;
-    }
-    answer.residual = fit.residual;
-    answer.branch = branch;
-    answer.chosen = false;
-    keep(p, answers, answer, fit.relative);
+    keep(p, answers, branch, last, q, free);
 }
 
 /* The source chooses the answer with the least value of this. */
@@ -560,7 +643,7 @@ static void chart_1(const Parameters *p, Answers *answers)
         const double c3 = r30;
         const double c4 = (r17 - 2058841.0) / 2058000.0;
         const double q[JOINTS] = {angle(c3, s3), angle(c4, s4)};
-        finish(p, i0, q, NONE_FREE, answers);
+        finish(p, i0, 2, q, NONE_FREE, answers);
     }
 }
 

@@ -109,6 +109,10 @@ const BLUR: f64 = 0.001;
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
 const POLISH_STEPS: usize = 8;
+/// Shares of the squared Jacobian's size that are added where a plain step fails.
+const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 0.001];
+/// A candidate that misses the equations by this share of their size at most may be a double root.
+const SPLIT: f64 = 0.001;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -151,7 +155,7 @@ fn chart_1(p: &Parameters, answers: &mut Answers<'_>) {
         let c3 = (p.pz * r18 + 2058000.0 * (p.px * s4)) / r24;
         let c4 = (r17 - 2058841.0) / 2058000.0;
         let q = [angle(c3, s3), angle(c4, s4)];
-        answers.finish(p, i0, q, NONE_FREE);
+        answers.finish(p, i0, 2, q, NONE_FREE);
     }
 }
 
@@ -206,16 +210,33 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Polishes a candidate unless it is one of a family, and keeps it if the equations hold. Of answers that are one, the branch
-    /// of the first and the joints of the best are kept.
-    fn finish(&mut self, p: &Parameters, branch: usize, mut q: [f64; JOINTS], free: [bool; JOINTS]) {
+    /// Polishes a candidate unless it is one of a family, and keeps what solves the equations. A candidate that misses them by
+    /// little is a double root that rounding made of two: points to either side of it are polished too.
+    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, mut q: [f64; JOINTS], free: [bool; JOINTS]) {
         if free == NONE_FREE {
             q = polish(p, q);
+            let miss = measure(p, &q).relative;
+            if RESOLUTION <= miss && miss <= SPLIT {
+                for i in 0..JOINTS {
+                    for sign in [-1.0, 1.0] {
+                        let start = moved(&q, i, 2.0 * sign * miss.sqrt());
+                        let start = polish(p, start);
+                        self.keep(p, branch, last, start, free);
+                    }
+                }
+            }
         }
+        self.keep(p, branch, last, q, free);
+    }
+
+    /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
+    /// a second root of a double one takes the next free number below `last`.
+    fn keep(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let fit = measure(p, &q);
         if !fit.accepted {
             return;
         }
+        let branch = (branch..last).find(|&branch| !self.has(branch)).unwrap_or(branch);
         let mut answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
         let mut doubles = [false; CAPACITY];
         let mut first = None;
@@ -232,6 +253,10 @@ impl Answers<'_> {
         answer.branch = first.unwrap_or(branch);
         self.drop_doubles(&doubles);
         self.push(answer, fit.relative);
+    }
+
+    fn has(&self, branch: usize) -> bool {
+        self.out[..self.count].iter().any(|answer| answer.branch == branch)
     }
 
     fn drop_doubles(&mut self, doubles: &[bool; CAPACITY]) {
@@ -323,32 +348,67 @@ fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
     fit
 }
 
-/// Newton steps, each taken only if the relative residual falls.
+/// Newton steps, damped where a plain one fails; each is taken only if the relative residual falls.
 fn polish(p: &Parameters, mut q: [f64; JOINTS]) -> [f64; JOINTS] {
     let mut fit = measure(p, &q);
     for _ in 0..POLISH_STEPS {
-        let Some(step) = newton_step(p, &q) else { break };
-        let next = [
-            wrap(q[0] - step[0]),
-            wrap(q[1] - step[1]),
-        ];
-        let next_fit = measure(p, &next);
-        if !next_fit.relative.is_finite() || next_fit.relative >= fit.relative {
-            break;
+        let mut better = None;
+        for damping in DAMPINGS {
+            if better.is_none() {
+                better = improved(p, &q, damping, fit.relative);
+            }
         }
-        (q, fit) = (next, next_fit);
+        let Some(next) = better else { break };
+        (q, fit) = next;
     }
     q
 }
 
-/// `J^-1 f`; none when the Jacobian is singular.
-fn newton_step(p: &Parameters, q: &[f64; JOINTS]) -> Option<[f64; JOINTS]> {
+/// The joints after one step, if the relative residual falls below `relative`.
+fn improved(p: &Parameters, q: &[f64; JOINTS], damping: f64, relative: f64) -> Option<([f64; JOINTS], Fit)> {
+    let step = newton_step(p, q, damping)?;
+    let next = [
+        wrap(q[0] - step[0]),
+        wrap(q[1] - step[1]),
+    ];
+    let fit = measure(p, &next);
+    if fit.relative < relative { Some((next, fit)) } else { None }
+}
+
+/// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
+fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
+    let ends = [
+        wrap(q[0] + way),
+        wrap(q[1] + way),
+    ];
+    let mut next = *q;
+    next[i] = ends[i];
+    next
+}
+
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`, or `J^-1 f` without damping `d`; none when the matrix is singular.
+fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> Option<[f64; JOINTS]> {
     let rows = jacobian(p, q);
     let right = equations(p, q).value;
     let mut system = [[0.0; JOINTS + 1]; JOINTS];
+    if damping == 0.0 {
+        for i in 0..JOINTS {
+            system[i][..JOINTS].copy_from_slice(&rows[i]);
+            system[i][JOINTS] = right[i];
+        }
+        return solve_linear(&mut system);
+    }
+    for (row, right) in rows.iter().zip(right) {
+        for i in 0..JOINTS {
+            for j in 0..JOINTS {
+                system[i][j] += row[i] * row[j];
+            }
+            system[i][JOINTS] += row[i] * right;
+        }
+    }
+    let size = (0..JOINTS).fold(0.0, |size, i| f64::max(size, system[i][i].abs()));
     for i in 0..JOINTS {
-        system[i][..JOINTS].copy_from_slice(&rows[i]);
-        system[i][JOINTS] = right[i];
+        system[i][i] += damping * size;
     }
     solve_linear(&mut system)
 }

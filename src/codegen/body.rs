@@ -185,7 +185,8 @@ impl Walk<'_> {
         let free = if self.chart.free.is_empty() { Vec::new() } else { free };
         let extra: Vec<String> = scene.extra.iter().map(|&unknown| names.unknowns[unknown].clone()).collect();
         let branch = if self.branch.is_empty() { "0".to_owned() } else { self.branch.join(" + ") };
-        self.push(printer.language().finish(&branch, &q, &free, &extra));
+        let last = self.chart.first_branch + Program::branches(self.chart);
+        self.push(printer.language().finish(&format!("{branch}, {last}"), &q, &free, &extra));
     }
 }
 

@@ -9,7 +9,7 @@ use crate::solver::Program;
 const TAKEN: &str = "p q target answers extra magnitude result angle real_roots leads is_near is_away finish \
     INPUTS JOINTS CAPACITY EQUATIONS EXTRAS DEGREE ACCEPT MERGE BLUR RESOLUTION NEAR TINY PIVOT POLISH_STEPS TANGENT ROUNDING \
     NEGLIGIBLE MAX_STEPS TAU PI NONE_FREE INPUT_NAMES JOINT_NAMES \
-    Parameters Solution Answers Error Fit Equations Jacobian Roots Polynomial Math close blurred differences shorter is_close keep relative doubles";
+    Parameters Solution Answers Error Fit Equations Jacobian Roots Polynomial Math close blurred differences shorter is_close keep relative doubles has_branch improve improved move moved DAMPINGS dampings SPLIT last";
 
 /// Letters that a number follows in the printed functions.
 const NUMBERED: [&str; 4] = ["r", "i", "roots", "choice"];

@@ -7,7 +7,8 @@ use super::demand::{Demand, ParameterDemand};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use crate::solver::{
-    ACCEPT, BLUR, Chart, JointValue, MERGE, NEAR, Operand, PIVOT, POLISH_STEPS, Program, ROUNDING, Step, TINY, Unit,
+    ACCEPT, BLUR, Chart, DAMPINGS, JointValue, MERGE, NEAR, Operand, PIVOT, POLISH_STEPS, Program, ROUNDING, Step,
+    TINY, Unit,
 };
 
 /// Everything that the skeletons name.
@@ -25,6 +26,7 @@ pub(super) struct Outline {
     degree: usize,
     scale: String,
     tolerances: Tolerances,
+    dampings: Vec<String>,
     parameters: Parameters,
     charts: Vec<ChartText>,
     checks: Code,
@@ -133,6 +135,7 @@ impl Outline {
             degree: root_steps(program).map(|(step, _)| slots(step)).max().unwrap_or(0),
             scale: number(program.scale),
             tolerances: Tolerances::new(),
+            dampings: DAMPINGS.iter().map(|&damping| number(damping)).collect(),
             parameters: Parameters::new(&scene, &needs),
             charts: program.charts.iter().map(|chart| ChartText::new(&scene, chart)).collect(),
             checks,

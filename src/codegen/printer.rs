@@ -39,7 +39,7 @@ pub(super) trait Language {
     fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String>;
     /// Leaving a chart unless a condition holds.
     fn leave_unless(&self, condition: &str) -> Vec<String>;
-    /// Handing over an answer: its branch, joint values, free joints, and values of the unknowns that are no joint's.
+    /// Handing over an answer: its branch and the chart's end of branches, joint values, free joints, and values of the unknowns that are no joint's.
     fn finish(&self, branch: &str, q: &[String], free: &[String], extra: &[String]) -> Vec<String>;
 }
 

@@ -212,7 +212,7 @@ impl Program {
             let way = 2.0 * sign * miss.sqrt();
             q[joint] = match self.joints[joint].value {
                 JointValue::Angle { .. } => refine::wrap(q[joint] + way),
-                JointValue::Plain(_) => q[joint] + way * frame.magnitude,
+                JointValue::Plain(_) => q[joint] + way * self.scale.max(q[joint].abs()),
             };
             q
         };
@@ -241,7 +241,9 @@ impl Program {
         }
         let mut same = same.into_iter();
         answers.retain(|_| !same.next().unwrap_or(false));
-        answers.push(answer);
+        if answers.len() < self.capacity {
+            answers.push(answer);
+        }
     }
 
     /// Whether two answers are one within [`MERGE`], joints left out that are free in either.

@@ -2,7 +2,7 @@
 
 use super::evaluate::{Frame, half_open};
 use super::program::{JointValue, Program};
-use super::{ACCEPT, MAX_JOINTS, POLISH_STEPS};
+use super::{ACCEPT, DAMPINGS, MAX_JOINTS, POLISH_STEPS};
 
 /// How well a joint vector solves the equations.
 pub(super) struct Fit {
@@ -43,9 +43,6 @@ pub(super) fn measure(program: &Program, q: &[f64], frame: &mut Frame<'_>) -> Fi
     drop(std::mem::replace(&mut frame.registers, kept));
     fit
 }
-
-/// Shares of the Jacobian's squared size that are added where a plain step fails, as at a singular configuration.
-const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 1e-3];
 
 /// Up to [`POLISH_STEPS`] Gauss-Newton steps, damped where that is needed (Levenberg 1944, Marquardt 1963); each is taken only
 /// if the relative residual falls.
