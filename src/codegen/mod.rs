@@ -1,8 +1,8 @@
 //! Printing a [`Program`](crate::solver::Program) as a stand-alone solver: [`rust::emit`] and [`c99::emit`].
 //!
 //! The printed solver is the algorithm of [`Program::solve`](crate::solver::Program::solve) step by step, without
-//! allocation, and holds only what its program needs. A language is an expression printer ([`printer::Language`]) plus
-//! the skeleton of a file (`skeleton/`), filled from one [`outline::Outline`].
+//! allocation, and holds only what its program needs. A language is an expression printer (`printer::Language`) plus
+//! the skeleton of a file (`skeleton/`), filled from one `outline::Outline`.
 
 pub mod c99;
 pub mod rust;

@@ -21,7 +21,7 @@ use crate::Result;
 
 const COMMANDS: &str = "`\\frac`, `\\cdot`, `\\left(`, `\\right)`, `\\mathit{...}`, `\\mathrm{...}` and `\\,`";
 
-/// The LaTeX of an identifier, by the rule of the [module](self): [`parse_latex`] reads it back as the same name.
+/// The LaTeX of an identifier, as `letters_{digits}` or `\mathit{name}`: [`parse_latex`] reads it back as the same name.
 pub fn latex_name(name: &str) -> String {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let digits = &name[stem.len()..];
