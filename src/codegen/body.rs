@@ -173,7 +173,7 @@ impl Walk<'_> {
         self.push(language.find_roots(self.depth, &lists, &typical));
         let name = printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str());
         self.push(language.open_loop(self.depth, name));
-        let stride: usize = self.chart.steps[index + 1..].iter().map(slots).product();
+        let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
         self.branch.push(if stride == 1 { format!("i{}", self.depth) } else { format!("{stride} * i{}", self.depth) });
         self.depth += 1;
     }
@@ -194,13 +194,5 @@ fn joint_value(value: JointValue, names: &Names) -> String {
     match value {
         JointValue::Angle { cosine, sine } => format!("angle({}, {})", names.unknowns[cosine], names.unknowns[sine]),
         JointValue::Plain(unknown) => names.unknowns[unknown].clone(),
-    }
-}
-
-/// Solutions that a step can give: the largest degree of a root step, else one.
-pub(super) fn slots(step: &Step) -> usize {
-    match step {
-        Step::Roots { polynomials, .. } => polynomials.iter().map(|list| list.len() - 1).max().unwrap_or(0),
-        _ => 1,
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::body::{Scene, slots};
+use super::body::Scene;
 use super::demand::{Demand, ParameterDemand};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
@@ -132,7 +132,7 @@ impl Outline {
             extra: scene.extra.iter().map(|&unknown| remark(&program.unknowns[unknown])).collect(),
             capacity: program.capacity,
             equations: checks.values.len(),
-            degree: root_steps(program).map(|(step, _)| slots(step)).max().unwrap_or(0),
+            degree: root_steps(program).map(|(step, _)| step.slots()).max().unwrap_or(0),
             scale: number(program.scale),
             tolerances: Tolerances::new(),
             dampings: DAMPINGS.iter().map(|&damping| number(damping)).collect(),

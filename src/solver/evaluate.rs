@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::instruction::{Instruction, Operand, Operation};
-use super::program::{Chart, Guard, JointValue, Program, Rule, Step, root_slots};
+use super::program::{Chart, Guard, JointValue, Program, Rule, Step};
 use super::{BLUR, MERGE, NEAR, PIVOT, ROUNDING, TINY, refine};
 use crate::{Error, ErrorKind, Result, roots};
 
@@ -147,7 +147,7 @@ impl Program {
                 self.walk(chart, next + 1, branch, frame, answers);
             }
             Step::Roots { unknown, polynomials } => {
-                let stride: usize = chart.steps[next + 1..].iter().map(slots).product();
+                let stride: usize = chart.steps[next + 1..].iter().map(Step::slots).product();
                 let registers = frame.registers.len();
                 for (index, root) in self.find_roots(*unknown, polynomials, frame).as_slice().iter().enumerate() {
                     frame.unknowns[*unknown] = *root;
@@ -294,13 +294,6 @@ impl Program {
         for answer in answers {
             answer.chosen = value(answer) <= least + MERGE;
         }
-    }
-}
-
-fn slots(step: &Step) -> usize {
-    match step {
-        Step::Roots { polynomials, .. } => root_slots(polynomials),
-        _ => 1,
     }
 }
 

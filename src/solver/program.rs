@@ -207,11 +207,7 @@ impl Program {
 
     /// Number of answers that `chart` can give: the product of its root degrees.
     pub fn branches(chart: &Chart) -> usize {
-        let degrees = chart.steps.iter().map(|step| match step {
-            Step::Roots { polynomials, .. } => root_slots(polynomials),
-            _ => 1,
-        });
-        if chart.open { 0 } else { degrees.product() }
+        if chart.open { 0 } else { chart.steps.iter().map(Step::slots).product() }
     }
 
     /// Checks that every index is in range, registers are written once and before they are read, every unknown is set once in
@@ -264,9 +260,16 @@ impl Program {
     }
 }
 
-/// Solutions that a root step can give: the largest degree among its polynomials.
-pub(super) fn root_slots(polynomials: &[Vec<Operand>]) -> usize {
-    polynomials.iter().map(|coefficients| coefficients.len().saturating_sub(1)).max().unwrap_or(0)
+impl Step {
+    /// Solutions that the step can give: the largest degree among the polynomials of a root step, else one.
+    pub fn slots(&self) -> usize {
+        match self {
+            Step::Roots { polynomials, .. } => {
+                polynomials.iter().map(|coefficients| coefficients.len().saturating_sub(1)).max().unwrap_or(0)
+            }
+            _ => 1,
+        }
+    }
 }
 
 fn ensure(condition: bool, place: &str) -> Result<()> {
