@@ -4,10 +4,12 @@
 //! linear part first, as in RH0 (2-5).
 
 pub mod angle;
+pub mod line;
 pub mod rotation;
 mod screw;
 mod twist;
 
+pub use line::Relation;
 pub use screw::{Axis, Screw};
 pub use twist::Twist;
 
