@@ -19,14 +19,29 @@ pub struct Oracle {
     pub iterations: usize,
     /// Largest Euclidean norm of the residual that counts as zero, in the residual's own unit.
     pub tolerance: f64,
-    /// Answers are the same when each angle differs by at most this much \[rad\], modulo whole turns.
+    /// Answers are the same when each angle differs by at most this much \[rad\], modulo whole turns, and each
+    /// displacement by at most this share of its starting range.
     pub distinct: f64,
+}
+
+/// What the oracle looks for, one for each joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Unknown {
+    /// An angle \[rad\]; the residual has the period 2 pi in it.
+    Angle,
+    /// A displacement; the search starts between these two values and may leave them.
+    Displacement {
+        /// The lower end of the starting points.
+        low: f64,
+        /// The upper end of the starting points.
+        high: f64,
+    },
 }
 
 /// An answer of the oracle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// The joint angles, each in (-pi, pi] \[rad\].
+    /// The joint values; each angle in (-pi, pi] \[rad\].
     pub q: Vec<f64>,
     /// Euclidean norm of the residual at `q`.
     pub residual: f64,
@@ -55,23 +70,34 @@ impl Oracle {
     /// # Errors
     /// [`ErrorKind::BadValue`] when `joints` is zero.
     pub fn solve(&self, joints: usize, residual: impl Fn(&[f64]) -> Vec<f64>) -> Result<Vec<Solution>> {
-        if joints == 0 {
+        self.search(&vec![Unknown::Angle; joints], residual)
+    }
+
+    /// The same for angles and displacements.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when there is no unknown, or a range is empty or not finite.
+    pub fn search(&self, unknowns: &[Unknown], residual: impl Fn(&[f64]) -> Vec<f64>) -> Result<Vec<Solution>> {
+        if unknowns.is_empty() {
             return Err(Error::new(ErrorKind::BadValue, "an oracle needs at least one joint"));
         }
+        for unknown in unknowns {
+            unknown.check()?;
+        }
         let mut found = Vec::new();
-        for start in seeds(joints, self.seeds) {
-            if let Some(answer) = self.descend(start, &residual) {
-                self.keep(&mut found, answer);
+        for start in seeds(unknowns, self.seeds) {
+            if let Some(answer) = self.descend(start, unknowns, &residual) {
+                self.keep(&mut found, unknowns, answer);
             }
         }
         Ok(found)
     }
 
     /// Adds `answer` to `found`, or lets it replace a less accurate equal one.
-    fn keep(&self, found: &mut Vec<Solution>, answer: Solution) {
+    fn keep(&self, found: &mut Vec<Solution>, unknowns: &[Unknown], answer: Solution) {
         let same = |other: &&mut Solution| {
-            let mut pairs = answer.q.iter().zip(&other.q);
-            pairs.all(|(a, b)| angle::difference(*a, *b).abs() <= self.distinct)
+            let mut pairs = unknowns.iter().zip(answer.q.iter().zip(&other.q));
+            pairs.all(|(unknown, (a, b))| unknown.difference(*a, *b) <= self.distinct)
         };
         match found.iter_mut().find(same) {
             Some(other) if answer.residual < other.residual => *other = answer,
@@ -81,15 +107,55 @@ impl Oracle {
     }
 
     /// The zero that the descent from `start` ends in, if it does.
-    fn descend(&self, start: DVector<f64>, residual: &impl Fn(&[f64]) -> Vec<f64>) -> Option<Solution> {
+    fn descend(
+        &self,
+        start: DVector<f64>,
+        unknowns: &[Unknown],
+        residual: &impl Fn(&[f64]) -> Vec<f64>,
+    ) -> Option<Solution> {
         let mut state = State::new(start, residual)?;
         let mut damping = 1e-3;
         for _ in 0..self.iterations {
             let Some(better) = state.improve(&mut damping, residual) else { break };
             state = better;
         }
-        let q = state.q.iter().map(|&q| angle::wrap(q)).collect();
+        let q = unknowns.iter().zip(&state.q).map(|(unknown, &q)| unknown.normal(q)).collect();
         (state.norm <= self.tolerance).then_some(Solution { q, residual: state.norm })
+    }
+}
+
+impl Unknown {
+    fn check(self) -> Result<()> {
+        match self {
+            Unknown::Displacement { low, high } if !(low < high && (high - low).is_finite()) => {
+                let text = format!("a displacement from {low} to {high}: give finite ends, the lower one first");
+                Err(Error::new(ErrorKind::BadValue, text))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// How far apart two values are: \[rad\], or as a share of the starting range.
+    fn difference(self, a: f64, b: f64) -> f64 {
+        match self {
+            Unknown::Angle => angle::difference(a, b).abs(),
+            Unknown::Displacement { low, high } => ((a - b) / (high - low)).abs(),
+        }
+    }
+
+    fn normal(self, q: f64) -> f64 {
+        match self {
+            Unknown::Angle => angle::wrap(q),
+            Unknown::Displacement { .. } => q,
+        }
+    }
+
+    /// The value at `share` in \[0, 1) of the starting range.
+    fn start(self, share: f64) -> f64 {
+        match self {
+            Unknown::Angle => angle::wrap(TAU * share),
+            Unknown::Displacement { low, high } => low + (high - low) * share,
+        }
     }
 }
 
@@ -139,10 +205,11 @@ impl State {
     }
 }
 
-/// `count` points spread evenly over (-pi, pi]^`joints`: the Kronecker sequence whose steps are the powers of 1/x,
-/// x^(joints + 1) = x + 1 (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
-fn seeds(joints: usize, count: usize) -> impl Iterator<Item = DVector<f64>> {
+/// `count` points spread evenly over the starting ranges: the Kronecker sequence whose steps are the powers of 1/x,
+/// x^(n + 1) = x + 1 for n unknowns (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+fn seeds(unknowns: &[Unknown], count: usize) -> impl Iterator<Item = DVector<f64>> + '_ {
+    let joints = unknowns.len();
     let root = (0..64).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / (joints as f64 + 1.0)));
-    let steps = DVector::from_fn(joints, |joint, _| TAU * root.powi(-(joint as i32 + 1)));
-    (0..count).map(move |seed| steps.map(|step| angle::wrap(step * (seed as f64 + 0.5))))
+    let share = move |seed: usize, joint: usize| (root.powi(-(joint as i32 + 1)) * (seed as f64 + 0.5)).fract();
+    (0..count).map(move |seed| DVector::from_fn(joints, |joint, _| unknowns[joint].start(share(seed, joint))))
 }

@@ -67,6 +67,18 @@ impl Axis {
         Pose::from_parts(Translation3::from(translation), UnitQuaternion::from_axis_angle(&self.direction, angle))
     }
 
+    /// The parallel axis through the origin.
+    #[must_use]
+    pub fn through_origin(&self) -> Axis {
+        Axis { point: Point3::origin(), ..*self }
+    }
+
+    /// The axis carried along by `motion`, its point too.
+    #[must_use]
+    pub fn moved(&self, motion: &Pose) -> Axis {
+        Axis { direction: motion.rotation * self.direction, point: motion * self.point }
+    }
+
     /// The unit twist of this axis, RH0 (2-25).
     pub fn twist(&self) -> Twist {
         let w = self.direction.into_inner();
@@ -96,6 +108,23 @@ impl Screw {
         match self {
             Screw::Revolute(axis) => axis.twist(),
             Screw::Prismatic(direction) => Twist { v: direction.into_inner(), w: Vector3::zeros() },
+        }
+    }
+
+    /// The same joint carried along by `motion`: `motion exp(q) motion^-1`.
+    #[must_use]
+    pub fn moved(&self, motion: &Pose) -> Screw {
+        match self {
+            Screw::Revolute(axis) => Screw::Revolute(axis.moved(motion)),
+            Screw::Prismatic(direction) => Screw::Prismatic(motion.rotation * direction),
+        }
+    }
+
+    /// The axis of a revolute joint.
+    pub fn axis(&self) -> Option<&Axis> {
+        match self {
+            Screw::Revolute(axis) => Some(axis),
+            Screw::Prismatic(_) => None,
         }
     }
 

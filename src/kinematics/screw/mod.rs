@@ -1,4 +1,26 @@
 //! Inverse kinematics by screw theory: a witness that shares no solving code with the Groebner-derived solvers.
+//!
+//! [`ScrewSolver`] finds an order of subproblems from a chain's geometry, tells it as a [`Plan`], and solves by it.
 
+pub mod circles;
+mod feature;
+pub mod one_joint;
 pub mod paden_kahan;
+mod parallel_pairs;
+mod plan;
+mod planes;
+mod reduced;
+mod refine;
+mod search;
+mod solver;
+mod step;
+mod target;
+pub mod three_joints;
+mod trigonometric;
+pub mod two_joints;
 pub mod two_link;
+pub mod values;
+
+pub use plan::{Plan, PlanStep, Subproblem};
+pub use solver::{ACCEPT, ScrewSolver};
+pub use target::{Solution, Target};

@@ -1,6 +1,8 @@
 //! The screw solver.
 
+mod families;
 mod paden_kahan;
+mod solver;
 mod two_link;
 
 use groebot::spatial::{Axis, angle};

@@ -1,0 +1,81 @@
+//! A chain whose known joints are absorbed: the loop that the screw solver makes smaller step by step.
+//!
+//! The joints that are still unknown satisfy `e^(S1 q1) ... e^(Sm qm) = T` (a pose), or the same applied to a point. A
+//! joint that becomes known is moved to the nearer end of the product, where it changes the goal; the screws that it
+//! passes are carried along: `g e^S = e^(g S) g`.
+
+use nalgebra::Point3;
+use smallvec::SmallVec;
+
+use crate::spatial::{Pose, Screw};
+
+/// A joint that is still unknown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Member {
+    /// Its index in the chain, from 0.
+    pub joint: usize,
+    /// Its screw in the reduced chain.
+    pub screw: Screw,
+}
+
+/// Joints in a row.
+pub(super) type Row = SmallVec<[Member; 8]>;
+
+/// What the product of the unknown joints must do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Goal {
+    /// The product is this rigid transform.
+    Pose(Pose),
+    /// The product takes `from` to `to`.
+    Point {
+        /// The tip, all unknown joints at zero.
+        from: Point3<f64>,
+        /// Where it belongs.
+        to: Point3<f64>,
+    },
+}
+
+/// The unknown joints in their order, and their goal.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Reduced {
+    pub row: Row,
+    pub goal: Goal,
+}
+
+impl Reduced {
+    /// The loop with the joint at `place` known to be at `q`.
+    pub fn absorb(&mut self, place: usize, q: f64) {
+        let motion = self.row[place].screw.exp(q);
+        let after = self.row.len() - 1 - place;
+        self.row.remove(place);
+        match (&mut self.goal, place <= after) {
+            (Goal::Pose(pose), true) => *pose = motion.inverse() * *pose,
+            (Goal::Point { to, .. }, true) => *to = motion.inverse_transform_point(to),
+            (Goal::Pose(pose), false) => *pose *= motion.inverse(),
+            (Goal::Point { from, .. }, false) => *from = motion * *from,
+        }
+        if place <= after {
+            let back = motion.inverse();
+            self.row[..place].iter_mut().for_each(|member| member.screw = member.screw.moved(&back));
+        } else {
+            self.row[place..].iter_mut().for_each(|member| member.screw = member.screw.moved(&motion));
+        }
+    }
+
+    /// Where the chain's joint number `joint` stands in the row.
+    pub fn place(&self, joint: usize) -> Option<usize> {
+        self.row.iter().position(|member| member.joint == joint)
+    }
+
+    /// The same loop cut elsewhere, so that the joints up to `end` come last: with the pose T as goal, the joints from
+    /// `end` on come first, carried by T, and the goal stays T.
+    pub fn cut_at(&self, end: usize) -> Row {
+        match self.goal {
+            Goal::Pose(pose) if end < self.row.len() => {
+                let carried = |member: &Member| Member { screw: member.screw.moved(&pose), ..*member };
+                self.row[end..].iter().map(carried).chain(self.row[..end].iter().copied()).collect()
+            }
+            _ => self.row.clone(),
+        }
+    }
+}

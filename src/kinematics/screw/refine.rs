@@ -1,0 +1,113 @@
+//! The last word on an answer: how far the tip is from the goal, and a Gauss-Newton step where rounding left too much.
+
+use nalgebra::{SMatrix, SVector, Vector3};
+
+use super::reduced::Goal;
+use crate::spatial::{Pose, Screw};
+
+/// The most joints of a chain that has finitely many answers.
+pub(super) const MOST_JOINTS: usize = 6;
+
+/// Steps at most.
+const STEPS: usize = 6;
+
+/// How far the product of exponentials misses its goal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Miss {
+    /// Distance of the point, or of the origin carried by the pose.
+    pub position: f64,
+    /// Angle \[rad\].
+    pub rotation: f64,
+    /// The small motion that is missing, `(v, w)` at the goal.
+    twist: SVector<f64, 6>,
+}
+
+impl Miss {
+    /// The larger of the angle and the distance in units of `reach`.
+    pub fn size(&self, reach: f64) -> f64 {
+        (self.position / reach).max(self.rotation)
+    }
+
+    /// What is missing at `q`; `tip` is the point whose distance counts.
+    fn of(screws: &[Screw], q: &[f64], goal: &Goal, tip: &Vector3<f64>) -> Miss {
+        let product = screws.iter().zip(q).rev().fold(Pose::identity(), |pose, (screw, &q)| screw.exp(q) * pose);
+        let mut twist = SVector::<f64, 6>::zeros();
+        match goal {
+            Goal::Point { from, to } => {
+                let v = to - product * from;
+                twist.fixed_rows_mut::<3>(0).copy_from(&v);
+                Miss { position: v.norm(), rotation: 0.0, twist }
+            }
+            Goal::Pose(pose) => {
+                let turn = pose.rotation * product.rotation.inverse();
+                let w = turn.imag() * if turn.scalar() < 0.0 { -2.0 } else { 2.0 };
+                let v = (pose * nalgebra::Point3::from(*tip)) - (product * nalgebra::Point3::from(*tip));
+                twist.fixed_rows_mut::<3>(0).copy_from(&v);
+                twist.fixed_rows_mut::<3>(3).copy_from(&w);
+                Miss { position: v.norm(), rotation: turn.angle(), twist }
+            }
+        }
+    }
+}
+
+/// `q`, improved until it misses the goal by less than `enough`, and by how much it misses. Joints of `fixed` stay.
+pub(super) fn refine(
+    screws: &[Screw],
+    goal: &Goal,
+    tip: &Vector3<f64>,
+    reach: f64,
+    (q, fixed): (&mut [f64; MOST_JOINTS], &[bool; MOST_JOINTS]),
+    enough: f64,
+) -> Miss {
+    let mut miss = Miss::of(screws, &q[..screws.len()], goal, tip);
+    for _ in 0..STEPS {
+        if miss.size(reach) <= enough || miss.size(reach) > 1e-2 {
+            break;
+        }
+        let Some(step) = newton(screws, q, goal, tip, reach, (&miss, fixed)) else { break };
+        let mut next = *q;
+        next.iter_mut().zip(step.iter()).for_each(|(q, d)| *q += d);
+        let better = Miss::of(screws, &next[..screws.len()], goal, tip);
+        if better.size(reach) >= miss.size(reach) {
+            break;
+        }
+        (*q, miss) = (next, better);
+    }
+    miss
+}
+
+/// The damped least-squares step.
+fn newton(
+    screws: &[Screw],
+    q: &[f64; MOST_JOINTS],
+    goal: &Goal,
+    tip: &Vector3<f64>,
+    reach: f64,
+    (miss, fixed): (&Miss, &[bool; MOST_JOINTS]),
+) -> Option<SVector<f64, MOST_JOINTS>> {
+    let mut jacobian = SMatrix::<f64, 6, MOST_JOINTS>::zeros();
+    let mut before = Pose::identity();
+    let at = match goal {
+        Goal::Point { to, .. } => *to,
+        Goal::Pose(pose) => pose * nalgebra::Point3::from(*tip),
+    };
+    for (i, screw) in screws.iter().enumerate() {
+        let (v, w) = match screw.moved(&before) {
+            Screw::Revolute(axis) => (axis.direction().cross(&(at - axis.point())), axis.direction().into_inner()),
+            Screw::Prismatic(direction) => (direction.into_inner(), Vector3::zeros()),
+        };
+        if !fixed[i] {
+            jacobian.fixed_view_mut::<3, 1>(0, i).copy_from(&(v / reach));
+            if matches!(goal, Goal::Pose(_)) {
+                jacobian.fixed_view_mut::<3, 1>(3, i).copy_from(&w);
+            }
+        }
+        before *= screw.exp(q[i]);
+    }
+    let mut missing = miss.twist;
+    missing.fixed_rows_mut::<3>(0).scale_mut(1.0 / reach);
+    let normal = jacobian.transpose() * jacobian;
+    let damping = 1e-14 * normal.trace().max(f64::MIN_POSITIVE);
+    let damped = normal + SMatrix::<f64, MOST_JOINTS, MOST_JOINTS>::identity() * damping;
+    Some(nalgebra::Cholesky::new(damped)?.solve(&(jacobian.transpose() * missing)))
+}

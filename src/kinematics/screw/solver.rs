@@ -1,0 +1,218 @@
+//! The screw solver: all inverse-kinematics answers of a chain, by an order of subproblems that it finds itself.
+
+use nalgebra::{Point3, Vector3};
+
+use super::feature::Scale;
+use super::plan::{Plan, PlanStep, describe};
+use super::reduced::{Goal, Reduced};
+use super::refine::{MOST_JOINTS, refine};
+use super::search::{Sample, Search, scale_of};
+use super::step::Step;
+use super::target::{Solution, Target, whole};
+use crate::kinematics::{Chain, Task};
+use crate::spatial::{Axis, Screw, angle};
+use crate::{Error, ErrorKind, Result};
+
+/// How far, relative to the reach and in radians, an answer's tip may be from its target.
+pub const ACCEPT: f64 = 2e-12;
+
+/// Answers are refined while they miss by more than this.
+const ENOUGH: f64 = 2e-14;
+
+/// Two answers are one when their joints differ by at most this much \[rad, or reaches\].
+const MERGE: f64 = 1e-9;
+
+/// Inverse kinematics of a serial chain by screw theory. Lengths in the chain's unit, angles in radians.
+#[derive(Clone, Debug)]
+pub struct ScrewSolver {
+    chain: Chain,
+    screws: Vec<Screw>,
+    steps: Vec<Step>,
+    plan: Plan,
+    reach: f64,
+}
+
+/// A partial answer on the way through the steps.
+struct Trail {
+    q: [f64; MOST_JOINTS],
+    free: [bool; MOST_JOINTS],
+    branch: [usize; MOST_JOINTS],
+}
+
+impl ScrewSolver {
+    /// The solver of `chain` for its task, with the plan that gives the fewest candidates.
+    ///
+    /// # Errors
+    /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined;
+    /// [`ErrorKind::Unsupported`] when no order of the known subproblems solves the chain.
+    pub fn new(chain: &Chain) -> Result<Self> {
+        let count = chain.joints().len();
+        let most = match chain.task() {
+            Task::Pose => 6,
+            Task::Position | Task::PlanarPose { .. } => 3,
+            Task::PlanarPosition { .. } => 2,
+        };
+        if count > most {
+            let text = format!("{count} joints for the task `{}`, which determines {most} at most", chain.task().name());
+            return Err(Error::new(ErrorKind::PositiveDimensional, text));
+        }
+        let screws = at_meeting_points(chain.screws(), 1e-9 * chain.reach());
+        let samples = samples(chain, &screws)?;
+        let scale = scale_of(&samples[0].start, chain.reach());
+        let Some(steps) = Search::new(&samples, scale).plan() else { return Err(unsolved(chain)) };
+        let plan = tell(&steps, &samples[0], scale);
+        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), screws, steps, plan })
+    }
+
+    /// The order of subproblems.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The chain that is solved.
+    pub fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
+    /// All joint values that bring the tip to `target`, each checked by forward kinematics to [`ACCEPT`].
+    ///
+    /// None for a target out of reach. Joint limits are not looked at.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when the target is not of the task's kind, not finite, or its quaternion not of norm one.
+    pub fn solve(&self, target: &Target) -> Result<Vec<Solution>> {
+        let start = whole(&self.screws, target.goal(&self.chain)?);
+        let mut found = Vec::with_capacity(self.plan.most_solutions());
+        let mut trail = Trail { q: [0.0; MOST_JOINTS], free: [false; MOST_JOINTS], branch: [0; MOST_JOINTS] };
+        self.descend(0, &start, &start.goal, &mut trail, &mut found);
+        Ok(found)
+    }
+
+    /// Takes step number `depth` in every way that it offers.
+    fn descend(&self, depth: usize, reduced: &Reduced, goal: &Goal, trail: &mut Trail, found: &mut Vec<Solution>) {
+        let Some(step) = self.steps.get(depth) else { return self.finish(goal, trail, found) };
+        let joints = step.solved(reduced);
+        for (branch, answer) in step.solve(reduced).into_iter().flatten().enumerate() {
+            let mut rest = reduced.clone();
+            for (&joint, value) in joints.iter().zip(&answer) {
+                let q = value.unwrap_or(0.0);
+                (trail.q[joint], trail.free[joint]) = (q, value.is_none());
+                if let Some(place) = rest.place(joint) {
+                    rest.absorb(place, q);
+                }
+            }
+            trail.branch[depth] = branch;
+            self.descend(depth + 1, &rest, goal, trail, found);
+        }
+    }
+
+    /// Refines and checks a complete answer, and keeps it when it is new.
+    fn finish(&self, goal: &Goal, trail: &Trail, found: &mut Vec<Solution>) {
+        let tip = self.chain.base_from_tip().translation.vector;
+        let mut q = trail.q;
+        let miss = refine(&self.screws, goal, &tip, self.reach, (&mut q, &trail.free), ENOUGH);
+        if miss.size(self.reach).is_nan() || miss.size(self.reach) > ACCEPT {
+            return;
+        }
+        let count = self.screws.len();
+        for (q, screw) in q.iter_mut().zip(&self.screws) {
+            if screw.axis().is_some() {
+                *q = angle::wrap(*q);
+            }
+        }
+        let same = |other: &Solution| (0..count).all(|i| self.differ(i, q[i], other.q[i]) <= MERGE);
+        if !found.iter().any(same) {
+            found.push(Solution {
+                q: q[..count].to_vec(),
+                free: (0..count).filter(|&i| trail.free[i]).collect(),
+                position_residual: miss.position,
+                rotation_residual: miss.rotation,
+                branch: trail.branch[..self.steps.len()].to_vec(),
+            });
+        }
+    }
+
+    fn differ(&self, joint: usize, a: f64, b: f64) -> f64 {
+        match self.screws[joint] {
+            Screw::Revolute(_) => angle::difference(a, b).abs(),
+            Screw::Prismatic(_) => (a - b).abs() / self.reach,
+        }
+    }
+}
+
+fn unsolved(chain: &Chain) -> Error {
+    let text = format!(
+        "`{}`: no order of the known subproblems solves its {} joints for the task `{}`; needed are, for six joints, \
+         three axes in a row that meet in a point or are parallel",
+        chain.name(),
+        chain.joints().len(),
+        chain.task().name()
+    );
+    Error::new(ErrorKind::Unsupported, text)
+}
+
+/// Two configurations in general position.
+fn samples(chain: &Chain, screws: &[Screw]) -> Result<Vec<Sample>> {
+    const TURNS: [[f64; MOST_JOINTS]; 2] =
+        [[0.7391, -1.1217, 0.8713, 0.5347, -0.9241, 1.3129], [-0.4177, 0.6911, -1.2371, 1.0939, 0.7727, -0.5813]];
+    let length = if chain.reach() > 0.0 { chain.reach() } else { 1.0 };
+    let sample = |turns: &[f64; MOST_JOINTS]| {
+        let value = |(screw, turn): (&Screw, &f64)| if screw.axis().is_some() { *turn } else { turn * length };
+        let q: Vec<f64> = screws.iter().zip(turns).map(value).collect();
+        let goal = Target::reached(chain, &q)?.goal(chain)?;
+        Ok(Sample { start: whole(screws, goal), q })
+    };
+    TURNS.iter().map(sample).collect()
+}
+
+/// The steps in words.
+fn tell(steps: &[Step], sample: &Sample, scale: Scale) -> Plan {
+    let mut reduced = sample.start.clone();
+    let mut told: Vec<PlanStep> = Vec::new();
+    for step in steps {
+        told.push(describe(step, &reduced, step.most_answers(&reduced), scale));
+        for joint in step.solved(&reduced) {
+            if let Some(place) = reduced.place(joint) {
+                reduced.absorb(place, sample.q[joint]);
+            }
+        }
+    }
+    Plan { steps: told }
+}
+
+/// The same screws, each axis given by a point where it meets its neighbours: three or more of them if it does, else one.
+///
+/// Such points stay exact while the joints move, however parallel their axes become.
+fn at_meeting_points(screws: &[Screw], tolerance: f64) -> Vec<Screw> {
+    let mut groups: Vec<(usize, usize, Point3<f64>)> = Vec::new();
+    for start in 0..screws.len() {
+        for stop in start + 2..=screws.len() {
+            groups.extend(meeting_point(&screws[start..stop], tolerance).map(|point| (start, stop, point)));
+        }
+    }
+    groups.sort_by_key(|(start, stop, _)| std::cmp::Reverse(stop - start));
+    let mut points: Vec<Option<Point3<f64>>> = vec![None; screws.len()];
+    for whole in [false, true] {
+        for (start, stop, point) in &groups {
+            let known = points[*start..*stop].iter().flatten().any(|p| (p - point).norm() <= tolerance);
+            let open: Vec<usize> = (*start..*stop).filter(|&i| points[i].is_none()).collect();
+            let taken = if whole { open.len() } else { usize::from(!known) };
+            open.iter().take(taken).for_each(|&i| points[i] = Some(*point));
+        }
+    }
+    let placed = |(screw, point): (&Screw, &Option<Point3<f64>>)| match (screw, point) {
+        (Screw::Revolute(axis), Some(point)) => Screw::Revolute(axis.level_with(point)),
+        _ => *screw,
+    };
+    screws.iter().zip(&points).map(placed).collect()
+}
+
+/// Where all axes of the row meet.
+fn meeting_point(row: &[Screw], tolerance: f64) -> Option<Point3<f64>> {
+    let axes: Vec<&Axis> = row.iter().map(Screw::axis).collect::<Option<_>>()?;
+    let other = axes[1..].iter().find(|axis| !axes[0].is_parallel(axis))?;
+    let (a, b) = axes[0].nearest_points(other)?;
+    let point: Vector3<f64> = (a.coords + b.coords) / 2.0;
+    let point = Point3::from(point);
+    axes.iter().all(|axis| axis.distance_to(&point) <= tolerance).then_some(point)
+}

@@ -1,0 +1,302 @@
+//! One step of a plan: an equation in which all but one, two or three unknown joints cancel, and its subproblem.
+//!
+//! The loop is cut so that its last joints, the *tail*, leave an object b in place; the joints before them are the *rest*.
+//! Either the rest carries b to its place `T b`. Or a run of joints in the rest leaves an object a in place, and cancels as
+//! well: then the distance (component, angle) between a and b tells the joint between them, or before both.
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::circles::four_circles;
+use super::feature::{Feature, Line, Object, Spot};
+use super::one_joint::{
+    rotate_to_distance, rotate_to_plane, rotate_to_point, translate_to_distance, translate_to_plane, translate_to_point,
+};
+use super::parallel_pairs;
+use super::planes::carry_plane;
+use super::reduced::{Goal, Member, Reduced};
+use super::three_joints::three_screws_to_point;
+use super::two_joints::two_screws_to_point;
+use super::values::{Reach, Values};
+use crate::spatial::{Axis, Pose, Screw, angle};
+
+use smallvec::SmallVec;
+
+/// How far a step lets its target be out of reach, relative to the size of its subproblem: rounding in the joints solved
+/// before adds up, and forward kinematics judges every answer in the end.
+const LOOSE: Reach = Reach::Within(1e-7);
+
+/// Values for the joints that a step solves, in the order of [`Step::solved`]; `None` when every value does it.
+pub(super) type Answer = SmallVec<[Option<f64>; 3]>;
+pub(super) type Answers = SmallVec<[Answer; 4]>;
+
+/// Where the loop is cut, and what is solved there.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Step {
+    /// The tail ends before this place of the reduced row.
+    pub end: usize,
+    /// How many joints the tail has.
+    pub tail: usize,
+    /// What is solved.
+    pub kind: Kind,
+    /// The places, in the cut row, of the joints that it solves.
+    pub unknown: SmallVec<[usize; 3]>,
+}
+
+/// The equations of a step.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Kind {
+    /// The rest, one to three joints, carries the tail's point to its place.
+    ToPoint(Spot),
+    /// The revolute joints of the rest, one or two, turn the tail's direction to its place.
+    ToDirection(Line),
+    /// Three rotations carry a plane that the tail leaves in place; the last two of them are solved.
+    ToPlane(Line),
+    /// One joint is left, and turns or slides to the pose.
+    Last,
+    /// All six joints, in three pairs of parallel axes.
+    ThreePairs,
+    /// A run of the rest cancels as well; one joint is left.
+    Between(Relation),
+    /// A run of the rest cancels as well; one joint before it and one behind it are left, in two equations.
+    Around([Relation; 2]),
+}
+
+/// What stays equal: the distance, offset or angle of an object of the run and an object of the tail.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Relation {
+    /// The run: its first place in the cut row.
+    pub start: usize,
+    /// How many joints the run has.
+    pub length: usize,
+    /// What the run leaves in place.
+    pub run: Feature,
+    /// What the tail leaves in place.
+    pub tail: Feature,
+}
+
+impl Step {
+    /// The values of the unknown joints that satisfy this step's equations; `None` where an object does not exist.
+    pub fn solve(&self, reduced: &Reduced) -> Option<Answers> {
+        let row = reduced.cut_at(self.end);
+        let (rest, tail) = row.split_at(row.len() - self.tail);
+        match &self.kind {
+            Kind::ToPoint(spot) => {
+                let Object::Point(p) = Feature::Point(*spot).locate(tail, &reduced.goal)? else { return None };
+                let k = match reduced.goal {
+                    Goal::Pose(pose) => pose * p,
+                    Goal::Point { to, .. } => to,
+                };
+                Some(carry_point(rest, &p, &k))
+            }
+            Kind::ToDirection(line) => {
+                let Object::Direction(x) = Feature::Direction(*line).locate(tail, &reduced.goal)? else { return None };
+                let Goal::Pose(pose) = reduced.goal else { return None };
+                Some(turn_direction(&self.pick(rest), &x, &(pose.rotation * x)))
+            }
+            Kind::ToPlane(line) => {
+                let Object::Plane(n, c) = Feature::Component(*line).locate(tail, &reduced.goal)? else { return None };
+                let Goal::Pose(pose) = reduced.goal else { return None };
+                let to = (pose.rotation * n, pose * c);
+                let [a, b, c3] = [rest[0].screw.axis()?, rest[1].screw.axis()?, rest[2].screw.axis()?];
+                let found = carry_plane(a, b, c3, &(n, c), &to);
+                Some(found.iter().map(|[q, r]| SmallVec::from_slice(&[Some(*q), Some(*r)])).collect())
+            }
+            Kind::Last => {
+                let Goal::Pose(pose) = reduced.goal else { return None };
+                Some(last(&rest[0].screw, &pose))
+            }
+            Kind::ThreePairs => {
+                let Goal::Pose(pose) = reduced.goal else { return None };
+                let found = parallel_pairs::solve(&reduced.row, &pose, LOOSE);
+                Some(found.iter().map(|q| q.iter().map(|q| Some(*q)).collect()).collect())
+            }
+            Kind::Between(relation) => {
+                let (a, b) = relation.locate(rest, tail, &reduced.goal)?;
+                let before = self.unknown[0] < relation.start;
+                Some(answers(between(&rest[self.unknown[0]].screw, &a, &b, &reduced.goal, before)))
+            }
+            Kind::Around(relations) => {
+                let Goal::Pose(pose) = reduced.goal else { return None };
+                let screws = [&rest[self.unknown[0]].screw, &rest[self.unknown[1]].screw];
+                let pairs = [
+                    relations[0].locate(rest, tail, &reduced.goal)?,
+                    relations[1].locate(rest, tail, &reduced.goal)?,
+                ];
+                around(screws, &pairs, &pose)
+            }
+        }
+    }
+
+    /// The chain's numbers of the joints that it solves.
+    pub fn solved(&self, reduced: &Reduced) -> SmallVec<[usize; 3]> {
+        let row = reduced.cut_at(self.end);
+        self.unknown.iter().map(|&place| row[place].joint).collect()
+    }
+
+    fn pick(&self, rest: &[Member]) -> SmallVec<[Screw; 3]> {
+        self.unknown.iter().map(|&place| rest[place].screw).collect()
+    }
+}
+
+impl Relation {
+    fn locate(&self, rest: &[Member], tail: &[Member], goal: &Goal) -> Option<(Object, Object)> {
+        let run = &rest[self.start..self.start + self.length];
+        Some((self.run.locate(run, goal)?, self.tail.locate(tail, goal)?))
+    }
+}
+
+fn answers(values: Values) -> Answers {
+    match values {
+        Values::Free => std::iter::once(SmallVec::from_slice(&[None])).collect(),
+        values => values.iter().map(|q| SmallVec::from_slice(&[Some(q)])).collect(),
+    }
+}
+
+/// `p` to `k` by all joints of `rest`.
+fn carry_point(rest: &[Member], p: &Point3<f64>, k: &Point3<f64>) -> Answers {
+    match rest {
+        [one] => answers(match &one.screw {
+            Screw::Revolute(axis) => rotate_to_point(axis, p, k, LOOSE),
+            Screw::Prismatic(direction) => translate_to_point(direction, p, k, LOOSE),
+        }),
+        [first, second] => {
+            let found = two_screws_to_point(&first.screw, &second.screw, p, k, LOOSE);
+            found.iter().map(|q| SmallVec::from_slice(q)).collect()
+        }
+        [first, second, third] => {
+            let found = three_screws_to_point([&first.screw, &second.screw, &third.screw], p, k, LOOSE);
+            found.iter().map(|q| SmallVec::from_slice(q)).collect()
+        }
+        _ => Answers::new(),
+    }
+}
+
+/// The direction `x` to `y` by the rotations of one or two joints.
+fn turn_direction(screws: &[Screw], x: &Unit<Vector3<f64>>, y: &Unit<Vector3<f64>>) -> Answers {
+    let (p, k) = (Point3::from(x.into_inner()), Point3::from(y.into_inner()));
+    let central = |screw: &Screw| screw.axis().map(Axis::through_origin);
+    match screws {
+        [one] => central(one).map_or_else(Answers::new, |axis| answers(rotate_to_point(&axis, &p, &k, LOOSE))),
+        [first, second] => match (central(first), central(second)) {
+            (Some(first), Some(second)) => {
+                let (first, second) = (Screw::Revolute(first), Screw::Revolute(second));
+                let found = two_screws_to_point(&first, &second, &p, &k, LOOSE);
+                found.iter().map(|q| SmallVec::from_slice(q)).collect()
+            }
+            _ => Answers::new(),
+        },
+        _ => Answers::new(),
+    }
+}
+
+/// The value at which `screw` moves by `pose`, if it does; forward kinematics tells.
+fn last(screw: &Screw, pose: &Pose) -> Answers {
+    let q = match screw {
+        Screw::Revolute(axis) => {
+            angle::wrap(2.0 * axis.direction().dot(&pose.rotation.imag()).atan2(pose.rotation.scalar()))
+        }
+        Screw::Prismatic(direction) => direction.dot(&pose.translation.vector),
+    };
+    std::iter::once(SmallVec::from_slice(&[Some(q)])).collect()
+}
+
+/// The one joint `screw` that is left, behind the run (`E b` is to lie to a as `T b` does) or before it (`E a` is to lie to
+/// `T b` as a to b).
+fn between(screw: &Screw, a: &Object, b: &Object, goal: &Goal, before: bool) -> Values {
+    let target = match goal {
+        Goal::Pose(pose) => b.moved(pose),
+        Goal::Point { to, .. } => Object::Point(*to),
+    };
+    let (moving, fixed, value) =
+        if before { (a, &target, a.measure(b)) } else { (b, a, a.measure(&target)) };
+    let Some(value) = value else { return Values::None };
+    match (screw, moving, fixed) {
+        (Screw::Revolute(axis), Object::Point(p), Object::Point(k)) => rotate_to_distance(axis, p, k, value, LOOSE),
+        (Screw::Prismatic(v), Object::Point(p), Object::Point(k)) => translate_to_distance(v, p, k, value, LOOSE),
+        (Screw::Revolute(axis), Object::Point(p), Object::Plane(n, c)) => {
+            rotate_to_plane(axis, p, n, &(c + n.scale(value)), LOOSE)
+        }
+        (Screw::Prismatic(v), Object::Point(p), Object::Plane(n, c)) => {
+            translate_to_plane(v, p, n, &(c + n.scale(value)), LOOSE)
+        }
+        (Screw::Revolute(axis), Object::Plane(n, c), Object::Point(p)) => {
+            negated(rotate_to_plane(axis, p, n, &(c + n.scale(value)), LOOSE))
+        }
+        (Screw::Prismatic(v), Object::Plane(n, c), Object::Point(p)) => {
+            negated(translate_to_plane(v, p, n, &(c + n.scale(value)), LOOSE))
+        }
+        (Screw::Revolute(axis), Object::Direction(x), Object::Direction(y)) => {
+            let (axis, p) = (axis.through_origin(), Point3::from(x.into_inner()));
+            rotate_to_plane(&axis, &p, y, &Point3::from(y.scale(value)), LOOSE)
+        }
+        _ => Values::None,
+    }
+}
+
+fn negated(values: Values) -> Values {
+    match values {
+        Values::One(q) => Values::One(-q),
+        Values::Two(q, r) => Values::Two(-q, -r),
+        none_or_free => none_or_free,
+    }
+}
+
+/// The joints before (first) and behind (second) the run: `E1 a` lies to `T b` as a to `E2 b`, for two pairs of objects.
+fn around(screws: [&Screw; 2], pairs: &[(Object, Object); 2], pose: &Pose) -> Option<Answers> {
+    let mut rows = [[0.0; 5]; 2];
+    for (row, (a, b)) in rows.iter_mut().zip(pairs) {
+        let target = b.moved(pose);
+        let [c0, c1, c2] = harmonics(screws[0], |motion| a.moved(motion).linear_measure(&target))?;
+        let [d0, d1, d2] = harmonics(screws[1], |motion| a.linear_measure(&b.moved(motion)))?;
+        *row = [c1, c2, -d1, -d2, d0 - c0];
+    }
+    let (x, z) = (Vector3::x(), Vector3::z_axis());
+    let part = |i: usize, j: usize| Vector3::new(rows[i][j], rows[i][j + 1], 0.0);
+    let found = four_circles(
+        [part(0, 0), part(0, 2), part(1, 0), part(1, 2)],
+        [z; 4],
+        [x; 4],
+        rows[0][4],
+        rows[1][4],
+        LOOSE,
+    );
+    Some(found.iter().map(|q| SmallVec::from_slice(q)).collect())
+}
+
+/// `f(q) = f0 + f1 cos q + f2 sin q` for a revolute joint.
+fn harmonics(screw: &Screw, f: impl Fn(&Pose) -> Option<f64>) -> Option<[f64; 3]> {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    screw.axis()?;
+    let (zero, quarter, half) = (f(&screw.exp(0.0))?, f(&screw.exp(FRAC_PI_2))?, f(&screw.exp(PI))?);
+    let mean = (zero + half) / 2.0;
+    Some([mean, (zero - half) / 2.0, quarter - mean])
+}
+
+impl Object {
+    fn moved(&self, motion: &Pose) -> Object {
+        match self {
+            Object::Point(p) => Object::Point(motion * p),
+            Object::Plane(n, c) => Object::Plane(motion.rotation * n, motion * c),
+            Object::Direction(x) => Object::Direction(motion.rotation * x),
+        }
+    }
+
+    /// What rigid motions of both keep: the distance of two points, the signed offset of a point and a plane, the cosine
+    /// between two directions.
+    fn measure(&self, other: &Object) -> Option<f64> {
+        match (self, other) {
+            (Object::Point(p), Object::Point(k)) => Some((p - k).norm()),
+            _ => self.linear_measure(other),
+        }
+    }
+
+    /// The same, squared for points: linear in the cosine and sine of a rotation of either.
+    fn linear_measure(&self, other: &Object) -> Option<f64> {
+        match (self, other) {
+            (Object::Point(p), Object::Point(k)) => Some((p - k).norm_squared()),
+            (Object::Point(p), Object::Plane(n, c)) | (Object::Plane(n, c), Object::Point(p)) => Some(n.dot(&(p - c))),
+            (Object::Direction(x), Object::Direction(y)) => Some(x.dot(y)),
+            _ => None,
+        }
+    }
+}
