@@ -68,6 +68,8 @@ pub mod spatial;
 
 pub mod kinematics;
 
+pub mod robots;
+
 pub mod solver;
 
 pub mod derive;

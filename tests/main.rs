@@ -12,6 +12,7 @@ mod groebner;
 mod kinematics;
 mod number;
 mod poly;
+mod robots;
 mod roots;
 mod spatial;
 mod witness;
