@@ -67,6 +67,17 @@ impl Axis {
         Pose::from_parts(Translation3::from(translation), UnitQuaternion::from_axis_angle(&self.direction, angle))
     }
 
+    /// The axis through the origin along `direction`.
+    pub fn central(direction: Unit<Vector3<f64>>) -> Axis {
+        Axis { direction, point: Point3::origin() }
+    }
+
+    /// The axis moved by `shift` \[m\], its direction kept.
+    #[must_use]
+    pub fn shifted(&self, shift: &Vector3<f64>) -> Axis {
+        Axis { point: self.point + shift, ..*self }
+    }
+
     /// The parallel axis through the origin.
     #[must_use]
     pub fn through_origin(&self) -> Axis {

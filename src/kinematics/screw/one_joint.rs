@@ -1,18 +1,244 @@
-#![allow(missing_docs)]
-use super::values::*; use crate::spatial::*; use nalgebra::*; use super::paden_kahan as pk; use super::trigonometric::zeros;
-fn v(a: pk::Angles)->Values{ match a { pk::Angles::None=>Values::None, pk::Angles::One(x)=>Values::One(x), pk::Angles::Two(x,y)=>Values::Two(x,y), pk::Angles::Free=>Values::Free } }
-pub fn rotate_to_point(a:&Axis,p:&Point3<f64>,k:&Point3<f64>,_r:Reach)->Values{
-  let w=a.direction(); let u=p-a.point(); let y=k-a.point(); let (u,y)=(u-w.scale(w.dot(&u)),y-w.scale(w.dot(&y)));
-  if u.norm()<1e-12 && y.norm()<1e-12 {return Values::Free}
-  if (p-a.point()).norm()-(k-a.point()).norm()>1e-7 {return Values::None}
-  Values::One(w.dot(&u.cross(&y)).atan2(u.dot(&y)))}
-pub fn rotate_to_distance(a:&Axis,p:&Point3<f64>,k:&Point3<f64>,d:f64,_r:Reach)->Values{v(pk::rotate_to_distance(a,p,k,d))}
-pub fn rotate_to_plane(a:&Axis,p:&Point3<f64>,n:&Unit<Vector3<f64>>,k:&Point3<f64>,_r:Reach)->Values{
-  let f=|t:f64| n.dot(&(a.rotate(t,p)-k));
-  if f(0.3).abs().max(f(1.9).abs()).max(f(-1.7).abs())<1e-12 {return Values::Free}
-  let z=zeros(1,f); match z[..]{[]=>Values::None,[x]=>Values::One(x),[x,y,..]=>Values::Two(x,y)}}
-pub fn translate_to_point(a:&Unit<Vector3<f64>>,p:&Point3<f64>,k:&Point3<f64>,_r:Reach)->Values{Values::One(a.dot(&(k-p)))}
-pub fn translate_to_distance(a:&Unit<Vector3<f64>>,p:&Point3<f64>,k:&Point3<f64>,d:f64,_r:Reach)->Values{
- let h=a.dot(&(k-p)); let s=d*d-(p-k).norm_squared()+h*h; if s<0.0 {return Values::None} let s=s.sqrt(); Values::Two(h+s,h-s)}
-pub fn translate_to_plane(a:&Unit<Vector3<f64>>,p:&Point3<f64>,n:&Unit<Vector3<f64>>,k:&Point3<f64>,_r:Reach)->Values{
- let d=n.dot(a); if d.abs()<1e-12 {return Values::Free} Values::One(n.dot(&(k-p))/d)}
+//! The subproblems of one joint, for any axis: Paden-Kahan 1 and 3 (RH0 2.3.3), Pardos-One (RH0 2.3.4), and rotations and
+//! translations to a plane (PG1, PG5). IK-Geo's subproblems 1, 3 and 4 are these.
+//!
+//! Rotating a point moves what is asked for (a distance, a height over a plane) up and down between two ends, so that
+//! there are two angles, one at an end, or every angle does it. The tolerances stand in [`super::values`].
+//!
+//! Lengths may have any magnitude, but an axis' point should be near the other points: rounding of the axis' direction
+//! acts at that distance.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::values::{ROUNDING, Reach, TOLERANCE, Values};
+use crate::spatial::{Axis, angle};
+
+/// Paden-Kahan 1, RH0 (2-28), (2-29): the angle that rotates `p` about `axis` onto `k` \[m\].
+///
+/// Free when both points lie on the axis and coincide; none when `k` is not on the circle of `p` or a coordinate is not
+/// finite. Never two.
+pub fn rotate_to_point(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, reach: Reach) -> Values {
+    rotate_to_distance(axis, p, k, 0.0, reach)
+}
+
+/// Paden-Kahan 3, RH0 (2-32), (2-33): the angles that rotate `p` about `axis` to the distance `delta` from `k` \[m\].
+///
+/// Free when `p` or `k` lies on the axis and the distance fits; none when `delta` is out of reach, negative or NaN, or a
+/// coordinate is not finite. Of two angles, the first lies ahead of the one nearest to `k`, the second behind it.
+pub fn rotate_to_distance(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, delta: f64, reach: Reach) -> Values {
+    match Circle::new(axis, p, k) {
+        Some(circle) if delta >= 0.0 => circle.swing(delta / circle.unit).angles(reach),
+        _ => Values::None,
+    }
+}
+
+/// The angles that rotate `p` about `axis` into the plane through `plane_point` \[m\] with this `normal`: PG5 for a point,
+/// IK-Geo's circle and plane.
+///
+/// Free when `p` lies on the axis, or the axis is normal to the plane, and `p` is in the plane; none when the circle
+/// does not reach the plane or a coordinate is not finite. Of two angles, the first lies ahead of the one that moves `p`
+/// farthest along the normal.
+pub fn rotate_to_plane(
+    axis: &Axis,
+    p: &Point3<f64>,
+    normal: &Unit<Vector3<f64>>,
+    plane_point: &Point3<f64>,
+    reach: Reach,
+) -> Values {
+    let w = axis.direction();
+    let (u, height) = (p - axis.point(), normal.dot(&(plane_point - axis.point())));
+    let size = u.norm().max(height.abs());
+    if !size.is_finite() {
+        return Values::None;
+    }
+    let (u_flat, n_flat) = (u - w.scale(w.dot(&u)), normal.into_inner() - w.scale(w.dot(normal)));
+    let amplitude = u_flat.norm() * n_flat.norm();
+    let target = height - w.dot(&u) * w.dot(normal);
+    let bearing = w.dot(&u_flat.cross(&n_flat)).atan2(u_flat.dot(&n_flat));
+    Swing {
+        above: amplitude - target,
+        below: amplitude + target,
+        weights: (1.0, 1.0),
+        span: 2.0 * amplitude,
+        size,
+        bearing,
+    }
+    .angles(reach)
+}
+
+/// PG5: the angles that rotate `line` about `axis` until it lies in the plane through `plane_point` \[m\] with this `normal`.
+///
+/// A line lies in a plane when its direction is normal to the plane's normal and one of its points is in the plane; the
+/// angles of the first condition that meet the second are returned. A line parallel to the axis keeps its direction:
+/// then its point alone decides. With [`Reach::Closest`]: the line becomes as parallel to the plane as it can.
+pub fn rotate_line_to_plane(
+    axis: &Axis,
+    line: &Axis,
+    normal: &Unit<Vector3<f64>>,
+    plane_point: &Point3<f64>,
+    reach: Reach,
+) -> Values {
+    let direction = Point3::from(line.direction().into_inner());
+    let turned = rotate_to_plane(&axis.through_origin(), &direction, normal, &Point3::origin(), reach);
+    let size = (line.point() - axis.point()).norm().max((plane_point - axis.point()).norm());
+    let lies = |q: &f64| normal.dot(&(axis.rotate(*q, &line.point()) - plane_point)).abs() <= reach.slack(size);
+    match turned {
+        Values::Free => rotate_to_plane(axis, &line.point(), normal, plane_point, reach),
+        turned => {
+            let mut kept = turned.iter().filter(lies);
+            match (kept.next(), kept.next()) {
+                (Some(q), Some(r)) => Values::Two(q, r),
+                (Some(q), None) => Values::One(q),
+                _ => Values::None,
+            }
+        }
+    }
+}
+
+/// The displacement along `direction` that moves `p` to `k` \[m\]; none when `k` is beside the line.
+pub fn translate_to_point(direction: &Unit<Vector3<f64>>, p: &Point3<f64>, k: &Point3<f64>, reach: Reach) -> Values {
+    let way = k - p;
+    let along = direction.dot(&way);
+    let beside = (way - direction.scale(along)).norm();
+    if beside <= reach.slack(way.norm()) { Values::One(along) } else { Values::None }
+}
+
+/// Pardos-One (PG3), RH0 (2-34): the displacements along `direction` that move `p` to the distance `delta` from `k` \[m\].
+///
+/// `v.(k - p) +- sqrt(delta^2 - |k - p|^2 + (v.(k - p))^2)`: RH0 (2-35) without its sign factor, which loses answers (see
+/// `docs/errata.md`). None when the line stays farther from `k` than `delta`, when `delta` is negative or NaN, or a
+/// coordinate is not finite. Of two, the larger comes first.
+pub fn translate_to_distance(
+    direction: &Unit<Vector3<f64>>,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    delta: f64,
+    reach: Reach,
+) -> Values {
+    let way = k - p;
+    let along = direction.dot(&way);
+    let beside = (way - direction.scale(along)).norm();
+    let (size, beyond) = (way.norm().max(delta), delta - beside);
+    if !(size.is_finite() && delta >= 0.0) || -beyond > reach.slack(size) {
+        return Values::None;
+    }
+    if beyond <= ROUNDING * size {
+        return Values::One(along);
+    }
+    let half = (beyond * (delta + beside)).sqrt();
+    Values::Two(along + half, along - half)
+}
+
+/// PG1: the displacement along `direction` that moves `p` into the plane through `plane_point` \[m\] with this `normal`.
+///
+/// Free when the direction is parallel to the plane and `p` in it; none when it is parallel and `p` is not.
+pub fn translate_to_plane(
+    direction: &Unit<Vector3<f64>>,
+    p: &Point3<f64>,
+    normal: &Unit<Vector3<f64>>,
+    plane_point: &Point3<f64>,
+    reach: Reach,
+) -> Values {
+    let (way, slope) = (plane_point - p, normal.dot(direction));
+    let height = normal.dot(&way);
+    if !height.is_finite() {
+        return Values::None;
+    }
+    if slope.abs() > TOLERANCE {
+        return Values::One(height / slope);
+    }
+    if height.abs() <= reach.slack(way.norm()) { Values::Free } else { Values::None }
+}
+
+/// A quantity that swings between two ends while a joint turns once, and its target.
+struct Swing {
+    /// How far the target is from the end at `bearing`; negative beyond it.
+    above: f64,
+    /// How far it is from the other end.
+    below: f64,
+    /// The tangent squared of half the angle from the bearing is `above * weights.0 / (below * weights.1)`.
+    weights: (f64, f64),
+    /// The distance of the two ends.
+    span: f64,
+    /// The size of the problem.
+    size: f64,
+    /// The angle of the first end \[rad\].
+    bearing: f64,
+}
+
+impl Swing {
+    fn angles(&self, reach: Reach) -> Values {
+        let slack = reach.slack(self.size);
+        if !(self.above >= -slack && self.below >= -slack) {
+            return Values::None;
+        }
+        if self.span <= TOLERANCE * self.size {
+            return Values::Free;
+        }
+        if self.above <= ROUNDING * self.size {
+            return Values::One(angle::wrap(self.bearing));
+        }
+        if self.below <= ROUNDING * self.size {
+            return Values::One(angle::wrap(self.bearing + PI));
+        }
+        let turn = 2.0 * (self.above * self.weights.0).sqrt().atan2((self.below * self.weights.1).sqrt());
+        Values::Two(angle::wrap(self.bearing + turn), angle::wrap(self.bearing - turn))
+    }
+}
+
+/// The circle of `p` about an axis, seen from `k`.
+pub(super) struct Circle {
+    /// The unit of the lengths below \[m\]: keeps their squares in range.
+    unit: f64,
+    /// The larger distance of the two points from the axis' point.
+    size: f64,
+    /// The smallest distance from `k`.
+    nearest: f64,
+    /// The largest distance from `k`.
+    farthest: f64,
+    /// The angle in (-pi, pi] that brings `p` nearest to `k`: theta_0 of RH0 (2-33).
+    pub(super) bearing: f64,
+}
+
+impl Circle {
+    /// `None` when a coordinate, relative to the axis' point, is not finite.
+    pub(super) fn new(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> Option<Circle> {
+        let w = axis.direction();
+        let (u, v) = (p - axis.point(), k - axis.point());
+        if !u.iter().chain(v.iter()).all(|x| x.is_finite()) {
+            return None;
+        }
+        let largest = u.amax().max(v.amax());
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let (u, v) = (u / unit, v / unit);
+        let height = w.dot(&(u - v));
+        let (u_flat, v_flat) = (u - w.scale(w.dot(&u)), v - w.scale(w.dot(&v)));
+        let (a, b) = (u_flat.norm(), v_flat.norm());
+        Some(Circle {
+            unit,
+            size: u.norm().max(v.norm()),
+            nearest: height.hypot(a - b),
+            farthest: height.hypot(a + b),
+            bearing: angle::wrap(w.dot(&u_flat.cross(&v_flat)).atan2(u_flat.dot(&v_flat))),
+        })
+    }
+
+    /// The largest distance from `k` \[m\].
+    pub(super) fn farthest(&self) -> f64 {
+        self.farthest * self.unit
+    }
+
+    /// The law of cosines RH0 (2-33), for half the angle, at `distance` in this circle's unit: its tangent squared is
+    /// (distance^2 - nearest^2) / (farthest^2 - distance^2).
+    fn swing(&self, distance: f64) -> Swing {
+        Swing {
+            above: distance - self.nearest,
+            below: self.farthest - distance,
+            weights: (distance + self.nearest, distance + self.farthest),
+            span: self.farthest - self.nearest,
+            size: self.size,
+            bearing: self.bearing,
+        }
+    }
+}

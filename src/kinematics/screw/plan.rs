@@ -119,9 +119,7 @@ pub(super) fn describe(step: &Step, reduced: &Reduced, answers: usize, scale: Sc
     let (rest, tail) = row.split_at(row.len() - step.tail);
     let solved: Vec<&Screw> = step.unknown.iter().map(|&place| &row[place].screw).collect();
     let (subproblem, text) = match &step.kind {
-        Kind::ToPoint(spot) => {
-            (to_point(&solved, reduced, scale), format!("{} to its place", say_spot(*spot, tail)))
-        }
+        Kind::ToPoint(spot) => (to_point(&solved, reduced, scale), format!("{} to its place", say_spot(*spot, tail))),
         Kind::ToDirection(line) => {
             let name = if solved.len() == 1 { Subproblem::PadenKahan1 } else { Subproblem::PadenKahan2 };
             (name, format!("the direction of {} to its place", say_line(*line, tail)))

@@ -4,6 +4,8 @@
 //! joint that becomes known is moved to the nearer end of the product, where it changes the goal; the screws that it
 //! passes are carried along: `g e^S = e^(g S) g`.
 
+use std::borrow::Cow;
+
 use nalgebra::Point3;
 use smallvec::SmallVec;
 
@@ -69,13 +71,18 @@ impl Reduced {
 
     /// The same loop cut elsewhere, so that the joints up to `end` come last: with the pose T as goal, the joints from
     /// `end` on come first, carried by T, and the goal stays T.
-    pub fn cut_at(&self, end: usize) -> Row {
+    pub fn cut_at(&self, end: usize) -> Cow<'_, [Member]> {
         match self.goal {
             Goal::Pose(pose) if end < self.row.len() => {
                 let carried = |member: &Member| Member { screw: member.screw.moved(&pose), ..*member };
                 self.row[end..].iter().map(carried).chain(self.row[..end].iter().copied()).collect()
             }
-            _ => self.row.clone(),
+            _ => Cow::Borrowed(&self.row),
         }
+    }
+
+    /// The number, in the chain, of the joint at `place` of the row that is cut at `end`.
+    pub fn joint_at(&self, end: usize, place: usize) -> usize {
+        self.row[(end + place) % self.row.len()].joint
     }
 }

@@ -53,7 +53,8 @@ impl ScrewSolver {
             Task::PlanarPosition { .. } => 2,
         };
         if count > most {
-            let text = format!("{count} joints for the task `{}`, which determines {most} at most", chain.task().name());
+            let text =
+                format!("{count} joints for the task `{}`, which determines {most} at most", chain.task().name());
             return Err(Error::new(ErrorKind::PositiveDimensional, text));
         }
         let screws = at_meeting_points(chain.screws(), 1e-9 * chain.reach());
@@ -90,18 +91,23 @@ impl ScrewSolver {
 
     /// Takes step number `depth` in every way that it offers.
     fn descend(&self, depth: usize, reduced: &Reduced, goal: &Goal, trail: &mut Trail, found: &mut Vec<Solution>) {
-        let Some(step) = self.steps.get(depth) else { return self.finish(goal, trail, found) };
+        let step = &self.steps[depth];
         let joints = step.solved(reduced);
         for (branch, answer) in step.solve(reduced).into_iter().flatten().enumerate() {
-            let mut rest = reduced.clone();
+            trail.branch[depth] = branch;
             for (&joint, value) in joints.iter().zip(&answer) {
-                let q = value.unwrap_or(0.0);
-                (trail.q[joint], trail.free[joint]) = (q, value.is_none());
+                (trail.q[joint], trail.free[joint]) = (value.unwrap_or(0.0), value.is_none());
+            }
+            if depth + 1 == self.steps.len() {
+                self.finish(goal, trail, found);
+                continue;
+            }
+            let mut rest = reduced.clone();
+            for &joint in &joints {
                 if let Some(place) = rest.place(joint) {
-                    rest.absorb(place, q);
+                    rest.absorb(place, trail.q[joint]);
                 }
             }
-            trail.branch[depth] = branch;
             self.descend(depth + 1, &rest, goal, trail, found);
         }
     }

@@ -118,10 +118,8 @@ impl Step {
             Kind::Around(relations) => {
                 let Goal::Pose(pose) = reduced.goal else { return None };
                 let screws = [&rest[self.unknown[0]].screw, &rest[self.unknown[1]].screw];
-                let pairs = [
-                    relations[0].locate(rest, tail, &reduced.goal)?,
-                    relations[1].locate(rest, tail, &reduced.goal)?,
-                ];
+                let pairs =
+                    [relations[0].locate(rest, tail, &reduced.goal)?, relations[1].locate(rest, tail, &reduced.goal)?];
                 around(screws, &pairs, &pose)
             }
         }
@@ -129,8 +127,7 @@ impl Step {
 
     /// The chain's numbers of the joints that it solves.
     pub fn solved(&self, reduced: &Reduced) -> SmallVec<[usize; 3]> {
-        let row = reduced.cut_at(self.end);
-        self.unknown.iter().map(|&place| row[place].joint).collect()
+        self.unknown.iter().map(|&place| reduced.joint_at(self.end, place)).collect()
     }
 
     fn pick(&self, rest: &[Member]) -> SmallVec<[Screw; 3]> {
@@ -146,10 +143,7 @@ impl Relation {
 }
 
 fn answers(values: Values) -> Answers {
-    match values {
-        Values::Free => std::iter::once(SmallVec::from_slice(&[None])).collect(),
-        values => values.iter().map(|q| SmallVec::from_slice(&[Some(q)])).collect(),
-    }
+    values.choices().into_iter().map(|q| SmallVec::from_slice(&[q])).collect()
 }
 
 /// `p` to `k` by all joints of `rest`.
@@ -207,8 +201,7 @@ fn between(screw: &Screw, a: &Object, b: &Object, goal: &Goal, before: bool) -> 
         Goal::Pose(pose) => b.moved(pose),
         Goal::Point { to, .. } => Object::Point(*to),
     };
-    let (moving, fixed, value) =
-        if before { (a, &target, a.measure(b)) } else { (b, a, a.measure(&target)) };
+    let (moving, fixed, value) = if before { (a, &target, a.measure(b)) } else { (b, a, a.measure(&target)) };
     let Some(value) = value else { return Values::None };
     match (screw, moving, fixed) {
         (Screw::Revolute(axis), Object::Point(p), Object::Point(k)) => rotate_to_distance(axis, p, k, value, LOOSE),
@@ -220,24 +213,16 @@ fn between(screw: &Screw, a: &Object, b: &Object, goal: &Goal, before: bool) -> 
             translate_to_plane(v, p, n, &(c + n.scale(value)), LOOSE)
         }
         (Screw::Revolute(axis), Object::Plane(n, c), Object::Point(p)) => {
-            negated(rotate_to_plane(axis, p, n, &(c + n.scale(value)), LOOSE))
+            rotate_to_plane(axis, p, n, &(c + n.scale(value)), LOOSE).negated()
         }
         (Screw::Prismatic(v), Object::Plane(n, c), Object::Point(p)) => {
-            negated(translate_to_plane(v, p, n, &(c + n.scale(value)), LOOSE))
+            translate_to_plane(v, p, n, &(c + n.scale(value)), LOOSE).negated()
         }
         (Screw::Revolute(axis), Object::Direction(x), Object::Direction(y)) => {
             let (axis, p) = (axis.through_origin(), Point3::from(x.into_inner()));
             rotate_to_plane(&axis, &p, y, &Point3::from(y.scale(value)), LOOSE)
         }
         _ => Values::None,
-    }
-}
-
-fn negated(values: Values) -> Values {
-    match values {
-        Values::One(q) => Values::One(-q),
-        Values::Two(q, r) => Values::Two(-q, -r),
-        none_or_free => none_or_free,
     }
 }
 
@@ -252,14 +237,8 @@ fn around(screws: [&Screw; 2], pairs: &[(Object, Object); 2], pose: &Pose) -> Op
     }
     let (x, z) = (Vector3::x(), Vector3::z_axis());
     let part = |i: usize, j: usize| Vector3::new(rows[i][j], rows[i][j + 1], 0.0);
-    let found = four_circles(
-        [part(0, 0), part(0, 2), part(1, 0), part(1, 2)],
-        [z; 4],
-        [x; 4],
-        rows[0][4],
-        rows[1][4],
-        LOOSE,
-    );
+    let found =
+        four_circles([part(0, 0), part(0, 2), part(1, 0), part(1, 2)], [z; 4], [x; 4], rows[0][4], rows[1][4], LOOSE);
     Some(found.iter().map(|q| SmallVec::from_slice(q)).collect())
 }
 

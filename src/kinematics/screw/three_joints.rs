@@ -1,18 +1,244 @@
-#![allow(missing_docs)]
-use super::values::*; use crate::spatial::*; use nalgebra::*; use super::one_joint::*; use super::trigonometric::zeros;
-pub fn three_screws_to_point(f:[&Screw;3],p:&Point3<f64>,k:&Point3<f64>,r:Reach)->Answers<3>{
- let mut out=Answers(Default::default());
- let (Some(a),Some(b),Some(c))=(f[0].axis(),f[1].axis(),f[2].axis()) else {return out};
- let w=b.direction(); let e1=Unit::new_normalize(w.cross(&Vector3::ith(w.iamin(),1.0))); let e2=w.cross(&e1);
- let flat=|x:&Vector3<f64>| Vector2::new(e1.dot(x),e2.dot(x));
- let w1=a.direction().into_inner(); let arm=a.point()-b.point();
- let (f1,f2)=(flat(&w1),flat(&arm));
- let Some(inv)=Matrix2::new(f1.x,f1.y,f2.x,f2.y).try_inverse() else {return out};
- let d=(k-a.point()).norm_squared();
- let at=|t:f64| { let y=c.rotate(t,p)-b.point(); let h=w.dot(&y);
-   let b1=w1.dot(&(k-b.point()))-h*w.dot(&w1);
-   let b2=(y.norm_squared()+arm.norm_squared()-d)/2.0-h*w.dot(&arm);
-   (flat(&y),inv*Vector2::new(b1,b2)) };
- for t in zeros(2,|t|{let (u,v)=at(t); u.norm_squared()-v.norm_squared()}) { let (u,v)=at(t); let s=u.perp(&v).atan2(u.dot(&v));
-  let x=b.rotate(s,&c.rotate(t,p)); for z in rotate_to_point(a,&x,k,r).iter() { out.0.push([Some(z),Some(s),Some(t)]); } }
- out}
+//! The subproblems of three joints that carry a point to a point, `e^(S1 q1) e^(S2 q2) e^(S3 q3) p = k`, for any screws: IK-Geo's
+//! three circles, PG7, and every mixture with translations; and three rotations about parallel axes to a pose (PG8).
+//!
+//! The first joint is cancelled by two conditions that it keeps: the height along its axis and the distance from a point of
+//! it, or, when it slides, two heights across its direction. Both are linear in the second joint's cosine and sine with
+//! constant factors ([`super::turn`]), so that one equation of degree four is left for the third. Candidates are refined and
+//! kept when they reach `k`. The tolerances stand in [`super::values`].
+
+use nalgebra::{Point3, Unit, Vector3};
+use smallvec::SmallVec;
+
+use super::one_joint::{
+    rotate_to_plane, rotate_to_point, translate_to_distance, translate_to_plane, translate_to_point,
+};
+use super::polish::polish;
+use super::polynomial;
+use super::trigonometric;
+use super::turn::Turn;
+use super::two_joints::{rotate_about_parallel_axes, size, two_screws_to_point};
+use super::values::{Answers, Reach, TOLERANCE, Values};
+use crate::spatial::line::PARALLEL;
+use crate::spatial::{Axis, Pose, Screw, angle};
+
+/// How much a condition may be missed by a candidate; the point that it reaches decides.
+const CANDIDATE: Reach = Reach::Within(1e-4);
+
+type Candidates = SmallVec<[[Option<f64>; 3]; 8]>;
+
+/// `e^(S1 q1) e^(S2 q2) e^(S3 q3) p = k` for any three screws: up to four answers.
+///
+/// A joint is free when `p` lies on its axis and it is the third, or `k` does and it is the first. With [`Reach::Closest`] and a
+/// target out of reach: the values that come nearest.
+pub fn three_screws_to_point(screws: [&Screw; 3], p: &Point3<f64>, k: &Point3<f64>, reach: Reach) -> Answers<3> {
+    let centres: SmallVec<[Point3<f64>; 3]> = screws.iter().filter_map(|s| s.axis()).map(Axis::point).collect();
+    let size = size(&centres, p, k);
+    if !size.is_finite() {
+        return Answers::default();
+    }
+    let holds =
+        |screw: &Screw, x: &Point3<f64>| screw.axis().is_some_and(|axis| axis.distance_to(x) <= TOLERANCE * size);
+    if holds(screws[2], p) {
+        let two = two_screws_to_point(screws[0], screws[1], p, k, reach);
+        return two.iter().map(|[a, b]| [*a, *b, None]).collect();
+    }
+    if holds(screws[0], k) {
+        let two = two_screws_to_point(screws[1], screws[2], p, k, reach);
+        return two.iter().map(|[b, c]| [None, *b, *c]).collect();
+    }
+    let candidates = match screws {
+        [Screw::Revolute(_), Screw::Prismatic(_), Screw::Prismatic(_)] => backwards(screws, p, k),
+        [first, Screw::Revolute(second), third] => turned(first, second, third, p, k, size),
+        [first, Screw::Prismatic(second), third] => slid(first, second, third, p, k, size),
+    };
+    polish(&screws.map(|screw| *screw), p, k, size, reach, candidates.into_iter())
+}
+
+/// PG7: a rotation about a skew axis behind which two rotations about parallel axes follow: up to four answers.
+pub fn rotate_skew_and_two_parallel(
+    skew: &Axis,
+    parallel: [&Axis; 2],
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    reach: Reach,
+) -> Answers<3> {
+    let [second, third] = parallel.map(|axis| Screw::Revolute(*axis));
+    three_screws_to_point([&Screw::Revolute(*skew), &second, &third], p, k, reach)
+}
+
+/// PG8: rotations about three parallel axes whose product is `pose`: up to two answers.
+///
+/// None when `pose` does not keep the planes normal to the axes, to the tolerance of `reach`.
+pub fn rotate_three_parallel_to_pose(axes: [&Axis; 3], pose: &Pose, reach: Reach) -> Answers<3> {
+    let w = axes[0].direction();
+    let keeps = (pose.rotation * w.into_inner() - w.into_inner()).norm() <= reach.slack(1.0);
+    if !(keeps && axes[0].is_parallel(axes[1]) && axes[0].is_parallel(axes[2])) {
+        return Answers::default();
+    }
+    let sum = 2.0 * w.dot(&pose.rotation.imag()).atan2(pose.rotation.scalar());
+    let p = axes[2].point();
+    let sign = |axis: &Axis| w.dot(&axis.direction()).signum();
+    let complete = |[a, b]: &[Option<f64>; 2]| {
+        let rest = sum - a.unwrap_or(0.0) - sign(axes[1]) * b.unwrap_or(0.0);
+        [*a, *b, Some(angle::wrap(sign(axes[2]) * rest))]
+    };
+    rotate_about_parallel_axes(axes[0], axes[1], &p, &(pose * p), reach).iter().map(complete).collect()
+}
+
+/// A rotation before two translations, by the inverse of the whole: `e^-S3 e^-S2 e^-S1 k = p`.
+fn backwards(screws: [&Screw; 3], p: &Point3<f64>, k: &Point3<f64>) -> Candidates {
+    let found = two_slides(screws[2], screws[1], screws[0], k, p);
+    found.into_iter().map(|[c, b, a]| [a.map(|q| -q), b.map(|q| -q), c.map(|q| -q)]).collect()
+}
+
+/// What the first joint keeps of a point: two vectors and right sides so that `a_i . (x - origin) = b_i(x)`.
+struct Kept {
+    a: [Vector3<f64>; 2],
+    /// The height of `k` along the first vector, from the origin.
+    first: f64,
+    second: Second,
+}
+
+enum Second {
+    /// The height along the second vector.
+    Height(f64),
+    /// The distance squared from the axis' point, which stands at the second vector.
+    Distance(f64),
+}
+
+impl Kept {
+    /// By `screw`, seen from `origin`.
+    fn new(screw: &Screw, k: &Point3<f64>, origin: &Point3<f64>) -> Kept {
+        let way = k - origin;
+        match screw {
+            Screw::Revolute(axis) => {
+                // The point of the axis level with the origin keeps the numbers small.
+                let axis = axis.level_with(origin);
+                let (w, arm) = (axis.direction().into_inner(), axis.point() - origin);
+                let square = (k - axis.point()).norm_squared() - arm.norm_squared();
+                Kept { a: [w, arm], first: w.dot(&way), second: Second::Distance(square) }
+            }
+            Screw::Prismatic(direction) => {
+                let across = direction.cross(&Vector3::ith(direction.iamin(), 1.0)).normalize();
+                let other = direction.cross(&across);
+                Kept { a: [across, other], first: across.dot(&way), second: Second::Height(other.dot(&way)) }
+            }
+        }
+    }
+
+    /// The right sides for `y`, the point as seen from the origin, whose length the second joint keeps.
+    fn sides(&self, y: &Vector3<f64>) -> [f64; 2] {
+        match self.second {
+            Second::Height(height) => [self.first, height],
+            Second::Distance(square) => [self.first, (y.norm_squared() - square) / 2.0],
+        }
+    }
+}
+
+/// The second joint turns.
+fn turned(first: &Screw, second: &Axis, third: &Screw, p: &Point3<f64>, k: &Point3<f64>, size: f64) -> Candidates {
+    let kept = Kept::new(first, k, &second.point());
+    let turn = Turn::new(&second.direction(), kept.a);
+    let seen = |q: f64| move_by(third, q, p) - second.point();
+    let condition = |q: f64| {
+        let y = seen(q);
+        turn.condition(&y, kept.sides(&y))
+    };
+    let angles = |q: f64| {
+        let y = seen(q);
+        let flat = (y - second.direction().scale(second.direction().dot(&y))).norm();
+        if flat <= TOLERANCE * size { [Some(0.0), None] } else { turn.angles(&y, kept.sides(&y)) }
+    };
+    let thirds: SmallVec<[f64; 16]> = match third {
+        Screw::Revolute(_) => trigonometric::zeros(2, condition),
+        Screw::Prismatic(_) => polynomial::zeros(size, condition),
+    };
+    let mut found = Candidates::new();
+    for q3 in thirds {
+        for q2 in angles(q3).into_iter().flatten() {
+            let x = second.rotate(q2, &move_by(third, q3, p));
+            found.extend(reach_by(first, &x, k).into_iter().map(|q1| [q1, Some(q2), Some(q3)]));
+        }
+    }
+    found
+}
+
+/// The second joint slides.
+fn slid(
+    first: &Screw,
+    second: &Unit<Vector3<f64>>,
+    third: &Screw,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    size: f64,
+) -> Candidates {
+    let axis = match first {
+        Screw::Prismatic(_) => return two_slides(first, &Screw::Prismatic(*second), third, p, k),
+        Screw::Revolute(axis) => axis.level_with(k),
+    };
+    let (w, slope) = (axis.direction(), axis.direction().dot(second));
+    let height = |q: f64| w.dot(&(k - move_by(third, q, p)));
+    let radius = (k - axis.point()).norm();
+    // Where the slide is normal to the axis it does not change the height, and the third joint alone must.
+    let level = slope.abs() <= PARALLEL;
+    let condition = |q: f64| {
+        if level {
+            return height(q);
+        }
+        let y = (move_by(third, q, p) - axis.point()) * slope + second.scale(height(q));
+        y.norm_squared() - (slope * radius).powi(2)
+    };
+    let thirds: SmallVec<[f64; 16]> = match third {
+        Screw::Revolute(_) => trigonometric::zeros(if level { 1 } else { 2 }, condition),
+        Screw::Prismatic(_) => polynomial::zeros(size, condition),
+    };
+    let mut found = Candidates::new();
+    for q3 in thirds {
+        let x = move_by(third, q3, p);
+        let slides = translate_to_distance(second, &x, &axis.point(), radius, CANDIDATE);
+        let slides = if level { slides } else { Values::One(height(q3) / slope) };
+        for q2 in slides.iter() {
+            let firsts = reach_by(first, &(x + second.scale(q2)), k);
+            found.extend(firsts.into_iter().map(|q1| [q1, Some(q2), Some(q3)]));
+        }
+    }
+    found
+}
+
+/// The first two joints slide: the third must bring the point to its height over their plane.
+fn two_slides(first: &Screw, second: &Screw, third: &Screw, p: &Point3<f64>, k: &Point3<f64>) -> Candidates {
+    let (Screw::Prismatic(v1), Screw::Prismatic(v2)) = (first, second) else { return Candidates::new() };
+    let mut found = Candidates::new();
+    let Some(normal) = Unit::try_new(v1.cross(v2), PARALLEL) else {
+        // One direction twice: the second joint is free, the others are a problem of two.
+        let two = two_screws_to_point(first, third, p, k, CANDIDATE);
+        found.extend(two.iter().map(|[a, c]| [*a, None, *c]));
+        return found;
+    };
+    let thirds = match third {
+        Screw::Revolute(axis) => rotate_to_plane(axis, p, &normal, k, CANDIDATE),
+        Screw::Prismatic(v3) => translate_to_plane(v3, p, &normal, k, CANDIDATE),
+    };
+    for q3 in thirds.choices() {
+        let x = move_by(third, q3.unwrap_or(0.0), p);
+        let two = two_screws_to_point(first, second, &x, k, CANDIDATE);
+        found.extend(two.iter().map(|[a, b]| [*a, *b, q3]));
+    }
+    found
+}
+
+/// The values of the first joint that bring `x` near `k`.
+fn reach_by(first: &Screw, x: &Point3<f64>, k: &Point3<f64>) -> SmallVec<[Option<f64>; 2]> {
+    match first {
+        Screw::Revolute(axis) => rotate_to_point(axis, x, k, CANDIDATE),
+        Screw::Prismatic(direction) => translate_to_point(direction, x, k, Reach::Closest),
+    }
+    .choices()
+}
+
+fn move_by(screw: &Screw, q: f64, x: &Point3<f64>) -> Point3<f64> {
+    match screw {
+        Screw::Revolute(axis) => axis.rotate(q, x),
+        Screw::Prismatic(direction) => x + direction.scale(q),
+    }
+}

@@ -1,9 +1,189 @@
-#![allow(missing_docs)]
-use super::values::*; use crate::spatial::*; use nalgebra::*; use super::one_joint::*;
-pub fn two_screws_to_point(f:&Screw,s:&Screw,p:&Point3<f64>,k:&Point3<f64>,r:Reach)->Answers<2>{
- let mut out=Answers(Default::default());
- let (Some(a),Some(b))=(f.axis(),s.axis()) else {return out};
- let t2 = if a.is_parallel(b) { let a=a.level_with(p); rotate_to_distance(&b.level_with(p),p,&a.point(),(k-a.foot(k)).norm(),r)} else {rotate_to_plane(b,p,&a.direction(),k,r)};
- let l:Vec<Option<f64>> = match t2 {Values::Free=>vec![None],v=>v.iter().map(Some).collect()};
- for t in l { let c=b.rotate(t.unwrap_or(0.0),p); match rotate_to_point(a,&c,k,r){Values::Free=>out.0.push([None,t]),v=>for x in v.iter(){ if (a.rotate(x,&c)-k).norm()<1e-6 {out.0.push([Some(x),t])}}} }
- out}
+//! The subproblems of two joints that carry a point to a point, `e^(S1 q1) e^(S2 q2) p = k`, for any axes: Paden-Kahan 2 (RH0
+//! 2.3.3), PG2, PG4, PG6, and a rotation with a translation.
+//!
+//! One condition on the second joint follows by cancelling the first (a component along its axis, a distance from a point of
+//! it); the first joint then goes to the point. Candidates are refined by Gauss-Newton and kept when they reach `k`:
+//! axes that do not meet leave one of two, which a formula for meeting axes does not tell. The tolerances stand in
+//! [`super::values`]; the size of the problem is the largest distance of p and k from the axes' points, or from each other.
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::one_joint::{Circle, rotate_to_distance, rotate_to_plane, translate_to_distance, translate_to_point};
+use super::polish::polish;
+use super::values::{Answers, Reach, TOLERANCE, Values};
+use crate::spatial::{Axis, Screw};
+
+/// How much a condition may be missed by a candidate; the point that it reaches decides.
+const CANDIDATE: Reach = Reach::Within(1e-6);
+
+/// `e^(S1 q1) e^(S2 q2) p = k` for any two screws: PK2, PG2, PG4, PG6, or a rotation and a translation.
+///
+/// Up to two answers. With [`Reach::Closest`] and a target out of reach: the values that come nearest.
+pub fn two_screws_to_point(
+    first: &Screw,
+    second: &Screw,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    reach: Reach,
+) -> Answers<2> {
+    match (first, second) {
+        (Screw::Revolute(a), Screw::Revolute(b)) if a.is_parallel(b) => rotate_about_parallel_axes(a, b, p, k, reach),
+        (Screw::Revolute(a), Screw::Revolute(b)) => rotate_about_crossing_axes(a, b, p, k, reach),
+        (Screw::Prismatic(v1), Screw::Prismatic(v2)) => translate_twice(v1, v2, p, k, reach),
+        (Screw::Revolute(axis), Screw::Prismatic(direction)) => translate_then_rotate(axis, direction, p, k, reach),
+        (Screw::Prismatic(direction), Screw::Revolute(axis)) => rotate_then_translate(direction, axis, p, k, reach),
+    }
+}
+
+/// Paden-Kahan 2, RH0 (2-30), (2-31): rotations about axes that meet. The same as [`rotate_about_skew_axes`].
+pub fn rotate_about_meeting_axes(
+    first: &Axis,
+    second: &Axis,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    reach: Reach,
+) -> Answers<2> {
+    two_screws_to_point(&Screw::Revolute(*first), &Screw::Revolute(*second), p, k, reach)
+}
+
+/// PG6: rotations about axes that neither meet nor are parallel, at any angle.
+///
+/// Up to two answers where the axes meet, up to one where they are skew: the circle of `p` and the circle of `k` then have
+/// at most one point in common.
+pub fn rotate_about_skew_axes(
+    first: &Axis,
+    second: &Axis,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    reach: Reach,
+) -> Answers<2> {
+    two_screws_to_point(&Screw::Revolute(*first), &Screw::Revolute(*second), p, k, reach)
+}
+
+/// PG4: rotations about parallel axes.
+///
+/// The second joint is free when the axes coincide or `p` lies on the second one, the first when `k` lies on it.
+/// No answers when `k` is not at the height of `p`, or a coordinate is not finite.
+pub fn rotate_about_parallel_axes(
+    first: &Axis,
+    second: &Axis,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    reach: Reach,
+) -> Answers<2> {
+    let (first, second) = (first.level_with(p), second.level_with(p));
+    let w = first.direction();
+    let height = w.dot(&(k - p));
+    let size = size(&[first.point(), second.point()], p, k);
+    if !(size.is_finite() && height.abs() <= reach.slack(size)) {
+        return Answers::default();
+    }
+    let level = k - w.scale(height);
+    let distance = (level - first.point()).norm();
+    let bend = rotate_to_distance(&second, p, &first.point(), distance, reach);
+    let turned = |q2: Option<f64>| complete(&first, p, &level, size, q2, |q| second.rotate(q, p));
+    bend.choices().into_iter().filter_map(turned).collect()
+}
+
+/// The first rotation that takes what the second joint made of `p` to `k`.
+fn complete(
+    first: &Axis,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    size: f64,
+    second: Option<f64>,
+    moved: impl Fn(f64) -> Point3<f64>,
+) -> Option<[Option<f64>; 2]> {
+    let c = second.map_or(*p, moved);
+    let circle = Circle::new(first, &c, k)?;
+    let is_free = first.distance_to(k).max(first.distance_to(&c)) <= TOLERANCE * size || circle.farthest() == 0.0;
+    Some([(!is_free).then_some(circle.bearing), second])
+}
+
+/// Rotations about axes that are not parallel.
+fn rotate_about_crossing_axes(
+    first: &Axis,
+    second: &Axis,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    reach: Reach,
+) -> Answers<2> {
+    let size = size(&[first.point(), second.point()], p, k);
+    if !size.is_finite() {
+        return Answers::default();
+    }
+    let bend = rotate_to_plane(second, p, &first.direction(), k, CANDIDATE);
+    let turned = |q2: Option<f64>| complete(first, p, k, size, q2, |q| second.rotate(q, p));
+    let candidates = bend.choices().into_iter().filter_map(turned);
+    let screws = [Screw::Revolute(*first), Screw::Revolute(*second)];
+    polish(&screws, p, k, size, reach, candidates)
+}
+
+/// PG2: two translations.
+///
+/// One answer, when `k - p` lies in the plane of the directions. Where these are parallel the second joint is free.
+pub fn translate_twice(
+    first: &Unit<Vector3<f64>>,
+    second: &Unit<Vector3<f64>>,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    reach: Reach,
+) -> Answers<2> {
+    let (way, normal) = (k - p, first.cross(second));
+    if normal.norm() <= TOLERANCE {
+        return translate_to_point(first, p, k, reach).iter().map(|q| [Some(q), None]).collect();
+    }
+    let square = normal.norm_squared();
+    if !(way.norm().is_finite() && normal.dot(&way).abs() / square.sqrt() <= reach.slack(way.norm())) {
+        return Answers::default();
+    }
+    let part = |a: &Vector3<f64>, b: &Vector3<f64>| a.cross(b).dot(&normal) / square;
+    std::iter::once([Some(part(&way, second)), Some(part(first, &way))]).collect()
+}
+
+/// A translation, then a rotation: `R (p + v q2) = k`.
+///
+/// The translated point is to be as far from a point of the axis as `k` is. Where the direction is not normal to the axis,
+/// one of the two candidates reaches `k`, else both.
+fn translate_then_rotate(
+    axis: &Axis,
+    direction: &Unit<Vector3<f64>>,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    reach: Reach,
+) -> Answers<2> {
+    let axis = axis.level_with(k);
+    let size = size(&[axis.point()], p, k);
+    if !size.is_finite() {
+        return Answers::default();
+    }
+    let moved = |q: f64| p + direction.scale(q);
+    let distance = (k - axis.point()).norm();
+    let along = axis.direction().cross(direction).norm() <= TOLERANCE;
+    let slides = if along {
+        Values::One(direction.dot(&(k - axis.foot(p))))
+    } else {
+        translate_to_distance(direction, p, &axis.point(), distance, CANDIDATE)
+    };
+    let turned = |q2: Option<f64>| complete(&axis, p, k, size, q2, moved);
+    let screws = [Screw::Revolute(axis), Screw::Prismatic(*direction)];
+    polish(&screws, p, k, size, reach, slides.choices().into_iter().filter_map(turned))
+}
+
+/// A rotation, then a translation: `R p + v q1 = k`, which is `R^-1 (k - v q1) = p`.
+fn rotate_then_translate(
+    direction: &Unit<Vector3<f64>>,
+    axis: &Axis,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    reach: Reach,
+) -> Answers<2> {
+    let back = translate_then_rotate(axis, direction, k, p, reach);
+    back.iter().map(|[turn, slide]| [slide.map(|q| -q), turn.map(|q| -q)]).collect()
+}
+
+/// The largest distance of `p` and `k` from the centres and from each other.
+pub(super) fn size(centres: &[Point3<f64>], p: &Point3<f64>, k: &Point3<f64>) -> f64 {
+    let far = |centre: &Point3<f64>| (p - centre).norm().max((k - centre).norm());
+    centres.iter().map(far).fold((k - p).norm(), |a, b| if b.is_nan() { b } else { a.max(b) })
+}

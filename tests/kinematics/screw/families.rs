@@ -107,9 +107,9 @@ fn parallel(count: usize) -> impl Strategy<Value = Vec<Placed>> {
 
 /// Joints that turn (true) or slide, anywhere.
 fn mixed(kinds: Vec<bool>) -> impl Strategy<Value = Vec<Placed>> {
-    let joints = kinds.into_iter().map(|turns| {
-        (direction(), vector()).prop_map(move |(axis, point)| (axis, turns.then_some(point)))
-    });
+    let joints = kinds
+        .into_iter()
+        .map(|turns| (direction(), vector()).prop_map(move |(axis, point)| (axis, turns.then_some(point))));
     joints.collect::<Vec<_>>()
 }
 

@@ -11,9 +11,7 @@ use nalgebra::{DMatrix, Quaternion, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-use Subproblem::{
-    PadenKahan1, PadenKahan2, PadenKahan3, Pardos1, Pardos4, Pardos5, Pardos8, PardosOne, ThreeCircles,
-};
+use Subproblem::{PadenKahan1, PadenKahan2, PadenKahan3, Pardos1, Pardos4, Pardos5, Pardos8, PardosOne, ThreeCircles};
 
 /// The reach, or one for a chain that only turns its tip.
 pub fn reach(chain: &Chain) -> f64 {
@@ -103,21 +101,11 @@ pub fn matching(sigma: f64) -> f64 {
 /// All robots with the subproblems of their plans and the joints that these solve.
 fn plans() -> Vec<(Chain, Vec<(Subproblem, Vec<usize>)>)> {
     // RH0 A.2: ..(A-25), and in the same order RH0 (3-15)..(3-22) and (3-30)..(3-37).
-    let puma = || {
-        vec![
-            (PadenKahan3, vec![2]),
-            (PadenKahan2, vec![0, 1]),
-            (PadenKahan2, vec![3, 4]),
-            (PadenKahan1, vec![5]),
-        ]
-    };
+    let puma =
+        || vec![(PadenKahan3, vec![2]), (PadenKahan2, vec![0, 1]), (PadenKahan2, vec![3, 4]), (PadenKahan1, vec![5])];
     // RH0 A.1: ..(A-12).
-    let stanford = vec![
-        (PardosOne, vec![2]),
-        (PadenKahan2, vec![0, 1]),
-        (PadenKahan2, vec![3, 4]),
-        (PadenKahan1, vec![5]),
-    ];
+    let stanford =
+        vec![(PardosOne, vec![2]), (PadenKahan2, vec![0, 1]), (PadenKahan2, vec![3, 4]), (PadenKahan1, vec![5])];
     vec![
         (robots::puma(), puma()),
         (robots::stanford(), stanford),

@@ -1,0 +1,197 @@
+//! The last step of the subproblems of several joints: Gauss-Newton on `e^(S1 q1) ... e^(Sn qn) p = k`, and the check that `k`
+//! is reached.
+
+use nalgebra::{Cholesky, Point3, SMatrix, SVector, Vector3};
+
+use super::values::{Answers, Reach};
+use crate::spatial::{Screw, angle};
+
+/// Steps at most.
+const STEPS: usize = 8;
+
+/// A candidate that is nearer than this, relative to the size, is left as it is.
+const ENOUGH: f64 = 4.0 * f64::EPSILON;
+
+/// Two answers are one when their values differ by at most this much \[rad, or sizes\].
+const MERGE: f64 = 1e-9;
+
+/// The candidates that reach `k` after refinement, each once; with [`Reach::Closest`], when none reaches it, those that come
+/// nearest, or what a search from many starting values finds.
+pub(super) fn polish<const N: usize>(
+    screws: &[Screw; N],
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    size: f64,
+    reach: Reach,
+    candidates: impl Iterator<Item = [Option<f64>; N]>,
+) -> Answers<N> {
+    let mut found = Answers::default();
+    let within = match reach {
+        Reach::Within(share) => share * size,
+        Reach::Closest => Reach::EXACT.slack(size),
+    };
+    for candidate in candidates {
+        let (answer, miss) = refine(screws, p, k, size, candidate);
+        if miss <= within && !contains(screws, size, &found, &answer) {
+            found.push(answer);
+        }
+    }
+    if found.is_empty() && reach == Reach::Closest {
+        return closest(screws, p, k, size);
+    }
+    found
+}
+
+/// Whether `found` has `answer` already.
+fn contains<const N: usize>(screws: &[Screw; N], size: f64, found: &Answers<N>, answer: &[Option<f64>; N]) -> bool {
+    let same = |i: usize, other: &[Option<f64>; N]| match (answer[i], other[i], screws[i].axis()) {
+        (Some(a), Some(b), Some(_)) => angle::difference(a, b).abs() <= MERGE,
+        (Some(a), Some(b), None) => (a - b).abs() <= MERGE * size,
+        (a, b, _) => a.is_none() && b.is_none(),
+    };
+    found.iter().any(|other| (0..N).all(|i| same(i, other)))
+}
+
+/// A better answer near `answer`, and how far it still is from `k`.
+fn refine<const N: usize>(
+    screws: &[Screw; N],
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    size: f64,
+    mut answer: [Option<f64>; N],
+) -> ([Option<f64>; N], f64) {
+    let mut miss = k - carried(screws, &answer, p);
+    for _ in 0..STEPS {
+        if miss.norm() <= ENOUGH * size {
+            break;
+        }
+        let Some(step) = step(screws, p, &answer, &miss, size) else { break };
+        let mut next = answer;
+        next.iter_mut().zip(step.iter()).for_each(|(q, d)| *q = q.map(|q| q + d));
+        let better = k - carried(screws, &next, p);
+        if better.norm() >= miss.norm() {
+            break;
+        }
+        (answer, miss) = (next, better);
+    }
+    for (q, screw) in answer.iter_mut().zip(screws) {
+        if screw.axis().is_some() {
+            *q = q.map(angle::wrap);
+        }
+    }
+    (answer, miss.norm())
+}
+
+/// `e^(S1 q1) ... e^(Sn qn) p`, a free joint being at zero.
+fn carried<const N: usize>(screws: &[Screw; N], answer: &[Option<f64>; N], p: &Point3<f64>) -> Point3<f64> {
+    screws.iter().zip(answer).rev().fold(*p, |x, (screw, q)| move_by(screw, q.unwrap_or(0.0), &x))
+}
+
+fn move_by(screw: &Screw, q: f64, x: &Point3<f64>) -> Point3<f64> {
+    match screw {
+        Screw::Revolute(axis) => axis.rotate(q, x),
+        Screw::Prismatic(direction) => x + direction.scale(q),
+    }
+}
+
+/// The Gauss-Newton step, damped so little that it only keeps singular configurations finite.
+fn step<const N: usize>(
+    screws: &[Screw; N],
+    p: &Point3<f64>,
+    answer: &[Option<f64>; N],
+    miss: &Vector3<f64>,
+    size: f64,
+) -> Option<[f64; N]> {
+    // The columns of the Jacobian, from the last joint on: the velocity at the joint, turned by the joints before it.
+    let mut columns = [Vector3::zeros(); N];
+    let mut x = *p;
+    for i in (0..N).rev() {
+        let q = answer[i].unwrap_or(0.0);
+        x = move_by(&screws[i], q, &x);
+        for later in columns.iter_mut().skip(i + 1) {
+            *later = turn(&screws[i], q, later);
+        }
+        if answer[i].is_some() {
+            columns[i] = match &screws[i] {
+                Screw::Revolute(axis) => axis.direction().cross(&(x - axis.point())),
+                Screw::Prismatic(direction) => direction.into_inner() * size,
+            };
+        }
+    }
+    let square = SMatrix::<f64, N, N>::from_fn(|i, j| columns[i].dot(&columns[j]));
+    let damping = 1e-15 * square.trace().max(f64::MIN_POSITIVE);
+    let projected = SVector::<f64, N>::from_fn(|i, _| columns[i].dot(miss));
+    let solved = Cholesky::new(square + SMatrix::<f64, N, N>::identity() * damping)?.solve(&projected);
+    let mut step: [f64; N] = solved.into();
+    for (d, screw) in step.iter_mut().zip(screws) {
+        if screw.axis().is_none() {
+            *d *= size;
+        }
+    }
+    Some(step)
+}
+
+fn turn(screw: &Screw, q: f64, x: &Vector3<f64>) -> Vector3<f64> {
+    match screw {
+        Screw::Revolute(axis) => x + crate::spatial::rotation::displacement(&axis.direction(), q, x),
+        Screw::Prismatic(_) => *x,
+    }
+}
+
+/// The values whose point comes nearest to `k`, by Gauss-Newton from a grid of starting values.
+fn closest<const N: usize>(screws: &[Screw; N], p: &Point3<f64>, k: &Point3<f64>, size: f64) -> Answers<N> {
+    const GRID: usize = 7;
+    let mut best: Vec<([Option<f64>; N], f64)> = Vec::new();
+    for number in 0..GRID.pow(N as u32) {
+        let start: [Option<f64>; N] = std::array::from_fn(|i| {
+            let share = (number / GRID.pow(i as u32) % GRID) as f64 / GRID as f64;
+            Some(match screws[i].axis() {
+                Some(_) => std::f64::consts::TAU * share,
+                None => size * (2.0 * share - 1.0),
+            })
+        });
+        best.push(descend(screws, p, k, size, start));
+    }
+    let least = best.iter().map(|(_, miss)| *miss).fold(f64::INFINITY, f64::min);
+    let mut found = Answers::default();
+    for (answer, miss) in &best {
+        let near = *miss <= least + 1e-9 * size;
+        let similar = |other: &[Option<f64>; N]| {
+            (0..N).all(|i| match (answer[i], other[i], screws[i].axis()) {
+                (Some(a), Some(b), Some(_)) => angle::difference(a, b).abs() <= 1e-4,
+                (Some(a), Some(b), None) => (a - b).abs() <= 1e-4 * size,
+                _ => false,
+            })
+        };
+        if near && found.len() < 4 && !found.iter().any(similar) {
+            found.push(*answer);
+        }
+    }
+    found
+}
+
+/// Levenberg-Marquardt to a least distance from `k`.
+fn descend<const N: usize>(
+    screws: &[Screw; N],
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    size: f64,
+    start: [Option<f64>; N],
+) -> ([Option<f64>; N], f64) {
+    let (mut answer, mut share) = (start, 1.0);
+    let mut miss = (k - carried(screws, &answer, p)).norm();
+    for _ in 0..100 {
+        let Some(step) = step(screws, p, &answer, &(k - carried(screws, &answer, p)), size) else { break };
+        let mut next = answer;
+        next.iter_mut().zip(step.iter()).for_each(|(q, d)| *q = q.map(|q| q + d * share));
+        let better = (k - carried(screws, &next, p)).norm();
+        if better < miss {
+            (answer, miss, share) = (next, better, f64::min(1.0, share * 2.0));
+        } else if share < 1e-6 {
+            break;
+        } else {
+            share /= 4.0;
+        }
+    }
+    refine(screws, p, k, size, answer)
+}
