@@ -68,6 +68,8 @@ pub mod spatial;
 
 pub mod kinematics;
 
+pub mod dynamics;
+
 pub mod solver;
 
 pub mod derive;

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use groebot::ErrorKind;
-use groebot::spatial::{Axis, Pose, Screw, Twist, angle, rotation};
+use groebot::spatial::{Axis, Pose, Screw, Twist, angle, matrix, rotation};
 use nalgebra::{Matrix4, Point3, Unit, Vector3};
 use proptest::prelude::*;
 
@@ -25,7 +25,7 @@ pub fn axis() -> impl Strategy<Value = Axis> {
 /// The matrix of a twist, RH0 (2-6).
 fn wedge(twist: &Twist) -> Matrix4<f64> {
     let mut wedge = Matrix4::zeros();
-    wedge.fixed_view_mut::<3, 3>(0, 0).copy_from(&rotation::skew(&twist.w));
+    wedge.fixed_view_mut::<3, 3>(0, 0).copy_from(&matrix::skew(&twist.w));
     wedge.fixed_view_mut::<3, 1>(0, 3).copy_from(&twist.v);
     wedge
 }
