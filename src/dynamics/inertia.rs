@@ -28,14 +28,15 @@ impl LinkInertia {
     /// [`ASYMMETRY`]), or no distribution of mass has it: a principal moment is at least zero and at most the sum of the
     /// other two (to [`ROUNDING`]).
     pub fn new(mass: f64, centre_of_mass: Point3<f64>, rotational: Matrix3<f64>) -> Result<Self> {
+        let rows: [[f64; 3]; 3] = rotational.transpose().into();
         let fault = if !(mass.is_finite() && mass > 0.0) {
             format!("mass {mass} kg: give a positive number")
         } else if !centre_of_mass.iter().chain(&rotational).all(|x| x.is_finite()) {
             "centre of mass or inertia: give finite numbers".to_owned()
         } else if (rotational - rotational.transpose()).norm() > ASYMMETRY * rotational.norm() {
-            format!("inertia {rotational}: give a symmetric matrix")
+            format!("inertia {rows:?}: give a symmetric matrix")
         } else if !is_distribution_of_mass(&rotational) {
-            format!("inertia {rotational}: no body has it; each principal moment is at most the sum of the other two")
+            format!("inertia {rows:?}: no body has it; each principal moment is at most the sum of the other two")
         } else {
             return Ok(LinkInertia { mass, centre_of_mass, rotational: (rotational + rotational.transpose()) / 2.0 });
         };

@@ -65,7 +65,11 @@ impl Chain {
 }
 
 fn columns(twists: &[Twist]) -> Jacobian {
-    Jacobian::from_columns(&twists.iter().map(Twist::to_vector).collect::<Vec<_>>())
+    let mut jacobian = Jacobian::zeros(twists.len());
+    for (mut column, twist) in jacobian.column_iter_mut().zip(twists) {
+        column.copy_from(&twist.to_vector());
+    }
+    jacobian
 }
 
 /// Whether `q` has one finite value per screw.

@@ -75,7 +75,7 @@ fn short_way(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
     let (cosine, vector) = (rotation.scalar(), rotation.imag());
     let leading = vector.iter().copied().find(|x| *x != 0.0).unwrap_or(0.0);
     let turns_back = if cosine == 0.0 { leading < 0.0 } else { cosine < 0.0 };
-    if turns_back { (-cosine, -vector) } else { (cosine, vector) }
+    (cosine.abs(), if turns_back { -vector } else { vector })
 }
 
 /// `1 - cos(angle)` without cancellation.
