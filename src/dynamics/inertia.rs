@@ -20,13 +20,13 @@ pub struct LinkInertia {
 }
 
 impl LinkInertia {
-    /// A body of `mass` \[kg\] with its centre at `centre_of_mass` \[m\] in the link's frame. `rotational` \[kg m^2\] is
-    /// the inertia tensor about that centre along the axes of the link's frame.
+    /// A body of `mass` \[kg\] with its centre at `centre_of_mass` \[m\] in the link's frame. `rotational` \[kg m^2\]
+    /// is the inertia tensor about that centre along the axes of the link's frame.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the mass is not positive, a number is not finite, the tensor is not symmetric (to
-    /// [`ASYMMETRY`]), or no distribution of mass has it: a principal moment is at least zero and at most the sum of the
-    /// other two (to [`ROUNDING`]).
+    /// [`ASYMMETRY`]), or no distribution of mass has it: a principal moment is at least zero and at most the sum of
+    /// the other two (to [`ROUNDING`]).
     pub fn new(mass: f64, centre_of_mass: Point3<f64>, rotational: Matrix3<f64>) -> Result<Self> {
         let rows: [[f64; 3]; 3] = rotational.transpose().into();
         let fault = if !(mass.is_finite() && mass > 0.0) {
@@ -58,8 +58,8 @@ impl LinkInertia {
         self.rotational
     }
 
-    /// The generalised inertia matrix, 6x6: half of `V' mu V` is the kinetic energy at the body velocity `V = (v, w)` of
-    /// the link's frame. With the frame at the centre of mass it is RH0 (2-40): the mass, and the tensor below it.
+    /// The generalised inertia matrix, 6x6: half of `V' mu V` is the kinetic energy at the body velocity `V = (v, w)`
+    /// of the link's frame. With the frame at the centre of mass it is RH0 (2-40): the mass, and the tensor below it.
     pub fn generalised(&self) -> Matrix6<f64> {
         let lever = skew(&self.centre_of_mass.coords) * self.mass;
         let mut matrix = Matrix6::zeros();

@@ -24,8 +24,8 @@ pub struct Manipulator {
 }
 
 impl Manipulator {
-    /// The chain of `screws` from base to tip, in the base frame at the zero configuration \[m\]; `bodies[i]` moves with
-    /// the joints `0..=i`.
+    /// The chain of `screws` from base to tip, in the base frame at the zero configuration \[m\]; `bodies[i]` moves
+    /// with the joints `0..=i`.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when there are not as many bodies as screws, none, or a frame that is not finite.

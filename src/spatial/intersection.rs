@@ -5,6 +5,7 @@ use nalgebra::Point3;
 use super::{Axis, Relation, Twist};
 
 /// The two points in which `line` meets the sphere, in the order of its direction; lengths in one unit.
+/// RobotMan f(28).
 ///
 /// A line that passes by the sphere at up to `tolerance` touches it: both points are then its nearest point to the
 /// centre. `None` when it passes further away, when the radius is negative, and when a number is not finite.
@@ -19,7 +20,7 @@ pub fn of_line_and_sphere(line: &Axis, centre: &Point3<f64>, radius: f64, tolera
     Some([foot - step, foot + step])
 }
 
-/// The point in which the axes of two twists meet, to `tolerance` in the unit of their pitch.
+/// The point in which the axes (2-12) of two twists meet, to `tolerance` in the unit of their pitch; RobotMan f(39).
 ///
 /// `None` when they do not, when they are parallel or the same line, and when a twist is zero, not finite or a pure
 /// translation, which has a direction but no place.

@@ -32,17 +32,18 @@ pub fn vee(matrix: &Matrix4<f64>) -> Twist {
     Twist { v: matrix.fixed_view::<3, 1>(0, 3).into_owned(), w: unskew(&block) }
 }
 
-/// The homogeneous coordinates (x, y, z, 1) of a point: a rigid transform turns and shifts it.
+/// The homogeneous coordinates (x, y, z, 1) of a point: a rigid transform turns and shifts it; RobotMan f(17).
 pub fn point_to_homogeneous(point: &Point3<f64>) -> Vector4<f64> {
     point.to_homogeneous()
 }
 
-/// The homogeneous coordinates (x, y, z, 0) of a free vector: a rigid transform turns it only.
+/// The homogeneous coordinates (x, y, z, 0) of a free vector: a rigid transform turns it only; RobotMan f(44).
 pub fn vector_to_homogeneous(vector: &Vector3<f64>) -> Vector4<f64> {
     vector.to_homogeneous()
 }
 
-/// The point with the homogeneous coordinates `coordinates`: the first three divided by the fourth.
+/// The point with the homogeneous coordinates `coordinates`: the first three divided by the fourth;
+/// RobotMan f(5).
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] when that is no finite point: a coordinate is not finite, or the fourth is zero.

@@ -1,6 +1,6 @@
 //! Rigid transforms SE(3): logarithm RH0 (2-8), adjoint (2-10) and its dual, their parts and matrices.
 
-use nalgebra::{Matrix3, Matrix4, Matrix6, Point3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Matrix4, Matrix6, Point3, Translation3, Vector3};
 
 use super::matrix::skew;
 use super::{Pose, Twist, rotation};
@@ -35,13 +35,13 @@ pub fn unit_twist(g: &Pose) -> Twist {
 /// [`Twist::transform`] does the same without the 6x6 matrix.
 pub fn adjoint(a_from_b: &Pose) -> Matrix6<f64> {
     let r = orientation(a_from_b);
-    blocks(&r, &(skew(&a_from_b.translation.vector) * r), &Matrix3::zeros(), &r)
+    block_triangle(&r, &(skew(&a_from_b.translation.vector) * r))
 }
 
 /// The inverse of [`adjoint`]: takes twists in frame a to frame b.
 pub fn adjoint_inverse(a_from_b: &Pose) -> Matrix6<f64> {
     let back = orientation(a_from_b).transpose();
-    blocks(&back, &(-back * skew(&a_from_b.translation.vector)), &Matrix3::zeros(), &back)
+    block_triangle(&back, &(-back * skew(&a_from_b.translation.vector)))
 }
 
 /// The dual of the adjoint, its inverse transposed: takes the coordinates (f, tau) of a wrench in frame b to frame a.
@@ -64,14 +64,14 @@ pub fn position(g: &Pose) -> Point3<f64> {
 /// The rigid transform with the rotation matrix `orientation` and the translation `position` \[m\], RH0 (2-1).
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when `orientation` is no rotation matrix ([`rotation::from_matrix`]) or `position` not finite.
+/// [`ErrorKind::BadValue`] when `orientation` is no rotation matrix, as [`rotation::from_matrix`], or `position` is not
+/// finite.
 pub fn from_parts(orientation: &Matrix3<f64>, position: &Point3<f64>) -> Result<Pose> {
     if !position.iter().all(|x| x.is_finite()) {
         let [x, y, z] = (*position).into();
         return Err(Error::new(ErrorKind::BadValue, format!("position [{x}, {y}, {z}]: give finite coordinates")));
     }
-    let rotation: UnitQuaternion<f64> = rotation::from_matrix(orientation)?;
-    Ok(Pose::from_parts(Translation3::from(position.coords), rotation))
+    Ok(Pose::from_parts(Translation3::from(position.coords), rotation::from_matrix(orientation)?))
 }
 
 /// The rigid transform with the homogeneous 4x4 matrix `matrix`, RH0 (2-1).
@@ -87,9 +87,10 @@ pub fn from_matrix(matrix: &Matrix4<f64>) -> Result<Pose> {
     from_parts(&matrix.fixed_view::<3, 3>(0, 0).into_owned(), &Point3::from(position))
 }
 
-fn blocks(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>, d: &Matrix3<f64>) -> Matrix6<f64> {
+/// `diagonal` twice on the diagonal, `corner` in the upper right, zeros below.
+fn block_triangle(diagonal: &Matrix3<f64>, corner: &Matrix3<f64>) -> Matrix6<f64> {
     let mut matrix = Matrix6::zeros();
-    for (block, i, j) in [(a, 0, 0), (b, 0, 3), (c, 3, 0), (d, 3, 3)] {
+    for (block, i, j) in [(diagonal, 0, 0), (corner, 0, 3), (diagonal, 3, 3)] {
         matrix.fixed_view_mut::<3, 3>(i, j).copy_from(block);
     }
     matrix

@@ -1,8 +1,8 @@
 //! Roll, pitch and yaw as in RobotMan (RH0, appendix D), and the six coordinates of a body that it builds with them.
 //!
-//! `R = Rx(roll) Ry(pitch) Rz(yaw)`: turns about the body's own axes x, then y, then z; in other words about the fixed
-//! axes z, then y, then x. URDF and nalgebra take the opposite order, `Rz(yaw) Ry(pitch) Rx(roll)`. In the thesis' frames
-//! y points up, so that a turn about the vertical is its pitch.
+//! `R = Rx(roll) Ry(pitch) Rz(yaw)`: turns about the body's own axes x, then y, then z; in other words about the
+//! fixed axes z, then y, then x. URDF and nalgebra take the opposite order, `Rz(yaw) Ry(pitch) Rx(roll)`. In the
+//! thesis' frames y points up, so that a turn about the vertical is its pitch.
 
 use std::f64::consts::PI;
 
@@ -54,13 +54,14 @@ impl RollPitchYaw {
     }
 }
 
-/// The rigid transform with the body coordinates (x, y, z, roll, pitch, yaw), metres and radians.
+/// The rigid transform with the body coordinates (x, y, z, roll, pitch, yaw), metres and radians; RobotMan f(2).
 pub fn pose_of_coordinates(coordinates: &[f64; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = *coordinates;
     Pose::from_parts(Translation3::new(x, y, z), RollPitchYaw { roll, pitch, yaw }.rotation())
 }
 
-/// The body coordinates (x, y, z, roll, pitch, yaw) of `g`, metres and radians, with the angles of [`RollPitchYaw::of`].
+/// The body coordinates (x, y, z, roll, pitch, yaw) of `g`, metres and radians, with the angles of
+/// [`RollPitchYaw::of`]; RobotMan f(4).
 pub fn coordinates_of_pose(g: &Pose) -> [f64; 6] {
     let RollPitchYaw { roll, pitch, yaw } = RollPitchYaw::of(&g.rotation);
     let position = pose::position(g);

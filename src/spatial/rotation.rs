@@ -38,12 +38,12 @@ pub fn log(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
     vector * if tangent < 1e-4 { (2.0 - tangent * tangent / 1.5) / cosine } else { 2.0 * sine.atan2(cosine) / sine }
 }
 
-/// The angle of the rotation, in \[0, pi\] \[rad\].
+/// The angle of the rotation, in \[0, pi\] \[rad\]: the theta of RH0 (2-9).
 pub fn angle(rotation: &UnitQuaternion<f64>) -> f64 {
     2.0 * length(&rotation.imag()).atan2(rotation.scalar().abs())
 }
 
-/// The axis about which the rotation turns by [`angle`], right-handed; `None` for the identity.
+/// The axis about which the rotation turns by [`angle`], right-handed: the omega of RH0 (2-9). `None` for the identity.
 ///
 /// Of the two axes of an exact half turn it is the one whose first coordinate that is not zero is positive.
 pub fn axis(rotation: &UnitQuaternion<f64>) -> Option<Unit<Vector3<f64>>> {

@@ -1,6 +1,7 @@
 //! Axis, pitch and magnitude of twists, RH0 (2-11) to (2-13), and of wrenches, RH0 (2-17) to (2-19).
 //!
-//! Both are a line vector (`w` of a twist, `f` of a wrench) with a moment (`v`, `tau`): one set of formulas serves both.
+//! Both are a line vector (`w` of a twist, `f` of a wrench) with a moment (`v`, `tau`): one set of formulas serves
+//! both.
 
 use nalgebra::{Point3, Vector3};
 
@@ -62,13 +63,15 @@ impl ScrewCoordinates {
         self.magnitude
     }
 
-    /// The twist with these coordinates: `(-w x q + h w, w)` times the magnitude, or `(w, 0)` at infinite pitch.
+    /// The twist with these coordinates: `(-w x q + h w, w)` times the magnitude, or `(w, 0)` at infinite pitch;
+    /// RobotMan f(29).
     pub fn twist(&self) -> Twist {
         let (w, v) = self.line_and_moment();
         Twist { v, w }
     }
 
-    /// The wrench with these coordinates: `(w, -w x q + h w)` times the magnitude, or `(0, w)` at infinite pitch.
+    /// The wrench with these coordinates: `(w, -w x q + h w)` times the magnitude, or `(0, w)` at infinite pitch;
+    /// RobotMan f(30).
     pub fn wrench(&self) -> Wrench {
         let (f, tau) = self.line_and_moment();
         Wrench { f, tau }

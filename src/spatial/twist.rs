@@ -45,7 +45,8 @@ impl Twist {
         Pose::from_parts(Translation3::from(d), rotation::exp(&a))
     }
 
-    /// The Lie bracket, RH0 (2-3): the twist of `x^ y^ - y^ x^`, where `x^` is the matrix [`wedge`](super::matrix::wedge) of `x`.
+    /// The Lie bracket, RH0 (2-3): the twist of `x^ y^ - y^ x^`, where `x^` is the matrix
+    /// [`wedge`](super::matrix::wedge) of `x`.
     #[must_use]
     pub fn bracket(&self, other: &Twist) -> Twist {
         Twist { v: self.w.cross(&other.v) - other.w.cross(&self.v), w: self.w.cross(&other.w) }

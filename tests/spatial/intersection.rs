@@ -82,6 +82,8 @@ proptest! {
         prop_assert_eq!(of_twists(&screw(a, p, 0.0), &screw(-a, beside, 0.0), 1e-9), None, "parallel");
         prop_assert_eq!(of_twists(&screw(a, p, 0.0), &screw(a, p, 0.0), 1e-9), None, "the same");
         prop_assert_eq!(of_twists(&screw(a, p, 0.0), &screw(b, p, f64::INFINITY), 1e-9), None, "a translation");
+        let towards_it = screw(p.coords + Vector3::z() * 1e-30, p, f64::INFINITY);
+        prop_assert_eq!(of_twists(&screw(a, p, 0.0), &towards_it, 1e-9), None, "a translation has no place");
         prop_assert_eq!(of_twists(&screw(a, p, 0.0), &Twist::zero(), 1e-9), None);
     }
 }

@@ -14,7 +14,7 @@ use super::rotation::angles;
 use super::{direction, pose, relative, series, twist, vector, wedge};
 
 /// A few units in the last place, of the size of the translation.
-const ULPS: f64 = 32.0 * f64::EPSILON;
+const ULPS: f64 = 16.0 * f64::EPSILON;
 
 /// Rigid transforms whose rotations often lie near the identity or a half turn.
 fn extreme() -> impl Strategy<Value = Pose> {
