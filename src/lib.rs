@@ -69,6 +69,7 @@ pub mod spatial;
 pub mod kinematics;
 
 pub mod robots;
+pub mod dynamics;
 
 pub mod solver;
 

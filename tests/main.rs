@@ -7,6 +7,7 @@ mod codegen;
 mod corpus;
 mod derive;
 mod document;
+mod dynamics;
 mod files;
 mod groebner;
 mod kinematics;

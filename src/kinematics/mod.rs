@@ -5,6 +5,7 @@ pub mod chain;
 pub mod chain_toml;
 mod exact_serde;
 pub mod fk;
+pub mod jacobian;
 pub mod oracle;
 mod placement;
 pub mod screw;

@@ -1,17 +1,26 @@
 //! Rigid motions and the conventions of angles, twists and screws. Metres and radians throughout.
 //!
 //! A rigid transform is a [`Pose`]; a joint is a [`Screw`]; its infinitesimal motion is a [`Twist`],
-//! linear part first, as in RH0 (2-5).
+//! linear part first, as in RH0 (2-5); what acts on it is a [`Wrench`]. [`ScrewCoordinates`] are the geometry of both.
 
 pub mod angle;
+pub mod intersection;
 pub mod line;
+pub mod matrix;
+pub mod pose;
+pub mod roll_pitch_yaw;
 pub mod rotation;
 mod screw;
+mod screw_coordinates;
 mod twist;
+mod wrench;
 
 pub use line::Relation;
+pub use roll_pitch_yaw::RollPitchYaw;
 pub use screw::{Axis, Screw};
+pub use screw_coordinates::ScrewCoordinates;
 pub use twist::Twist;
+pub use wrench::Wrench;
 
 /// A rigid transform of SE(3), RH0 (2-1): unit quaternion and translation \[m\].
 ///

@@ -1,11 +1,13 @@
-//! Rotations about a direction: the cross-product matrix RH0 (2-4) and Rodrigues' formula RH0 (2-9).
+//! The rotations SO(3): Rodrigues' formula RH0 (2-9), exponential, logarithm, angle and axis.
 
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
-/// The skew matrix of `w`: `skew(w) * x` is the cross product of `w` and `x`, RH0 (2-4).
-pub fn skew(w: &Vector3<f64>) -> Matrix3<f64> {
-    w.cross_matrix()
-}
+use super::matrix::skew;
+use super::screw_coordinates::length;
+use crate::{Error, ErrorKind, Result};
+
+/// How far `R' R` of a given rotation matrix may be from the identity (Frobenius norm).
+pub const ORTHONORMAL: f64 = 1e-9;
 
 /// The rotation by `angle` \[rad\] about `direction`, right-handed, by Rodrigues' formula RH0 (2-9).
 pub fn rodrigues(direction: &Unit<Vector3<f64>>, angle: f64) -> Rotation3<f64> {
@@ -19,7 +21,69 @@ pub fn displacement(direction: &Unit<Vector3<f64>>, angle: f64, x: &Vector3<f64>
     tangent * angle.sin() + direction.cross(&tangent) * versine(angle)
 }
 
+/// The exponential of `skew(w)`: the rotation about `w` by its length \[rad\], RH0 (2-9) for `w` of any length.
+pub fn exp(w: &Vector3<f64>) -> UnitQuaternion<f64> {
+    let half = w.norm() / 2.0;
+    UnitQuaternion::new_normalize(Quaternion::from_parts(half.cos(), w * (sinc(half) / 2.0)))
+}
+
+/// The logarithm: the vector `w` with [`exp`]`(w) = rotation`, of length [`angle`] \[rad\].
+///
+/// Accurate to a few units in the last place at all angles, small ones and those near pi included. An exact half turn
+/// (scalar part zero) has two logarithms; this is the one whose first coordinate that is not zero is positive.
+pub fn log(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
+    let (cosine, vector) = short_way(rotation);
+    let sine = vector.norm();
+    let tangent = sine / cosine;
+    vector * if tangent < 1e-4 { (2.0 - tangent * tangent / 1.5) / cosine } else { 2.0 * sine.atan2(cosine) / sine }
+}
+
+/// The angle of the rotation, in \[0, pi\] \[rad\]: the theta of RH0 (2-9).
+pub fn angle(rotation: &UnitQuaternion<f64>) -> f64 {
+    2.0 * length(&rotation.imag()).atan2(rotation.scalar().abs())
+}
+
+/// The axis about which the rotation turns by [`angle`], right-handed: the omega of RH0 (2-9). `None` for the identity.
+///
+/// Of the two axes of an exact half turn it is the one whose first coordinate that is not zero is positive.
+pub fn axis(rotation: &UnitQuaternion<f64>) -> Option<Unit<Vector3<f64>>> {
+    let (_, vector) = short_way(rotation);
+    let size = vector.amax();
+    (size > 0.0).then(|| Unit::new_normalize(vector / size))
+}
+
+/// The rotation with the matrix `matrix`.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] when the columns are not a right-handed orthonormal frame, to [`ORTHONORMAL`].
+pub fn from_matrix(matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>> {
+    let off = (matrix.transpose() * matrix - Matrix3::identity()).norm();
+    let determinant = matrix.determinant();
+    if off <= ORTHONORMAL && determinant > 0.0 {
+        let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*matrix));
+        return Ok(UnitQuaternion::new_normalize(rotation.into_inner()));
+    }
+    let text = format!(
+        "no rotation matrix: R'R is off the identity by {off:e}, det R = {determinant}; \
+         give orthonormal columns (to {ORTHONORMAL:e}) and determinant 1"
+    );
+    Err(Error::new(ErrorKind::BadValue, text))
+}
+
+/// Cosine and vector part of the quaternion of `rotation` that turns by at most pi; at pi the one that [`log`] tells.
+fn short_way(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
+    let (cosine, vector) = (rotation.scalar(), rotation.imag());
+    let leading = vector.iter().copied().find(|x| *x != 0.0).unwrap_or(0.0);
+    let turns_back = if cosine == 0.0 { leading < 0.0 } else { cosine < 0.0 };
+    (cosine.abs(), if turns_back { -vector } else { vector })
+}
+
 /// `1 - cos(angle)` without cancellation.
 fn versine(angle: f64) -> f64 {
     2.0 * (angle / 2.0).sin().powi(2)
+}
+
+/// `sin(x) / x`.
+pub(super) fn sinc(x: f64) -> f64 {
+    if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { x.sin() / x }
 }

@@ -35,6 +35,14 @@ impl Axis {
         Ok(Axis { direction: unit(direction)?, point })
     }
 
+    /// The line from `a` to `b` \[m\].
+    ///
+    /// # Errors
+    /// As [`Axis::new`]; two equal points have no line.
+    pub fn through(a: &Point3<f64>, b: &Point3<f64>) -> Result<Self> {
+        Axis::new(b - a, *a)
+    }
+
     /// The unit direction.
     pub fn direction(&self) -> Unit<Vector3<f64>> {
         self.direction

@@ -3,6 +3,7 @@
 mod chain;
 mod chain_toml;
 mod fk;
+pub mod jacobian;
 mod oracle;
 mod screw;
 

@@ -1,10 +1,21 @@
 //! Angles, rotations, screws and twists against matrix definitions that share no code with them.
 
+mod errata;
+mod intersection;
+mod matrix;
+mod pose;
+mod robotman;
+mod roll_pitch_yaw;
+mod rotation;
+mod screw_coordinates;
+mod twist;
+mod wrench;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use groebot::ErrorKind;
-use groebot::spatial::{Axis, Pose, Screw, Twist, angle, rotation};
-use nalgebra::{Matrix4, Point3, Unit, Vector3};
+use groebot::spatial::{Axis, Pose, Screw, Twist, angle};
+use nalgebra::{Matrix4, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
 /// A vector with entries in [-size, size].
@@ -22,16 +33,32 @@ pub fn axis() -> impl Strategy<Value = Axis> {
     (direction(), vector(2.0)).prop_map(|(w, r)| Axis::new(w, Point3::from(r)).unwrap())
 }
 
-/// The matrix of a twist, RH0 (2-6).
-fn wedge(twist: &Twist) -> Matrix4<f64> {
-    let mut wedge = Matrix4::zeros();
-    wedge.fixed_view_mut::<3, 3>(0, 0).copy_from(&rotation::skew(&twist.w));
-    wedge.fixed_view_mut::<3, 1>(0, 3).copy_from(&twist.v);
-    wedge
+/// A twist with parts of size up to 2.
+pub fn twist() -> impl Strategy<Value = Twist> {
+    (vector(2.0), vector(2.0)).prop_map(|(v, w)| Twist { v, w })
+}
+
+/// A rigid transform with any rotation, up to 2 from the origin.
+pub fn pose() -> impl Strategy<Value = Pose> {
+    (direction(), -PI..PI, vector(2.0)).prop_map(|(w, angle, d)| {
+        let rotation = UnitQuaternion::from_axis_angle(&Unit::new_normalize(w), angle);
+        Pose::from_parts(Translation3::from(d), rotation)
+    })
+}
+
+/// The matrix of a twist, entry by entry as printed in RH0 (2-4), (2-6).
+pub fn wedge(twist: &Twist) -> Matrix4<f64> {
+    let Twist { v, w } = twist;
+    Matrix4::new(0.0, -w.z, w.y, v.x, w.z, 0.0, -w.x, v.y, -w.y, w.x, 0.0, v.z, 0.0, 0.0, 0.0, 0.0)
+}
+
+/// How far `actual` is from `expected`, relative to the length of `expected`.
+fn relative(actual: &Vector3<f64>, expected: &Vector3<f64>) -> f64 {
+    (actual - expected).norm() / expected.norm()
 }
 
 /// The power series of the matrix exponential: the definition that (2-7) sums up.
-fn series(matrix: &Matrix4<f64>) -> Matrix4<f64> {
+pub fn series(matrix: &Matrix4<f64>) -> Matrix4<f64> {
     let mut term = Matrix4::identity();
     (1..80).fold(term, |sum, n| {
         term = term * matrix / n as f64;
@@ -99,12 +126,12 @@ proptest! {
     #[test]
     fn rodrigues_is_the_matrix_exponential(w in direction(), theta in -7.0..7.0_f64, x in vector(3.0)) {
         let unit = Unit::new_normalize(w);
-        let rotation = rotation::rodrigues(&unit, theta);
+        let rotation = groebot::spatial::rotation::rodrigues(&unit, theta);
         let twist = Twist { v: Vector3::zeros(), w: unit.into_inner() };
         let expected = series(&(wedge(&twist) * theta));
         prop_assert!((rotation.to_homogeneous() - expected).amax() < 1e-12);
         prop_assert!((rotation.matrix() * rotation.matrix().transpose()).is_identity(1e-14));
-        let moved = x + rotation::displacement(&unit, theta, &x);
+        let moved = x + groebot::spatial::rotation::displacement(&unit, theta, &x);
         prop_assert!((rotation * x - moved).norm() < 1e-13);
     }
 

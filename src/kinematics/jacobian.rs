@@ -1,0 +1,85 @@
+//! Manipulator Jacobians of serial chains, from their screws alone: spatial RH0 (2-21), (2-22), body (2-23), (2-24).
+//!
+//! Rows are (v, w), columns the joints from base to tip. `v` is in the length unit of the screws per unit of the joint.
+
+use nalgebra::Matrix6xX;
+
+use super::Chain;
+use crate::spatial::{Pose, Screw, Twist};
+use crate::{Error, ErrorKind, Result};
+
+/// Six rows (v, w), one column for each joint.
+pub type Jacobian = Matrix6xX<f64>;
+
+/// The spatial Jacobian at `q`, RH0 (2-22): column i is the twist of joint i where the joints before it have moved it,
+/// in the base frame. Times the joint velocities it is the tip's spatial velocity `g' g^-1`, RH0 (2-21).
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] when `q` has not one finite value per screw.
+pub fn spatial(screws: &[Screw], q: &[f64]) -> Result<Jacobian> {
+    check(screws, q)?;
+    let mut base_from_moved = Pose::identity();
+    let mut twists = Vec::with_capacity(q.len());
+    for (screw, &q) in screws.iter().zip(q) {
+        twists.push(screw.twist().transform(&base_from_moved));
+        base_from_moved *= screw.exp(q);
+    }
+    Ok(columns(&twists))
+}
+
+/// The body Jacobian at `q`, RH0 (2-24): column i is the twist of joint i where it stands, in the frame of the tip.
+/// Times the joint velocities it is the tip's body velocity `g^-1 g'`, RH0 (2-23).
+///
+/// `base_from_tip` is the pose of the tip at the zero configuration.
+///
+/// # Errors
+/// As [`spatial`].
+pub fn body(screws: &[Screw], base_from_tip: &Pose, q: &[f64]) -> Result<Jacobian> {
+    check(screws, q)?;
+    let mut moved_from_tip = *base_from_tip;
+    let mut twists = Vec::with_capacity(q.len());
+    for (screw, &q) in screws.iter().zip(q).rev() {
+        moved_from_tip = screw.exp(q) * moved_from_tip;
+        twists.push(screw.twist().transform(&moved_from_tip.inverse()));
+    }
+    twists.reverse();
+    Ok(columns(&twists))
+}
+
+impl Chain {
+    /// The spatial Jacobian at the joint values `q`, 6xn with rows (v, w) in the base frame: [`spatial`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `q` has not one finite value per joint.
+    pub fn spatial_jacobian(&self, q: &[f64]) -> Result<Jacobian> {
+        spatial(self.screws(), q)
+    }
+
+    /// The body Jacobian at the joint values `q`, 6xn with rows (v, w) in the frame of the tip: [`body`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `q` has not one finite value per joint.
+    pub fn body_jacobian(&self, q: &[f64]) -> Result<Jacobian> {
+        body(self.screws(), &self.base_from_tip(), q)
+    }
+}
+
+fn columns(twists: &[Twist]) -> Jacobian {
+    let mut jacobian = Jacobian::zeros(twists.len());
+    for (mut column, twist) in jacobian.column_iter_mut().zip(twists) {
+        column.copy_from(&twist.to_vector());
+    }
+    jacobian
+}
+
+/// Whether `q` has one finite value per screw.
+pub(crate) fn check(screws: &[Screw], q: &[f64]) -> Result<()> {
+    let message = if q.len() != screws.len() {
+        format!("{} joint values are given; there are {} joints", q.len(), screws.len())
+    } else if let Some(i) = q.iter().position(|value| !value.is_finite()) {
+        format!("joint {} of {}: the value {} is not finite", i + 1, q.len(), q[i])
+    } else {
+        return Ok(());
+    };
+    Err(Error::new(ErrorKind::BadValue, message))
+}

@@ -1,0 +1,114 @@
+//! Axis, pitch and magnitude of twists, RH0 (2-11) to (2-13), and of wrenches, RH0 (2-17) to (2-19).
+//!
+//! Both are a line vector (`w` of a twist, `f` of a wrench) with a moment (`v`, `tau`): one set of formulas serves
+//! both.
+
+use nalgebra::{Point3, Vector3};
+
+use super::{Axis, Twist, Wrench};
+use crate::{Error, ErrorKind, Result};
+
+/// A screw: a line, the share of what goes along it in what turns about it, and how much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScrewCoordinates {
+    axis: Axis,
+    pitch: f64,
+    magnitude: f64,
+}
+
+impl ScrewCoordinates {
+    /// The screw of any pitch about `axis`. Infinite `pitch` stands for a pure translation or a pure couple.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `magnitude` is not finite, or `pitch` neither finite nor plus infinity.
+    pub fn new(axis: Axis, pitch: f64, magnitude: f64) -> Result<Self> {
+        if magnitude.is_finite() && (pitch.is_finite() || pitch == f64::INFINITY) {
+            return Ok(ScrewCoordinates { axis, pitch, magnitude });
+        }
+        let text = format!(
+            "screw of pitch {pitch} and magnitude {magnitude}: give a finite magnitude, and a pitch that is finite \
+             or plus infinity"
+        );
+        Err(Error::new(ErrorKind::BadValue, text))
+    }
+
+    /// Axis, pitch \[m/rad\] and magnitude \[rad, or m when the pitch is infinite\] of a twist.
+    ///
+    /// # Errors
+    /// As [`Twist::axis`].
+    pub fn of_twist(twist: &Twist) -> Result<Self> {
+        Ok(ScrewCoordinates { axis: twist.axis()?, pitch: twist.pitch(), magnitude: twist.magnitude() })
+    }
+
+    /// Axis, pitch \[m\] and magnitude \[N, or N m when the pitch is infinite\] of a wrench.
+    ///
+    /// # Errors
+    /// As [`Wrench::axis`].
+    pub fn of_wrench(wrench: &Wrench) -> Result<Self> {
+        Ok(ScrewCoordinates { axis: wrench.axis()?, pitch: wrench.pitch(), magnitude: wrench.magnitude() })
+    }
+
+    /// The line.
+    pub fn axis(&self) -> Axis {
+        self.axis
+    }
+
+    /// What goes along the line per what turns about it; infinite for a pure translation or couple.
+    pub fn pitch(&self) -> f64 {
+        self.pitch
+    }
+
+    /// How much.
+    pub fn magnitude(&self) -> f64 {
+        self.magnitude
+    }
+
+    /// The twist with these coordinates: `(-w x q + h w, w)` times the magnitude, or `(w, 0)` at infinite pitch;
+    /// RobotMan f(29).
+    pub fn twist(&self) -> Twist {
+        let (w, v) = self.line_and_moment();
+        Twist { v, w }
+    }
+
+    /// The wrench with these coordinates: `(w, -w x q + h w)` times the magnitude, or `(0, w)` at infinite pitch;
+    /// RobotMan f(30).
+    pub fn wrench(&self) -> Wrench {
+        let (f, tau) = self.line_and_moment();
+        Wrench { f, tau }
+    }
+
+    fn line_and_moment(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let line = self.axis.direction().into_inner() * self.magnitude;
+        if self.pitch == f64::INFINITY {
+            return (Vector3::zeros(), line);
+        }
+        (line, self.axis.point().coords.cross(&line) + line * self.pitch)
+    }
+}
+
+pub(super) fn axis(line: &Vector3<f64>, moment: &Vector3<f64>) -> Result<Axis> {
+    let size = length(line);
+    if size == 0.0 {
+        return Axis::new(*moment, Point3::origin());
+    }
+    if !pitch(line, moment).is_finite() {
+        let text = format!("pitch {}: give a line part that is not so small", pitch(line, moment));
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    Axis::new(*line, Point3::from((line / size).cross(&(moment / size))))
+}
+
+pub(super) fn pitch(line: &Vector3<f64>, moment: &Vector3<f64>) -> f64 {
+    let size = length(line);
+    if size == 0.0 { f64::INFINITY } else { (line / size).dot(&(moment / size)) }
+}
+
+pub(super) fn magnitude(line: &Vector3<f64>, moment: &Vector3<f64>) -> f64 {
+    let size = length(line);
+    if size == 0.0 { length(moment) } else { size }
+}
+
+/// The length of `x`, zero only when `x` is: the squares of its entries do not underflow or overflow.
+pub(super) fn length(x: &Vector3<f64>) -> f64 {
+    x.x.hypot(x.y).hypot(x.z)
+}
