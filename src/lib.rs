@@ -68,10 +68,11 @@ pub mod spatial;
 
 pub mod kinematics;
 
-pub mod robots;
 pub mod dynamics;
 
 pub mod solver;
+
+pub mod robots;
 
 pub mod derive;
 
