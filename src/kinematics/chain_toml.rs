@@ -180,9 +180,10 @@ fn read_origin(node: Node<'_>) -> Result<Placement> {
 fn read_rpy(table: Table<'_>) -> Result<ExactRotation> {
     let Some(node) = table.optional("rpy_deg") else { return Ok(ExactRotation::identity()) };
     let degrees: ExactVector = node.exact_vector()?;
-    match degrees.each_ref().map(Turn::from_degrees) {
-        [Ok(roll @ Turn::Quarters(_)), Ok(pitch @ Turn::Quarters(_)), Ok(yaw @ Turn::Quarters(_))] => {
-            Ok(ExactRotation::from_rpy([roll, pitch, yaw]))
+    let turns: Result<Vec<Turn>> = degrees.iter().map(Turn::from_degrees).collect();
+    match turns.as_deref() {
+        Ok([roll, pitch, yaw]) if [roll, pitch, yaw].iter().all(|turn| turn.is_exact()) => {
+            Ok(ExactRotation::from_rpy([*roll, *pitch, *yaw]))
         }
         _ => {
             let message = format!("{} has no exact rotation; give multiples of 90 degrees", shown(&show(&degrees)));

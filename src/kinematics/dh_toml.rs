@@ -122,7 +122,7 @@ fn read_row(table: Table<'_>, index: usize, units: Units) -> Result<DhRow> {
     let length = |name| table.optional(key(name)).map_or_else(|| Ok(BigRational::default()), |node| node.exact());
     let angle = |name| match table.optional(key(name)) {
         Some(node) => turn(node, &node.exact()?, units),
-        None => Ok(Turn::Quarters(0)),
+        None => Ok(Turn::default()),
     };
     let symbol = table.optional("symbol").map(|node| node.text().map(str::to_owned)).transpose()?;
     Ok(DhRow {

@@ -14,33 +14,31 @@ const PI: &str = "3.141592653589793238462643383279502884197169399375105820974944
 const DECIMALS: usize = 4;
 /// The most decimals that are looked at.
 const MOST_DECIMALS: usize = 40;
-/// The greatest angle \[rad\].
-const GREATEST: i64 = 1_000_000;
+/// The most quarter turns: a million radians.
+const GREATEST: i64 = 636_619;
 /// The bits that a quaternion of general angles is rounded to.
 const BITS: u64 = 60;
-/// 2^53, the scale of the cosine and sine of a half angle.
-const SCALE: f64 = 9_007_199_254_740_992.0;
+/// 2^60, the scale of the cosine and sine of half a rest.
+const SCALE: f64 = 1_152_921_504_606_846_976.0;
 
-/// The angle of an elementary rotation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Turn {
-    /// 0 to 3 quarter turns: exact.
-    Quarters(u8),
-    /// Any other angle \[rad\]; its rotation matrix is exactly orthogonal and within 1e-15 of the true one.
-    Radians(f64),
+/// The angle of an elementary rotation: quarter turns, which are exact, and a rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turn {
+    /// 0 to 3.
+    quarters: u8,
+    /// What is left, in \[-pi/4, pi/4\] \[rad\].
+    rest: f64,
 }
 
 impl Turn {
-    /// The angle `degrees`; multiples of 90 are quarter turns.
+    /// The angle `degrees`; multiples of 90 are exact.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] beyond a million radians.
     pub fn from_degrees(degrees: &BigRational) -> Result<Self> {
-        let turns = degrees / integer(90);
-        if turns.is_integer() && turns.abs() < integer(GREATEST) {
-            return Ok(Turn::quarters(turns.numer()));
-        }
-        Turn::general(&(degrees * pi() / integer(180)))
+        let turns = (degrees / integer(90)).round();
+        let rest = (degrees - &turns * integer(90)) * pi() / integer(180);
+        Turn::new(&turns, &rest)
     }
 
     /// The angle `radians`. It is taken for the multiple k pi/2 when it is the rounded or truncated decimal of k pi/2 with at
@@ -50,31 +48,36 @@ impl Turn {
     /// [`ErrorKind::BadValue`] beyond a million radians.
     pub fn from_radians(radians: &BigRational) -> Result<Self> {
         let quarter = pi() / integer(2);
-        let turns = (radians / &quarter).round().to_integer();
-        if is_decimal_of(radians, &(quarter * BigRational::from_integer(turns.clone()))) {
-            return Ok(Turn::quarters(&turns));
-        }
-        Turn::general(radians)
+        let turns = (radians / &quarter).round();
+        let whole = &quarter * &turns;
+        let rest = if is_decimal_of(radians, &whole) { BigRational::zero() } else { radians - whole };
+        Turn::new(&turns, &rest)
     }
 
-    fn general(radians: &BigRational) -> Result<Self> {
-        match radians.to_f64() {
-            Some(angle) if angle.abs() <= GREATEST as f64 => Ok(Turn::Radians(angle)),
-            _ => Err(Error::new(ErrorKind::BadValue, "the angle is too large; give at most a million radians")),
+    fn new(turns: &BigRational, rest: &BigRational) -> Result<Self> {
+        if turns.abs() > integer(GREATEST) {
+            return Err(Error::new(ErrorKind::BadValue, "the angle is too large; give at most a million radians"));
         }
+        let quarters = turns.to_integer().mod_floor(&BigInt::from(4)).to_u8().unwrap_or(0);
+        Ok(Turn { quarters, rest: rest.to_f64().unwrap_or(0.0) })
     }
 
-    fn quarters(turns: &BigInt) -> Self {
-        Turn::Quarters(turns.mod_floor(&BigInt::from(4)).to_u8().unwrap_or(0))
+    /// Whether it is a whole number of quarter turns: its rotation is the true one. Any other rotation is exactly orthogonal too,
+    /// and within 1e-15 of the true one.
+    pub fn is_exact(self) -> bool {
+        self.rest == 0.0
     }
 
     /// The cosine and sine of half the angle, as integers up to scale.
     fn half(self) -> (BigInt, BigInt) {
-        let [cosine, sine] = match self {
-            Turn::Quarters(turns) => [[1, 0], [1, 1], [0, 1], [1, -1]][usize::from(turns % 4)],
-            Turn::Radians(angle) => [(angle / 2.0).cos(), (angle / 2.0).sin()].map(|x| (x * SCALE).round() as i64),
-        };
-        (BigInt::from(cosine), BigInt::from(sine))
+        let [c, s] =
+            [(self.rest / 2.0).cos(), (self.rest / 2.0).sin()].map(|x| BigInt::from((x * SCALE).round() as i64));
+        match self.quarters {
+            0 => (c, s),
+            1 => (&c - &s, c + s),
+            2 => (-s, c),
+            _ => (&c + &s, s - c),
+        }
     }
 }
 
@@ -130,11 +133,11 @@ impl ExactRotation {
         about(2, yaw).then(&about(1, pitch)).then(&about(0, roll)).rounded()
     }
 
-    /// The rotation of the quaternion `xyzw`, of any length; `None` for zero.
+    /// The rotation of the quaternion `xyzw`, of any length, to 60 bits; `None` for zero.
     pub fn from_quaternion([x, y, z, w]: &[BigRational; 4]) -> Option<Self> {
         let common = [x, y, z, w].iter().fold(BigInt::one(), |common, part| common.lcm(part.denom()));
         let quaternion = [w, x, y, z].map(|part| part.numer() * (&common / part.denom()));
-        quaternion.iter().any(|part| !part.is_zero()).then(|| ExactRotation { quaternion }.reduced())
+        quaternion.iter().any(|part| !part.is_zero()).then(|| ExactRotation { quaternion }.reduced().rounded())
     }
 
     /// The product: first `inner`, then this one.

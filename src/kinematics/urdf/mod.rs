@@ -145,16 +145,15 @@ fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(ExactRotation, Vec<
     let mut notes = Vec::new();
     for ((name, angle), turn) in ["roll", "pitch", "yaw"].into_iter().zip(rpy).zip(&turns) {
         let angle = angle.to_f64().unwrap_or(f64::NAN);
-        match turn {
-            Turn::Quarters(_) if angle == 0.0 => {}
-            Turn::Quarters(_) => {
-                let degrees = 90.0 * (angle / std::f64::consts::FRAC_PI_2).round();
+        match turn.is_exact() {
+            true if angle == 0.0 => {}
+            true => {
+                let degrees = 90.0 * (angle / std::f64::consts::FRAC_PI_2).round() + 0.0;
                 notes.push(format!("{name} {angle} rad is taken as {degrees} deg exactly"));
             }
-            Turn::Radians(_) => {
-                notes.push(format!(
-                    "{name} {angle} rad has no exact sine; its rotation is exactly orthogonal, right to 1e-15"
-                ));
+            false => {
+                let note = "has no exact sine; its rotation is exactly orthogonal, right to 1e-15";
+                notes.push(format!("{name} {angle} rad {note}"));
             }
         }
     }
