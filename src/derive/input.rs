@@ -24,7 +24,7 @@ pub struct Ends {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Description {
     /// One chain: `chain.toml` or a DH table.
-    Chain(Chain),
+    Chain(Box<Chain>),
     /// Equations.
     System(System),
     /// A robot with any number of limbs: URDF.
@@ -78,7 +78,7 @@ impl InputFile {
                 let text = "base and tip are chosen, but only a URDF has links to choose from; leave them out";
                 Err(Error::new(ErrorKind::BadValue, text))
             }
-            Description::Chain(chain) => Ok(Some(chain.clone())),
+            Description::Chain(chain) => Ok(Some((**chain).clone())),
             Description::System(_) => Ok(None),
         };
         chain.map_err(|error| error.in_file(&self.path))
@@ -90,10 +90,11 @@ fn from_toml(text: &str) -> Result<Description> {
         let document = Document::parse(text)?;
         ["dh", "tip", "task"].map(|key| document.root().optional(key).is_some())
     };
+    let boxed = |chain| Description::Chain(Box::new(chain));
     match has {
-        [true, ..] => Chain::from_dh_toml(text).map(Description::Chain),
+        [true, ..] => Chain::from_dh_toml(text).map(boxed),
         [false, false, false] => System::from_toml(text).map(Description::System),
-        _ => Chain::from_toml(text).map(Description::Chain),
+        _ => Chain::from_toml(text).map(boxed),
     }
 }
 

@@ -188,8 +188,11 @@ fn deep_nesting_and_large_files_are_no_danger() {
     assert!(start.elapsed() < Duration::from_secs(5));
 }
 
-/// A serial robot with these joints: type, xyz, rpy and axis in thousandths.
-fn serial(joints: &[(u8, [i32; 3], [i32; 3], [i32; 3])]) -> String {
+/// Type, xyz, rpy and axis of a joint, in thousandths.
+type JointNumbers = (u8, [i32; 3], [i32; 3], [i32; 3]);
+
+/// A serial robot with these joints.
+fn serial(joints: &[JointNumbers]) -> String {
     let mut text = "<robot name=\"serial\"><link name=\"l0\"/>".to_owned();
     let show = |v: &[i32; 3]| v.map(|n| (f64::from(n) / 1000.0).to_string()).join(" ");
     for (i, (kind, xyz, rpy, axis)) in joints.iter().enumerate() {

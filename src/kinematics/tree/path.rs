@@ -2,13 +2,13 @@
 
 use std::collections::HashMap;
 
-use super::{Tree, TreeJoint, TreeJointKind, listing, some_among};
+use super::{Mimic, Tree, TreeJoint, TreeJointKind, listing, some_among};
 use crate::document::shown;
 use crate::kinematics::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Tip};
 use crate::number::{BigInt, BigRational};
 use crate::{Error, ErrorKind, Result};
 use num_integer::Integer;
-use num_traits::{One, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 
 /// The longest path, fixed joints included.
 const MAX_PATH: usize = 64;
@@ -46,7 +46,8 @@ impl Tree {
         };
         let (mut up, mut down) = (self.ancestry(base), self.ancestry(tip));
         while up.last().is_some() && up.last() == down.last() {
-            (up.pop(), down.pop());
+            up.pop();
+            down.pop();
         }
         let up = up.into_iter().map(|joint| (joint, true));
         let joints: Vec<_> = up.chain(down.into_iter().rev().map(|joint| (joint, false))).collect();
@@ -105,9 +106,9 @@ impl Tree {
             let name = shown(&joint.name);
             notes.extend(joint.notes.iter().map(|note| format!("{name}: {note}")));
             if let Some(mimic) = &joint.mimic {
-                let law = format!("{} * {} + {}", mimic.multiplier, shown(&mimic.leader), mimic.offset);
                 notes.push(format!(
-                    "{name}: in the robot it follows a joint outside this chain, {law}; here it moves freely"
+                    "{name}: in the robot it follows {}, outside this chain; here it moves freely",
+                    law(mimic)
                 ));
             }
         }
@@ -187,6 +188,16 @@ impl Tree {
             }
         }
         Ok((joints, frame))
+    }
+}
+
+/// `Leader`, or `2 * Leader + 0.1`.
+fn law(mimic: &Mimic) -> String {
+    let [factor, summand] = [&mimic.multiplier, &mimic.offset].map(|x| x.to_f64().unwrap_or(f64::NAN));
+    match (shown(&mimic.leader), factor, summand) {
+        (leader, 1.0, 0.0) => leader,
+        (leader, _, 0.0) => format!("{factor} * {leader}"),
+        (leader, _, _) => format!("{factor} * {leader} + {summand}"),
     }
 }
 
