@@ -350,12 +350,15 @@ pub fn shown(text: &str) -> String {
 
 /// The end of a message about an unknown `name`: the nearest of `allowed`, if near, and all of them.
 pub fn one_among(name: &str, allowed: &[&str]) -> String {
-    let nearest = allowed.iter().map(|&word| (edits(name, word), word)).min();
-    let hint = match nearest {
-        Some((distance, word)) if distance <= 1 + word.len() / 4 => format!(" (did you mean `{word}`?)"),
+    format!("{}; allowed: {}", did_you_mean(name, allowed), quoted(allowed))
+}
+
+/// ` (did you mean ...?)` with the nearest of `allowed`; empty when none is near.
+pub fn did_you_mean(name: &str, allowed: &[&str]) -> String {
+    match allowed.iter().map(|&word| (edits(name, word), word)).min() {
+        Some((distance, word)) if distance <= 1 + word.len() / 4 => format!(" (did you mean `{}`?)", shown(word)),
         _ => String::new(),
-    };
-    format!("{hint}; allowed: {}", quoted(allowed))
+    }
 }
 
 fn quoted(names: &[&str]) -> String {

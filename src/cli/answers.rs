@@ -207,7 +207,7 @@ pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
 }
 
 /// Cells with commas between them, quoted where they must be (RFC 4180).
-fn csv_line(cells: &[String]) -> String {
+pub fn csv_line(cells: &[String]) -> String {
     let quoted = |cell: &String| {
         let special = cell.contains([',', '"', '\n', '\r']);
         if special { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.clone() }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::console::{self, Paint};
 use super::derive::refuse_failures;
+use super::ends::EndArguments;
 use super::files::{CHECKS, is_ours, printed_solvers};
 use super::{Halt, Outcome};
 use crate::derive::{Derivation, Source, certificate};
@@ -25,6 +26,8 @@ const PROGRAM: &str = "5_program.json";
 pub struct Arguments {
     /// A folder that `groebot derive` wrote
     derivation: PathBuf,
+    #[command(flatten)]
+    ends: EndArguments,
 }
 
 /// One thing that was checked: what, and what was found or what is wrong.
@@ -36,7 +39,7 @@ struct Finding {
 /// Checks all there is to check.
 pub fn run(arguments: &Arguments) -> Outcome {
     let folder = arguments.derivation.as_path();
-    let source = Source::read(folder)?;
+    let source = Source::read_between(folder, &arguments.ends.ends())?;
     let mut findings = vec![read(&source)];
     match reprove(folder, &source) {
         Ok(derivation) => {

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::Outcome;
 use super::console::{self, Paint};
+use super::ends::EndArguments;
 use super::files::{assemble_files, destination};
 use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
@@ -24,9 +25,11 @@ const EXAMPLES: &str = "Examples:
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder with its 0_chain.toml or 0_system.toml, or an input file
+    /// A mechanism's folder with its 0_chain.toml, 0_system.toml or 0_robot.urdf, or an input file
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
+    #[command(flatten)]
+    ends: EndArguments,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -45,7 +48,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(Limits { time: arguments.time, terms: arguments.terms, quiet: arguments.quiet })?;
     let mut clock = Clock::start();
-    let source = Source::read(&arguments.input)?;
+    let source = Source::read_between(&arguments.input, &arguments.ends.ends())?;
     let folder = destination(&source, &arguments.input, arguments.out.as_deref())?;
     clock.lap("read");
     let derivation = derive(&source, &session.watch)?;

@@ -1,21 +1,176 @@
-//! `groebot info`: a chain or a system in words.
+//! `groebot info`: a chain with its geometry, a robot with its links, or a system, in words.
 
 use std::path::PathBuf;
 
-use super::{Outcome, console};
-use crate::derive::Source;
+use super::console::{self, Paint};
+use super::ends::EndArguments;
+use super::{Halt, Outcome};
+use crate::derive::{Description, Ends, InputFile, formulate};
+use crate::kinematics::tree::TreeJointKind;
+use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind, Tree};
+use crate::{Error, ErrorKind, Result};
+use num_traits::ToPrimitive;
 
-/// Prints the chain or the system that a derivation would start from
+const EXAMPLES: &str = "Examples:
+  groebot info derivations/nao_leg_sagittal      a chain: joints, geometry, equations
+  groebot info robot.urdf                        a robot: its links and the ends of its limbs
+  groebot info robot.urdf --tip tool0            the chain from the root to that link";
+
+/// Prints a chain and how its axes lie, a robot's links, or a system of equations
 #[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// A mechanism's folder, or an input file
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
+    #[command(flatten)]
+    ends: EndArguments,
 }
 
 /// Prints the input.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let source = Source::read(&arguments.input)?;
-    let chain = source.chain.as_ref().map(|chain| format!("{chain}\n\n")).unwrap_or_default();
-    console::print(&format!("{chain}{}", source.system))
+    let (input, ends) = (InputFile::read(&arguments.input)?, arguments.ends.ends());
+    let paint = Paint::of(&std::io::stdout());
+    match &input.description {
+        Description::Tree(tree) if ends == Ends::default() && tree.leaves().len() > 1 => {
+            console::print(&robot_page(tree, paint))
+        }
+        Description::System(system) if ends == Ends::default() => console::print(&system.to_string()),
+        description => {
+            let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
+            let chain = input.chain(&ends)?.ok_or_else(none)?;
+            let notes = match description {
+                Description::Tree(tree) => notes(tree, &ends)?,
+                _ => Vec::new(),
+            };
+            console::print(&(chain_page(&chain, &notes, paint) + &equations(&chain)?))
+        }
+    }
+}
+
+fn notes(tree: &Tree, ends: &Ends) -> Result<Vec<String>> {
+    let path = tree.path(ends.base.as_deref(), ends.tip.as_deref())?;
+    Ok(tree.notes(&path))
+}
+
+/// The equations of a chain whose task can be derived; nothing for the others.
+fn equations(chain: &Chain) -> std::result::Result<String, Halt> {
+    match formulate(chain) {
+        Ok(system) => Ok(format!("\n{system}")),
+        Err(error) if error.kind() == ErrorKind::Unsupported => Ok(String::new()),
+        Err(error) => Err(error.into()),
+    }
+}
+
+fn chain_page(chain: &Chain, notes: &[String], paint: Paint) -> String {
+    let unit = chain.length_unit().symbol();
+    let plane = chain.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
+    let (count, task) = (chain.joints().len(), chain.task().name());
+    let mut page = format!("{}: {}, task {task}{plane}, lengths in {unit}\n", paint.bold(chain.name()), joints(count));
+    for text in [&chain.parts().description, &chain.parts().source].into_iter().flatten() {
+        page += &format!("{}\n", paint.dim(text));
+    }
+    page += &format!("\n{}\n", paint.bold("joints, in the base frame with all values at zero"));
+    page += &table(
+        &chain.joints().iter().enumerate().map(|(index, joint)| joint_row(index, joint, unit)).collect::<Vec<_>>(),
+    );
+    let pose = chain.base_from_tip();
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    let angles = [roll, pitch, yaw].map(|angle| tidy(angle.to_degrees()));
+    page += &format!("  tip at {} {unit}, roll pitch yaw ({}) deg\n", vector(&chain.tip().point), angles.join(", "));
+    page += &format!("  at most {} {unit} from the first joint{}\n", tidy(chain.reach()), sliding(chain));
+    page += &format!("\n{}\n", Geometry::of(chain));
+    if !notes.is_empty() {
+        page += &format!("\n{}\n", paint.bold("notes"));
+        page += &notes.iter().map(|note| format!("  {note}\n")).collect::<String>();
+    }
+    page
+}
+
+fn joints(count: usize) -> String {
+    format!("{count} joint{}", if count == 1 { "" } else { "s" })
+}
+
+fn sliding(chain: &Chain) -> &'static str {
+    if chain.joints().iter().any(|joint| joint.kind == JointKind::Prismatic) {
+        " (prismatic joints at zero)"
+    } else {
+        ""
+    }
+}
+
+fn joint_row(index: usize, joint: &Joint, unit: &str) -> Vec<String> {
+    let (axis, point) = (vector(&joint.axis), vector(&joint.point));
+    let motion = match joint.kind {
+        JointKind::Revolute => format!("turns about {axis}"),
+        JointKind::Prismatic => format!("slides along {axis}"),
+    };
+    let limits = match (joint.kind, joint.limits) {
+        (_, None) => "no limits".to_owned(),
+        (JointKind::Revolute, Some((low, high))) => {
+            format!("{:.2}..{:.2} deg", low.to_degrees() + 0.0, high.to_degrees() + 0.0)
+        }
+        (JointKind::Prismatic, Some((low, high))) => format!("{low}..{high} {unit}"),
+    };
+    let point = format!("through {point} {unit}");
+    vec![(index + 1).to_string(), joint.name.clone(), motion, point, limits]
+}
+
+/// Three numbers: short ones exactly, others to nine decimals.
+fn vector(vector: &ExactVector) -> String {
+    let numbers = vector.each_ref().map(|x| tidy(x.to_f64().unwrap_or(f64::NAN)));
+    format!("({})", numbers.join(", "))
+}
+
+/// A number to nine decimals, without zeros at its end.
+fn tidy(value: f64) -> String {
+    let text = format!("{value:.9}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// Left-aligned columns.
+fn table(rows: &[Vec<String>]) -> String {
+    let columns = rows.first().map_or(0, Vec::len);
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let line = |row: &Vec<String>| -> String {
+        let cells = row.iter().zip(&widths).map(|(cell, width)| format!("  {cell:<width$}"));
+        cells.collect::<String>().trim_end().to_owned() + "\n"
+    };
+    rows.iter().map(line).collect()
+}
+
+fn robot_page(tree: &Tree, paint: Paint) -> String {
+    let moving = tree.joints().iter().filter(|joint| joint.kind != TreeJointKind::Fixed).count();
+    let (links, fixed) = (tree.links().len(), tree.joints().len() - moving);
+    let name = paint.bold(tree.name());
+    let mut page =
+        format!("{name}: {links} links, {} that move, {fixed} fixed; root {}\n\n", joints(moving), tree.root());
+    let lines = tree.outline();
+    let width = lines.iter().map(|(branch, _)| branch.chars().count()).max().unwrap_or(0);
+    for (branch, motion) in &lines {
+        page += &format!("{}\n", format!("{branch:<width$}  {}", paint.dim(motion)).trim_end());
+    }
+    page += &format!("\n{}\n{}", paint.bold("ends of limbs"), wrapped(&tree.tips()));
+    page += &format!("\n{}\n{}", paint.bold("leaves"), wrapped(&tree.leaves()));
+    if let Some(tip) = tree.tips().first() {
+        page += &format!("\nA chain runs from --base (default {}) to --tip, for instance --tip {tip}\n", tree.root());
+    }
+    page
+}
+
+/// Names with commas, in lines of about a hundred characters.
+fn wrapped(names: &[&str]) -> String {
+    let mut lines = vec![String::new()];
+    for (index, name) in names.iter().enumerate() {
+        let comma = if index + 1 < names.len() { ", " } else { "" };
+        if lines.last().is_some_and(|line| line.len() + name.len() > 100) {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            *line += &format!("{name}{comma}");
+        }
+    }
+    lines.iter().map(|line| format!("  {}\n", line.trim_end())).collect()
 }

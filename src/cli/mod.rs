@@ -8,7 +8,9 @@ mod answers;
 mod check;
 mod console;
 mod derive;
+mod ends;
 mod files;
+mod fk;
 mod info;
 mod progress;
 mod report;
@@ -29,6 +31,8 @@ const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target 60,150
   groebot check derivations/nao_leg_sagittal
   groebot info derivations/nao_arm_planar
+  groebot info robot.urdf --tip tool0
+  groebot fk robot.urdf --tip tool0 --q 0,-90,90,0,0,0 --degrees
 
 Exit status: 0 success, 1 failure, 2 wrong usage, 130 interrupted.";
 
@@ -46,6 +50,7 @@ enum Command {
     Solve(solve::Arguments),
     Check(check::Arguments),
     Info(info::Arguments),
+    Fk(fk::Arguments),
 }
 
 /// Why a subcommand ends early.
@@ -79,6 +84,7 @@ pub fn run() -> ExitCode {
         Command::Solve(arguments) => solve::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Info(arguments) => info::run(arguments),
+        Command::Fk(arguments) => fk::run(arguments),
     };
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,

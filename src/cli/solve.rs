@@ -64,6 +64,10 @@ fn read_program(path: &Path) -> Result<Program> {
     Program::from_json(&read_text(&file, PROGRAM_LIMIT)?).map_err(|error| error.in_file(&file))
 }
 
+fn input_names(program: &Program) -> Vec<&str> {
+    program.inputs.iter().map(|input| input.name.as_str()).collect()
+}
+
 fn answer<'a>(program: &'a Program, target: Vec<f64>, angles: Angles) -> Result<Answer<'a>> {
     let solutions = program.solve(&angles.to_radians(program, &target))?;
     Ok(Answer { program, target, solutions, angles })
@@ -73,7 +77,7 @@ fn answer<'a>(program: &'a Program, target: Vec<f64>, angles: Angles) -> Result<
 fn listed(program: &Program, given: &[String], angles: Angles, as_json: bool) -> Outcome {
     let mut page = String::new();
     for (index, target) in given.iter().enumerate() {
-        let answer = targets::parse(program, target)
+        let answer = targets::parse(&input_names(program), target)
             .and_then(|numbers| answer(program, numbers, angles))
             .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;
         if as_json {
@@ -90,7 +94,7 @@ fn listed(program: &Program, given: &[String], angles: Angles, as_json: bool) ->
 fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
-    let mut rows = targets::Reader::new(program, io::stdin().lock());
+    let mut rows = targets::Reader::new(input_names(program), io::stdin().lock());
     if !as_json {
         write(&csv_header(program))?;
     }

@@ -6,7 +6,6 @@ use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use crate::solver::Program;
 use crate::{Error, ErrorKind, Result};
 
 /// How errors call standard input.
@@ -14,21 +13,21 @@ pub const STDIN: &str = "<stdin>";
 /// The longest piece of a cell that an error shows.
 const SHOWN: usize = 40;
 
-/// The numbers of `60,150`; how many there must be is left to [`Program::solve`].
+/// The numbers of `60,150`, which stand for `names`; how many there must be is left to who uses them.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] naming the cell that is no number.
-pub fn parse(program: &Program, text: &str) -> Result<Vec<f64>> {
-    numbers(program, text.split(',').map(str::trim))
+pub fn parse(names: &[&str], text: &str) -> Result<Vec<f64>> {
+    numbers(names, text.split(',').map(str::trim))
 }
 
-fn numbers<'t>(program: &Program, cells: impl Iterator<Item = &'t str>) -> Result<Vec<f64>> {
-    cells.enumerate().map(|(index, cell)| number(program, index, cell)).collect()
+fn numbers<'t>(names: &[&str], cells: impl Iterator<Item = &'t str>) -> Result<Vec<f64>> {
+    cells.enumerate().map(|(index, cell)| number(names, index, cell)).collect()
 }
 
-fn number(program: &Program, index: usize, cell: &str) -> Result<f64> {
+fn number(names: &[&str], index: usize, cell: &str) -> Result<f64> {
     cell.parse().map_err(|_| {
-        let name = program.inputs.get(index).map(|input| format!(" (`{}`)", input.name)).unwrap_or_default();
+        let name = names.get(index).map(|name| format!(" (`{name}`)")).unwrap_or_default();
         let text = format!(
             "cell {}{name} is `{}`, which is no number; give a decimal number such as 12.5 or -3e2",
             index + 1,
@@ -48,23 +47,23 @@ pub fn shown(text: &str) -> String {
 pub struct Row {
     /// The line where it stands.
     pub line: usize,
-    /// Its numbers, in the order of the program's inputs.
+    /// Its numbers, in the order of the names.
     pub target: Vec<f64>,
 }
 
 /// The rows of a CSV: one a line, empty lines left out.
 pub struct Reader<'a, R> {
-    program: &'a Program,
+    names: Vec<&'a str>,
     lines: Enumerate<Lines<R>>,
-    /// Once the first row is read: which column each input is in, when it has names.
+    /// Once the first row is read: which column each name is in, when the row has names.
     columns: Option<Vec<usize>>,
     is_first: bool,
 }
 
 impl<'a, R: BufRead> Reader<'a, R> {
-    /// Reads from `input`.
-    pub fn new(program: &'a Program, input: R) -> Self {
-        Reader { program, lines: input.lines().enumerate(), columns: None, is_first: true }
+    /// Reads values of `names` from `input`.
+    pub fn new(names: Vec<&'a str>, input: R) -> Self {
+        Reader { names, lines: input.lines().enumerate(), columns: None, is_first: true }
     }
 
     /// The next target; a first row of names is taken note of.
@@ -92,31 +91,29 @@ impl<'a, R: BufRead> Reader<'a, R> {
     fn row(&mut self, record: &StringRecord) -> Result<Option<Vec<f64>>> {
         let is_first = std::mem::replace(&mut self.is_first, false);
         if is_first && record.iter().all(|cell| cell.parse::<f64>().is_err()) {
-            self.columns = Some(columns(self.program, record)?);
+            self.columns = Some(columns(&self.names, record)?);
             return Ok(None);
         }
-        let Some(columns) = &self.columns else { return numbers(self.program, record.iter()).map(Some) };
+        let Some(columns) = &self.columns else { return numbers(&self.names, record.iter()).map(Some) };
         let cells = columns.iter().map(|&column| record.get(column).unwrap_or(""));
-        numbers(self.program, cells).map(Some)
+        numbers(&self.names, cells).map(Some)
     }
 }
 
-/// The column of each input in a row of names.
-fn columns(program: &Program, record: &StringRecord) -> Result<Vec<usize>> {
-    let column = |input: &crate::solver::Input| {
-        record.iter().position(|cell| cell == input.name).ok_or_else(|| {
-            let names: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
+/// The column of each name in a row of names.
+fn columns(names: &[&str], record: &StringRecord) -> Result<Vec<usize>> {
+    let column = |name: &&str| {
+        record.iter().position(|cell| cell == *name).ok_or_else(|| {
             let found: Vec<String> = record.iter().take(8).map(shown).collect();
             let text = format!(
-                "the first row (`{}`) is neither numbers nor names of the inputs: `{}` is missing; {} are allowed",
+                "the first row (`{}`) is neither numbers nor names of the inputs: `{name}` is missing; {} are allowed",
                 found.join(","),
-                input.name,
                 names.join(", ")
             );
             Error::new(ErrorKind::UnknownName, text)
         })
     };
-    program.inputs.iter().map(column).collect()
+    names.iter().map(column).collect()
 }
 
 /// The cells of a line.

@@ -27,7 +27,7 @@ pub use crate::kinematics::{Choice, LengthUnit, Root};
 pub use derivation::Derivation;
 pub use formulate::formulate;
 pub use grow::{derive_tree, describe};
-pub use input::Source;
+pub use input::{Description, Ends, InputFile, Source};
 pub use prover::Orders;
 pub use system::{
     Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,

@@ -5,6 +5,7 @@
 
 use std::fmt;
 
+use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
 
 use super::exact_serde;
@@ -332,6 +333,9 @@ impl fmt::Display for Chain {
 
 /// `[1/2, 0, 1]`.
 pub(super) fn show(vector: &ExactVector) -> String {
-    let [x, y, z] = vector;
+    let [x, y, z] = vector.each_ref().map(|entry| match entry.to_string() {
+        short if short.len() <= 24 => short,
+        _ => entry.to_f64().unwrap_or(f64::NAN).to_string(),
+    });
     format!("[{x}, {y}, {z}]")
 }

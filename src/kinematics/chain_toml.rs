@@ -5,9 +5,11 @@
 use std::path::Path;
 
 use super::chain::show;
-use super::placement::{IDENTITY, Placement, QuarterTurns, exact, from_rpy, turn};
 use super::validate::{Fault, Part, check_count};
-use super::{Chain, ChainParts, Choice, ExactVector, Joint, JointKind, LengthUnit, Plane, Root, Task, Tip};
+use super::{
+    Chain, ChainParts, Choice, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Placement, Plane, Root, Task,
+    Tip, Turn,
+};
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
 use crate::{Error, ErrorKind, Result};
 
@@ -47,9 +49,9 @@ impl Chain {
 
 /// The units of a file.
 #[derive(Clone, Copy)]
-struct Units {
-    length: LengthUnit,
-    degrees: bool,
+pub(super) struct Units {
+    pub(super) length: LengthUnit,
+    pub(super) degrees: bool,
 }
 
 /// How a file places its joints.
@@ -89,7 +91,7 @@ fn read_parts(root: Table<'_>, joints: &[Table<'_>], tip: Table<'_>) -> Result<C
     })
 }
 
-fn read_units(root: Table<'_>) -> Result<Units> {
+pub(super) fn read_units(root: Table<'_>) -> Result<Units> {
     let length = root.optional("length_unit").map(|node| {
         let known = [("m", LengthUnit::Metre), ("mm", LengthUnit::Millimetre)];
         node.one_of(&known)
@@ -100,7 +102,7 @@ fn read_units(root: Table<'_>) -> Result<Units> {
 
 /// The joints, and the frame of the last one.
 fn read_joints(tables: &[Table<'_>], form: Form, units: Units) -> Result<(Vec<Joint>, Placement)> {
-    let (mut joints, mut frame) = (Vec::new(), Placement::base());
+    let (mut joints, mut frame) = (Vec::new(), Placement::identity());
     for (index, table) in tables.iter().enumerate() {
         let name = table.optional("name").and_then(|node| node.text().ok()).map_or(String::new(), shown);
         let named = |error: Error| match name.as_str() {
@@ -130,14 +132,14 @@ fn read_joint(
     let axis = table.required("axis")?.exact_vector()?;
     let place = table.required(form.key())?;
     let frame = match form {
-        Form::Point => Placement { rotation: IDENTITY, origin: place.exact_vector()? },
+        Form::Point => Placement { origin: place.exact_vector()?, ..Placement::identity() },
         Form::Origin => before.then(&read_origin(place)?),
     };
     let joint = Joint {
         name: table.required("name")?.text()?.to_owned(),
         symbol: symbol.unwrap_or_else(|| (index + 1).to_string()),
         kind,
-        axis: turn(&frame.rotation, &axis),
+        axis: frame.rotation.turn(&axis),
         point: frame.origin.clone(),
         limits: table.optional("limits").map(|node| read_limits(node, kind, units)).transpose()?,
     };
@@ -172,19 +174,25 @@ fn read_origin(node: Node<'_>) -> Result<Placement> {
     let table = node.table()?;
     table.deny_unknown(&["xyz", "rpy_deg"])?;
     let origin = table.optional("xyz").map(|xyz| xyz.exact_vector()).transpose()?;
-    Ok(Placement { rotation: read_rpy(table)?, origin: origin.unwrap_or_else(|| Placement::base().origin) })
+    Ok(Placement { rotation: read_rpy(table)?, origin: origin.unwrap_or_else(|| Placement::identity().origin) })
 }
 
-fn read_rpy(table: Table<'_>) -> Result<QuarterTurns> {
-    let Some(node) = table.optional("rpy_deg") else { return Ok(IDENTITY) };
+fn read_rpy(table: Table<'_>) -> Result<ExactRotation> {
+    let Some(node) = table.optional("rpy_deg") else { return Ok(ExactRotation::identity()) };
     let degrees: ExactVector = node.exact_vector()?;
-    from_rpy(&degrees).ok_or_else(|| {
-        let message = format!("{} has no exact rotation; give multiples of 90 degrees", shown(&show(&degrees)));
-        node.error(ErrorKind::BadValue, message)
-    })
+    let turns: Result<Vec<Turn>> = degrees.iter().map(Turn::from_degrees).collect();
+    match turns.as_deref() {
+        Ok([roll, pitch, yaw]) if [roll, pitch, yaw].iter().all(|turn| turn.is_exact()) => {
+            Ok(ExactRotation::from_rpy([*roll, *pitch, *yaw]))
+        }
+        _ => {
+            let message = format!("{} has no exact rotation; give multiples of 90 degrees", shown(&show(&degrees)));
+            Err(node.error(ErrorKind::BadValue, message))
+        }
+    }
 }
 
-fn read_limits(node: Node<'_>, kind: JointKind, units: Units) -> Result<(f64, f64)> {
+pub(super) fn read_limits(node: Node<'_>, kind: JointKind, units: Units) -> Result<(f64, f64)> {
     let [low, high] = node.float_vector()?;
     let turns = units.degrees && kind == JointKind::Revolute;
     Ok(if turns { (low.to_radians(), high.to_radians()) } else { (low, high) })
@@ -201,7 +209,7 @@ fn read_tip(table: Table<'_>, form: Form, last: &Placement) -> Result<Tip> {
             last.then(&read_origin(place)?)
         }
     };
-    Ok(Tip { point: placement.origin, rotation: exact(&placement.rotation) })
+    Ok(Tip { point: placement.origin, rotation: placement.rotation.matrix() })
 }
 
 /// A task that is complete, or one that wants a plane.
@@ -211,7 +219,7 @@ enum TaskKind {
     Planar(fn(Plane) -> Task),
 }
 
-fn read_task(table: Table<'_>) -> Result<Task> {
+pub(super) fn read_task(table: Table<'_>) -> Result<Task> {
     table.deny_unknown(&["kind", "plane"])?;
     let kinds = [
         ("position", TaskKind::Spatial(Task::Position)),
@@ -241,7 +249,7 @@ fn read_choice(table: Table<'_>) -> Result<Choice> {
 }
 
 /// The line of the key that a fault is about, else of its table.
-fn line_of(fault: &Fault, root: Table<'_>, joints: &[Table<'_>]) -> usize {
+pub(super) fn line_of(fault: &Fault, root: Table<'_>, joints: &[Table<'_>]) -> usize {
     let inner = |key| root.optional(key).and_then(|node: Node<'_>| node.table().ok());
     let table = match fault.part {
         Part::Chain => Some(root),

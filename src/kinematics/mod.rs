@@ -3,14 +3,25 @@
 
 pub mod chain;
 pub mod chain_toml;
+pub mod dh;
+pub mod dh_toml;
+mod exact_rotation;
 mod exact_serde;
 pub mod fk;
 pub mod jacobian;
+pub mod geometry;
 pub mod oracle;
 mod placement;
 pub mod screw;
+pub mod tree;
+pub mod urdf;
 mod validate;
 
 pub use chain::{
     Chain, ChainParts, Choice, ExactMatrix, ExactVector, Joint, JointKind, LengthUnit, Plane, Root, Task, Tip,
 };
+pub use dh::{DhConvention, DhRow, DhTable};
+pub use exact_rotation::{ExactRotation, Turn};
+pub use geometry::Geometry;
+pub use placement::Placement;
+pub use tree::Tree;

@@ -56,10 +56,16 @@ fn fault(part: Part, key: &'static str, kind: ErrorKind, message: String) -> Fau
 
 /// A fault of a joint, with its name in front.
 fn joint_fault(index: usize, joint: &Joint, key: &'static str, kind: ErrorKind, message: &str) -> Fault {
-    fault(Part::Joint(index), key, kind, format!("joint `{}`: {message}", shown(&joint.name)))
+    fault(Part::Joint(index), key, kind, joint_message(&joint.name, message))
 }
 
-fn is_plain(text: &str, limit: usize) -> bool {
+/// A message about the joint `name`.
+pub fn joint_message(name: &str, message: &str) -> String {
+    format!("joint `{}`: {message}", shown(name))
+}
+
+/// Whether `text` has at most `limit` characters and no control characters but line ends and tabs.
+pub fn is_plain(text: &str, limit: usize) -> bool {
     text.chars().count() <= limit && !text.chars().any(|c| c.is_control() && c != '\n' && c != '\t')
 }
 

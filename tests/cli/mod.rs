@@ -2,6 +2,8 @@
 
 mod check;
 mod derive;
+mod fk;
+mod info;
 mod interrupted;
 mod refused;
 mod solve;
@@ -124,7 +126,7 @@ fn leg_copy() -> TempDir {
 fn usage_and_version() {
     assert_eq!(succeed(&["--version"]).trim(), concat!("groebot ", env!("CARGO_PKG_VERSION")));
     let help = succeed(&["--help"]);
-    for word in ["derive", "solve", "check", "info", "Examples:", "Exit status"] {
+    for word in ["derive", "solve", "check", "info", "fk", "Examples:", "Exit status"] {
         assert!(help.contains(word), "{word}");
     }
     for wrong in [&["dance"][..], &[], &["derive"], &["derive", ".", "--time", "-1"], &["derive", ".", "--time", "nan"]]

@@ -1,11 +1,16 @@
-//! The chain model, its file format, forward kinematics, the screw solver and the numeric oracle.
+//! The chain model, its file formats (TOML, URDF, DH tables), forward kinematics, the screw solver and the numeric oracle.
 
 mod chain;
 mod chain_toml;
+mod dh;
+mod exact_rotation;
 mod fk;
 pub mod jacobian;
+mod geometry;
 mod oracle;
 mod screw;
+mod tree;
+mod urdf;
 
 use groebot::number::{BigRational, parse_rational};
 

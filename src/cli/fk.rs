@@ -1,0 +1,297 @@
+//! `groebot fk`: where the tip is, as text, JSON or CSV.
+
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::ends::EndArguments;
+use super::targets::{self, Row};
+use super::{Outcome, console};
+use crate::derive::InputFile;
+use crate::kinematics::{Chain, Joint, JointKind};
+use crate::spatial::Pose;
+use crate::{Error, ErrorKind, Result};
+
+const EXAMPLES: &str = "Examples:
+  groebot fk derivations/nao_leg_sagittal --q 0.3,0.6
+  groebot fk robot.urdf --base base_link --tip tool0 --q 0,-90,90,0,0,0 --degrees
+  groebot fk robot.urdf --tip tool0 < joints.csv > poses.csv
+
+Joint values stand in the order of the chain, base to tip; `groebot info` shows it. Angles are in radians, or in degrees with
+--degrees; lengths are in the unit of the description. A CSV may start with a line of the joints' names, which then says the order of
+its columns. A value outside its limits is told, and is no error.";
+
+/// Forward kinematics: the pose of the tip for joint values
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// A mechanism's folder, or a file: chain.toml, DH table or URDF
+    #[arg(value_name = "DIR-or-FILE")]
+    input: PathBuf,
+    #[command(flatten)]
+    ends: EndArguments,
+    /// Joint values with commas between them (repeatable); `-`, or none: CSV from standard input
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    q: Vec<String>,
+    /// JSON: an object for each joint vector
+    #[arg(long)]
+    json: bool,
+    /// Angles in degrees, in joint values and in JSON and CSV (text shows both)
+    #[arg(long)]
+    degrees: bool,
+}
+
+/// Prints the pose for each joint vector that was given.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let input = InputFile::read(&arguments.input)?;
+    let chain = input.chain(&arguments.ends.ends())?.ok_or_else(|| {
+        let text = "this is a system of equations; forward kinematics needs a chain";
+        Error::new(ErrorKind::BadValue, text).in_file(&input.path)
+    })?;
+    let edge = Edge { chain: &chain, degrees: arguments.degrees };
+    match arguments.q.as_slice() {
+        [] if io::stdin().is_terminal() => {
+            let text = "no joint values; give them by --q, or CSV on standard input";
+            Err(Error::new(ErrorKind::MissingKey, text).into())
+        }
+        [] => stream(&edge, arguments.json),
+        [dash] if dash == "-" => stream(&edge, arguments.json),
+        given => listed(&edge, given, arguments.json),
+    }
+}
+
+/// A chain and the unit of angles at the edge of the tool.
+struct Edge<'a> {
+    chain: &'a Chain,
+    degrees: bool,
+}
+
+/// Joint values, as given, and the pose of the tip.
+struct Answer {
+    q: Vec<f64>,
+    pose: Pose,
+    /// Roll, pitch and yaw \[rad\].
+    rpy: [f64; 3],
+    outside: Vec<String>,
+}
+
+impl Edge<'_> {
+    fn names(&self) -> Vec<&str> {
+        self.chain.joints().iter().map(|joint| joint.name.as_str()).collect()
+    }
+
+    fn turns(&self, joint: &Joint) -> bool {
+        self.degrees && joint.kind == JointKind::Revolute
+    }
+
+    fn angle_unit(&self) -> &'static str {
+        if self.degrees { "deg" } else { "rad" }
+    }
+
+    fn unit(&self, joint: &Joint) -> &'static str {
+        match joint.kind {
+            JointKind::Revolute => self.angle_unit(),
+            JointKind::Prismatic => self.chain.length_unit().symbol(),
+        }
+    }
+
+    /// An angle in radians, in the unit at the edge.
+    fn angle(&self, radians: f64) -> f64 {
+        if self.degrees { radians.to_degrees() } else { radians }
+    }
+
+    fn answer(&self, q: Vec<f64>) -> Result<Answer> {
+        let joints = self.chain.joints();
+        let inside = |(index, value): (usize, &f64)| match joints.get(index) {
+            Some(joint) if self.turns(joint) => value.to_radians(),
+            _ => *value,
+        };
+        let values: Vec<f64> = q.iter().enumerate().map(inside).collect();
+        let pose = self.chain.forward(&values)?;
+        let (roll, pitch, yaw) = pose.rotation.euler_angles();
+        let beyond =
+            |(joint, value): &(&Joint, &f64)| joint.limits.is_some_and(|(low, high)| **value < low || **value > high);
+        let outside = joints.iter().zip(&values).filter(beyond).map(|(joint, _)| joint.name.clone()).collect();
+        Ok(Answer { q, pose, rpy: [roll, pitch, yaw].map(positive_zero), outside })
+    }
+}
+
+/// Minus zero is zero.
+fn positive_zero(value: f64) -> f64 {
+    value + 0.0
+}
+
+impl Answer {
+    fn position(&self) -> [f64; 3] {
+        <[f64; 3]>::from(self.pose.translation.vector).map(positive_zero)
+    }
+
+    /// x, y, z, w with w >= 0.
+    fn quaternion(&self) -> [f64; 4] {
+        let sign = if self.pose.rotation.w < 0.0 { -1.0 } else { 1.0 };
+        <[f64; 4]>::from(self.pose.rotation.coords).map(|part| positive_zero(sign * part))
+    }
+
+    /// The homogeneous matrix, by rows.
+    fn matrix(&self) -> [[f64; 4]; 4] {
+        let matrix = self.pose.to_homogeneous();
+        std::array::from_fn(|row| std::array::from_fn(|column| positive_zero(matrix[(row, column)])))
+    }
+}
+
+fn listed(edge: &Edge<'_>, given: &[String], as_json: bool) -> Outcome {
+    let mut page = String::new();
+    for (index, text_of_q) in given.iter().enumerate() {
+        let answer = targets::parse(&edge.names(), text_of_q)
+            .and_then(|q| edge.answer(q))
+            .map_err(|error| error.with_context(format!("joint values `{}`", targets::shown(text_of_q))))?;
+        if as_json {
+            page += &json(edge, &answer, given.len() == 1);
+        } else {
+            page += if index > 0 { "\n" } else { "" };
+            page += &text(edge, &answer);
+        }
+    }
+    console::print(&page)
+}
+
+/// Joint vectors from standard input, one a row: CSV, or a JSON object a line.
+fn stream(edge: &Edge<'_>, as_json: bool) -> Outcome {
+    let mut out = BufWriter::new(io::stdout().lock());
+    let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
+    let mut rows = targets::Reader::new(edge.names(), io::stdin().lock());
+    if !as_json {
+        write(&csv_header(edge))?;
+    }
+    let outcome = loop {
+        let answered = match rows.next() {
+            None => break Ok(()),
+            Some(row) => row.and_then(|Row { line, target }| {
+                edge.answer(target).map_err(|error| error.at_line(line).in_file(Path::new(targets::STDIN)))
+            }),
+        };
+        match answered {
+            Ok(answer) if as_json => write(&json(edge, &answer, false))?,
+            Ok(answer) => write(&csv_row(edge, &answer))?,
+            Err(error) => break Err(error),
+        }
+    };
+    out.flush().map_err(|error| console::unwritten(&error))?;
+    Ok(outcome?)
+}
+
+/// The joint values, then the pose in four forms.
+fn text(edge: &Edge<'_>, answer: &Answer) -> String {
+    let unit = edge.chain.length_unit().symbol();
+    let mut page = format!("{}\n", edge.chain.name());
+    let width = edge.names().iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    for (joint, value) in edge.chain.joints().iter().zip(&answer.q) {
+        let shown = match joint.kind {
+            JointKind::Prismatic => format!("{value:>14.9} {unit}"),
+            JointKind::Revolute => {
+                let radians = if edge.degrees { value.to_radians() } else { *value };
+                format!("{radians:>14.9} rad {:>14.6} deg", radians.to_degrees())
+            }
+        };
+        let outside = if answer.outside.contains(&joint.name) { limits(joint, unit) } else { String::new() };
+        page += format!("  {:<width$} {shown}{outside}", joint.name).trim_end();
+        page.push('\n');
+    }
+    let degrees = answer.rpy.map(f64::to_degrees);
+    page += "\n  tip in the base frame\n";
+    page += &format!("  position       {} {unit}\n", numbers(&answer.position()));
+    page += &format!("  quaternion     {}   (x y z w)\n", numbers(&answer.quaternion()));
+    page += &format!("  roll pitch yaw {} rad\n", numbers(&answer.rpy));
+    page += &format!("                 {} deg\n", numbers(&degrees));
+    for (index, row) in answer.matrix().iter().enumerate() {
+        let (label, unit) = (if index == 0 { "matrix" } else { "" }, if index < 3 { unit } else { "" });
+        page += format!("  {label:<14} {} {unit}", numbers(row)).trim_end();
+        page.push('\n');
+    }
+    page
+}
+
+fn limits(joint: &Joint, unit: &str) -> String {
+    match (joint.limits, joint.kind) {
+        (Some((low, high)), JointKind::Revolute) => {
+            format!("   outside {:.2}..{:.2} deg", low.to_degrees(), high.to_degrees())
+        }
+        (Some((low, high)), JointKind::Prismatic) => format!("   outside {low}..{high} {unit}"),
+        (None, _) => String::new(),
+    }
+}
+
+/// Numbers in columns, nine decimals; what rounds to zero has no sign.
+fn numbers(values: &[f64]) -> String {
+    let number = |value: &f64| {
+        let text = format!("{value:.9}");
+        let is_zero = text.bytes().all(|b| matches!(b, b'-' | b'.' | b'0'));
+        format!("{:>14}", if is_zero { text.trim_start_matches('-') } else { &text })
+    };
+    values.iter().map(number).collect()
+}
+
+#[derive(Serialize)]
+struct Page<'a> {
+    name: &'a str,
+    unit: Units<'a>,
+    joints: Vec<&'a str>,
+    q: &'a [f64],
+    /// The joints whose values are outside their limits.
+    outside_limits: &'a [String],
+    position: [f64; 3],
+    quaternion_xyzw: [f64; 4],
+    rpy: [f64; 3],
+    /// The homogeneous matrix, by rows.
+    matrix: [[f64; 4]; 4],
+}
+
+#[derive(Serialize)]
+struct Units<'a> {
+    joints: Vec<&'a str>,
+    position: &'a str,
+    rpy: &'a str,
+}
+
+/// One JSON object: over several lines when `pretty`, else on one.
+fn json(edge: &Edge<'_>, answer: &Answer, pretty: bool) -> String {
+    let page = Page {
+        name: edge.chain.name(),
+        unit: Units {
+            joints: edge.chain.joints().iter().map(|joint| edge.unit(joint)).collect(),
+            position: edge.chain.length_unit().symbol(),
+            rpy: edge.angle_unit(),
+        },
+        joints: edge.names(),
+        q: &answer.q,
+        outside_limits: &answer.outside,
+        position: answer.position(),
+        quaternion_xyzw: answer.quaternion(),
+        rpy: answer.rpy.map(|angle| edge.angle(angle)),
+        matrix: answer.matrix(),
+    };
+    let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
+    text.expect("an answer holds nothing that JSON cannot say") + "\n"
+}
+
+/// The joints' names, then the pose with its units.
+fn csv_header(edge: &Edge<'_>) -> String {
+    let (length, angle) = (edge.chain.length_unit().symbol(), edge.angle_unit());
+    let mut cells: Vec<String> = edge.names().into_iter().map(str::to_owned).collect();
+    cells.extend(["x", "y", "z"].map(|name| format!("{name}_{length}")));
+    cells.extend(["qx", "qy", "qz", "qw"].map(str::to_owned));
+    cells.extend(["roll", "pitch", "yaw"].map(|name| format!("{name}_{angle}")));
+    cells.push("outside_limits".to_owned());
+    super::answers::csv_line(&cells)
+}
+
+fn csv_row(edge: &Edge<'_>, answer: &Answer) -> String {
+    let mut values = answer.q.clone();
+    values.extend(answer.position());
+    values.extend(answer.quaternion());
+    values.extend(answer.rpy.map(|angle| edge.angle(angle)));
+    let mut cells: Vec<String> = values.iter().map(f64::to_string).collect();
+    cells.push(answer.outside.join(" "));
+    super::answers::csv_line(&cells)
+}

@@ -1,0 +1,126 @@
+//! Denavit-Hartenberg tables, turned into screw axes at the door. Main type: [`DhTable`].
+//!
+//! Standard: Denavit and Hartenberg 1955, as in Paul 1981. Modified: Craig 1986.
+
+use super::{Chain, ChainParts, ExactRotation, Joint, JointKind, LengthUnit, Placement, Task, Tip, Turn};
+use crate::Result;
+use crate::kinematics::validate::Fault;
+use crate::number::BigRational;
+
+/// Where the frames of a table stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DhConvention {
+    /// Frame i is at the far end of link i: A_i = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i).
+    Standard,
+    /// Frame i is on joint i: A_i = Rx(alpha_(i-1)) Tx(a_(i-1)) Rz(theta_i) Tz(d_i).
+    Modified,
+}
+
+/// One row: a joint and the four parameters. The joint's value is added to `theta` (revolute) or to `d` (prismatic).
+#[derive(Clone, Debug, PartialEq)]
+pub struct DhRow {
+    /// The name of the joint.
+    pub name: String,
+    /// What follows c, s or d in the names of its unknowns.
+    pub symbol: String,
+    /// How the joint moves.
+    pub kind: JointKind,
+    /// The angle about z at the joint value zero.
+    pub theta: Turn,
+    /// The distance along z at the joint value zero.
+    pub d: BigRational,
+    /// The distance along x; in the modified convention, a_(i-1).
+    pub a: BigRational,
+    /// The angle about x; in the modified convention, alpha_(i-1).
+    pub alpha: Turn,
+    /// Least and greatest value of the joint, in radians or the table's length unit.
+    pub limits: Option<(f64, f64)>,
+}
+
+/// A Denavit-Hartenberg table with a frame before it and one behind it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DhTable {
+    /// The name of the mechanism.
+    pub name: String,
+    /// What it is.
+    pub description: Option<String>,
+    /// Where its figures come from.
+    pub source: Option<String>,
+    /// The unit of every length.
+    pub length_unit: LengthUnit,
+    /// Where the frames stand.
+    pub convention: DhConvention,
+    /// Frame 0 in the base frame.
+    pub base: Placement,
+    /// The rows from base to tip.
+    pub rows: Vec<DhRow>,
+    /// The tip in the last frame.
+    pub tool: Placement,
+    /// What is asked of the tip.
+    pub task: Task,
+}
+
+impl DhRow {
+    /// The rotation and shift about z, with the joint at zero.
+    fn about_z(&self) -> Placement {
+        let turned = Placement::turned(ExactRotation::about(2, self.theta));
+        turned.then(&Placement::shifted(2, self.d.clone()))
+    }
+
+    /// The rotation and shift about x.
+    fn about_x(&self) -> Placement {
+        let turned = Placement::turned(ExactRotation::about(0, self.alpha));
+        turned.then(&Placement::shifted(0, self.a.clone()))
+    }
+
+    /// The joint whose axis is the z axis of `frame`.
+    fn joint(&self, frame: &Placement) -> Joint {
+        Joint {
+            name: self.name.clone(),
+            symbol: self.symbol.clone(),
+            kind: self.kind,
+            axis: frame.rotation.turn(&Placement::shifted(2, BigRational::from_integer(1.into())).origin),
+            point: frame.origin.clone(),
+            limits: self.limits,
+        }
+    }
+}
+
+impl DhTable {
+    /// The same mechanism in screw axes.
+    ///
+    /// # Errors
+    /// As [`Chain::new`].
+    pub fn chain(&self) -> Result<Chain> {
+        self.assemble().map_err(|fault| fault.error)
+    }
+
+    pub(super) fn assemble(&self) -> std::result::Result<Chain, Fault> {
+        let (mut joints, mut frame) = (Vec::new(), self.base.clone());
+        for row in &self.rows {
+            match self.convention {
+                DhConvention::Standard => {
+                    joints.push(row.joint(&frame));
+                    frame = frame.then(&row.about_z()).then(&row.about_x());
+                }
+                DhConvention::Modified => {
+                    frame = frame.then(&row.about_x());
+                    joints.push(row.joint(&frame));
+                    frame = frame.then(&row.about_z());
+                }
+            }
+        }
+        let tip = frame.then(&self.tool);
+        Chain::assemble(ChainParts {
+            name: self.name.clone(),
+            description: self.description.clone(),
+            source: self.source.clone(),
+            length_unit: self.length_unit,
+            joints,
+            tip: Tip { point: tip.origin, rotation: tip.rotation.matrix() },
+            task: self.task,
+            order: None,
+            choice: None,
+        })
+    }
+}

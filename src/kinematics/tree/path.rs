@@ -1,0 +1,227 @@
+//! Chains between two links of a tree, down from the base and, where the tip is on another branch, first up.
+
+use std::collections::HashMap;
+
+use super::{Mimic, Tree, TreeJoint, TreeJointKind, listing, some_among};
+use crate::document::shown;
+use crate::kinematics::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Tip};
+use crate::number::{BigInt, BigRational};
+use crate::{Error, ErrorKind, Result};
+use num_integer::Integer;
+use num_traits::{One, ToPrimitive, Zero};
+
+/// The longest path, fixed joints included.
+const MAX_PATH: usize = 64;
+/// The most characters of a chain's name.
+const MAX_NAME: usize = 64;
+
+/// The way through a tree from one link to another.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TreePath {
+    /// The name of the link where it starts.
+    pub base: String,
+    /// The name of the link where it ends.
+    pub tip: String,
+    /// The joints on the way, as places in [`Tree::joints`], each with whether it is passed upwards, from child to parent.
+    pub joints: Vec<(usize, bool)>,
+}
+
+impl Tree {
+    /// The way from the link `base` (by default the root) to the link `tip` (by default the only leaf).
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for names of no link; [`ErrorKind::MissingKey`] without `tip` when there are several leaves;
+    /// [`ErrorKind::BadValue`] for more than 64 joints on the way.
+    pub fn path(&self, base: Option<&str>, tip: Option<&str>) -> Result<TreePath> {
+        let base = self.find("base", base.unwrap_or(self.root()))?;
+        let tip = match (tip, self.leaves().as_slice()) {
+            (Some(tip), _) => self.find("tip", tip)?,
+            (None, [only]) => self.find("tip", only)?,
+            (None, leaves) => {
+                let tips = if self.tips().is_empty() { leaves.to_vec() } else { self.tips() };
+                let message =
+                    format!("the robot has several ends; choose a tip link, such as {}", listing(tips.into_iter()));
+                return Err(Error::new(ErrorKind::MissingKey, message));
+            }
+        };
+        let (mut up, mut down) = (self.ancestry(base), self.ancestry(tip));
+        while up.last().is_some() && up.last() == down.last() {
+            up.pop();
+            down.pop();
+        }
+        let up = up.into_iter().map(|joint| (joint, true));
+        let joints: Vec<_> = up.chain(down.into_iter().rev().map(|joint| (joint, false))).collect();
+        let [base, tip] = [base, tip].map(|link| self.links[link].name.clone());
+        if joints.len() > MAX_PATH {
+            let text = format!(
+                "{} joints are between `{}` and `{}`; at most {MAX_PATH} are allowed, fixed ones included",
+                joints.len(),
+                shown(&base),
+                shown(&tip)
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        Ok(TreePath { base, tip, joints })
+    }
+
+    /// The chain from the link `base` to the link `tip` (defaults as in [`Tree::path`]), in the frame of `base`, with the task
+    /// `pose`, in metres. Fixed joints are merged into the joints around them. A joint that is passed upwards has its axis
+    /// reversed, so that its values and limits stay its own.
+    ///
+    /// # Errors
+    /// As [`Tree::path`]; [`ErrorKind::Unsupported`] for a floating or planar joint on the way, and for joints on the way that
+    /// depend on each other by `mimic`; [`ErrorKind::BadValue`] when nothing moves on the way, and as [`Chain::new`].
+    pub fn chain(&self, base: Option<&str>, tip: Option<&str>) -> Result<Chain> {
+        let path = self.path(base, tip)?;
+        self.check_independent(&path)?;
+        let (joints, frame) = self.walk(&path)?;
+        if joints.is_empty() {
+            let text = format!(
+                "nothing moves between `{}` and `{}`; choose links with moving joints between them",
+                shown(&path.base),
+                shown(&path.tip)
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let name: String = format!("{}_{}", self.name, path.tip).chars().take(MAX_NAME).collect();
+        Chain::new(ChainParts {
+            name: name.trim().to_owned(),
+            description: Some(format!("from link {} to link {}", path.base, path.tip)),
+            source: None,
+            length_unit: LengthUnit::Metre,
+            joints,
+            tip: Tip { point: frame.origin, rotation: frame.rotation.matrix() },
+            task: Task::Pose,
+            order: None,
+            choice: None,
+        })
+    }
+
+    /// What a user of the chain along `path` should know: numbers that were taken for others, joints that follow or lead, joints
+    /// that are passed upwards.
+    pub fn notes(&self, path: &TreePath) -> Vec<String> {
+        let mut notes = Vec::new();
+        for (index, _) in &path.joints {
+            let joint = &self.joints[*index];
+            let name = shown(&joint.name);
+            notes.extend(joint.notes.iter().map(|note| format!("{name}: {note}")));
+            if let Some(mimic) = &joint.mimic {
+                notes.push(format!(
+                    "{name}: in the robot it follows {}, outside this chain; here it moves freely",
+                    law(mimic)
+                ));
+            }
+        }
+        let up = path.joints.iter().filter(|(index, is_up)| *is_up && self.joints[*index].kind != TreeJointKind::Fixed);
+        let up: Vec<String> = up.map(|(index, _)| shown(&self.joints[*index].name)).collect();
+        if !up.is_empty() {
+            notes.push(format!(
+                "passed from child to parent, axes reversed, values and limits their own: {}",
+                up.join(", ")
+            ));
+        }
+        notes
+    }
+
+    fn find(&self, what: &str, name: &str) -> Result<usize> {
+        self.links.iter().position(|link| link.name == name).ok_or_else(|| {
+            let names = some_among(name, self.links.iter().map(|link| link.name.as_str()));
+            let text = format!("the {what} `{}` is no link of the robot{names}", shown(name));
+            Error::new(ErrorKind::UnknownName, text)
+        })
+    }
+
+    /// The joints from `link` up to the root.
+    fn ancestry(&self, link: usize) -> Vec<usize> {
+        let first = self.above[link];
+        std::iter::successors(first, |joint| self.above[self.ends[*joint].0]).collect()
+    }
+
+    /// No joint of the chain may lead another one, nor may two follow the same leader.
+    fn check_independent(&self, path: &TreePath) -> Result<()> {
+        let mut leaders: HashMap<&str, &str> = HashMap::new();
+        let moving = path.joints.iter().map(|(index, _)| &self.joints[*index]);
+        for joint in moving.filter(|joint| joint.kind != TreeJointKind::Fixed) {
+            let leader = self.leader(joint);
+            if let Some(other) = leaders.insert(&leader.name, &joint.name) {
+                let message = format!(
+                    "it moves with joint `{}` of the same chain (mimic); choose links so that only one of them is \
+                                       between",
+                    shown(other)
+                );
+                return Err(joint.error(ErrorKind::Unsupported, &message));
+            }
+        }
+        Ok(())
+    }
+
+    /// The joint that `joint` follows in the end; itself when it follows none.
+    fn leader<'t>(&'t self, joint: &'t TreeJoint) -> &'t TreeJoint {
+        let next = |follower: &&'t TreeJoint| {
+            let leader = &follower.mimic.as_ref()?.leader;
+            self.joints.iter().find(|joint| joint.name == *leader)
+        };
+        std::iter::successors(Some(joint), next).last().unwrap_or(joint)
+    }
+
+    /// The moving joints in the base frame, and the frame of the tip.
+    fn walk(&self, path: &TreePath) -> Result<(Vec<Joint>, Placement)> {
+        let (mut joints, mut frame) = (Vec::new(), Placement::identity());
+        for (index, is_up) in &path.joints {
+            let joint = &self.joints[*index];
+            if !is_up {
+                frame = frame.then(&joint.origin);
+            }
+            if let Some(kind) = kind_of(joint)? {
+                let axis = frame.rotation.turn(&primitive(&joint.axis));
+                joints.push(Joint {
+                    name: joint.name.clone(),
+                    symbol: (joints.len() + 1).to_string(),
+                    kind,
+                    axis: if *is_up { axis.map(|x| -x) } else { axis },
+                    point: frame.origin.clone(),
+                    limits: joint.limits.filter(|_| joint.kind != TreeJointKind::Continuous),
+                });
+            }
+            if *is_up {
+                frame = frame.then(&joint.origin.inverse());
+            }
+        }
+        Ok((joints, frame))
+    }
+}
+
+/// `Leader`, or `2 * Leader + 0.1`.
+fn law(mimic: &Mimic) -> String {
+    let [factor, summand] = [&mimic.multiplier, &mimic.offset].map(|x| x.to_f64().unwrap_or(f64::NAN));
+    match (shown(&mimic.leader), factor, summand) {
+        (leader, 1.0, 0.0) => leader,
+        (leader, _, 0.0) => format!("{factor} * {leader}"),
+        (leader, _, _) => format!("{factor} * {leader} + {summand}"),
+    }
+}
+
+/// How a joint moves in a chain; none when it is fixed.
+fn kind_of(joint: &TreeJoint) -> Result<Option<JointKind>> {
+    match joint.kind {
+        TreeJointKind::Fixed => Ok(None),
+        TreeJointKind::Revolute | TreeJointKind::Continuous => Ok(Some(JointKind::Revolute)),
+        TreeJointKind::Prismatic => Ok(Some(JointKind::Prismatic)),
+        TreeJointKind::Floating | TreeJointKind::Planar => {
+            let message = format!(
+                "the type `{}` is not supported in a chain; allowed between base and tip: `revolute`, `continuous`, `prismatic`, \
+                 `fixed`",
+                joint.kind.name()
+            );
+            Err(joint.error(ErrorKind::Unsupported, &message))
+        }
+    }
+}
+
+/// The direction of `axis` in coprime integers: (0, 0.7071, -0.7071) is (0, 1, -1).
+fn primitive(axis: &ExactVector) -> ExactVector {
+    let common = axis.iter().fold(BigInt::one(), |common, x| common.lcm(x.denom()));
+    let integers = axis.each_ref().map(|x| x.numer() * (&common / x.denom()));
+    let divisor = integers.iter().fold(BigInt::zero(), |divisor, x| divisor.gcd(x));
+    integers.map(|x| BigRational::from_integer(if divisor.is_zero() { x } else { x / &divisor }))
+}
