@@ -59,8 +59,7 @@ impl IkGeo {
     pub fn target(&self, pose: &Pose) -> Target {
         let pose = if self.reversed { pose.inverse() } else { *pose };
         let rotation = (pose.rotation * self.base_from_tip.rotation.inverse()).to_rotation_matrix().into_inner();
-        let t = pose.translation.vector;
-        (Matrix3::from_fn(|i, j| rotation[(i, j)]), Vector3::new(t.x, t.y, t.z))
+        (Matrix3::from_fn(|i, j| rotation[(i, j)]), vector(&pose.translation.vector))
     }
 
     /// ik-geo's own answers: joint values and whether they are only nearest.
@@ -73,6 +72,11 @@ impl IkGeo {
         let exact = self.solve(target).into_iter().filter(|(_, is_nearest)| !is_nearest);
         exact.map(|(q, _)| std::array::from_fn(|i| if self.reversed { q[5 - i] } else { q[i] })).collect()
     }
+}
+
+/// `v` in ik-geo's own version of nalgebra.
+pub fn vector(v: &nalgebra::Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(v.x, v.y, v.z)
 }
 
 fn axis_of(screw: &Screw) -> Option<Axis> {

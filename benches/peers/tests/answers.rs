@@ -5,11 +5,10 @@ use groebot::kinematics::screw::paden_kahan::{rotate_to_distance, rotate_to_poin
 use groebot::robots;
 use groebot::spatial::{Pose, angle};
 use groebot_peers::Joints;
-use groebot_peers::by_ik_geo::IkGeo;
+use groebot_peers::by_ik_geo::{IkGeo, vector};
 use groebot_peers::by_opw::Opw;
 use groebot_peers::inputs::{COUNT, Random, poses};
 use ik_geo::subproblems::{subproblem1, subproblem3};
-use nalgebra::Vector3;
 
 /// How far `q` is from `pose`: metres plus the distance of the rotation matrices.
 fn error(chain: &Chain, q: &Joints, pose: &Pose) -> f64 {
@@ -52,22 +51,18 @@ fn opw_solves_our_arms() {
     }
 }
 
-fn theirs(v: &Vector3<f64>) -> ik_geo::nalgebra::Vector3<f64> {
-    ik_geo::nalgebra::Vector3::new(v.x, v.y, v.z)
-}
-
 #[test]
 fn subproblems_mean_the_same() {
     let mut random = Random(1);
     for _ in 0..COUNT {
         let (axis, p, k, turn) = (random.axis(), random.point(), random.point(), random.angle());
-        let (w, reached) = (theirs(&axis.direction()), axis.rotate(turn, &p));
+        let (w, reached) = (vector(&axis.direction()), axis.rotate(turn, &p));
         let ours = rotate_to_point(&axis, &p, &reached).iter().next().unwrap();
-        let (other, _) = subproblem1(&theirs(&p.coords), &theirs(&reached.coords), &w);
+        let (other, _) = subproblem1(&vector(&p.coords), &vector(&reached.coords), &w);
         assert!(angle::difference(ours, other).abs() < 1e-7 && angle::difference(ours, turn).abs() < 1e-7);
 
         let delta = (reached - k).norm();
-        let (other, _) = subproblem3(&theirs(&p.coords), &theirs(&k.coords), &w, delta);
+        let (other, _) = subproblem3(&vector(&p.coords), &vector(&k.coords), &w, delta);
         for ours in rotate_to_distance(&axis, &p, &k, delta).iter() {
             assert!(other.get_all().iter().any(|other| angle::difference(ours, *other).abs() < 1e-6));
         }
