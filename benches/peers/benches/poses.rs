@@ -1,0 +1,42 @@
+//! Nanoseconds per pose, all solutions, on the same poses: our screw solver beside its peers.
+//!
+//!     cd benches/peers && cargo bench --bench poses
+
+use std::hint::black_box;
+use std::io::Result;
+
+use groebot::robots::{self, Robot};
+use groebot_peers::by_ik_geo::IkGeo;
+use groebot_peers::by_opw::Opw;
+use groebot_peers::inputs::poses;
+use groebot_peers::rounds::{Contender, measure};
+
+fn main() -> Result<()> {
+    robots::ALL.iter().try_for_each(contest)
+}
+
+fn contest(robot: &Robot) -> Result<()> {
+    let chain = robot.chain();
+    let poses: Vec<_> = poses(&chain).into_iter().map(|(_, pose)| pose).collect();
+    let mut contenders = Vec::new();
+    if let Some(peer) = IkGeo::new(&chain) {
+        let targets: Vec<_> = poses.iter().map(|pose| peer.target(pose)).collect();
+        contenders.push(Contender::new("ik-geo", move || {
+            for target in &targets {
+                black_box(peer.solve(black_box(target)));
+            }
+        }));
+    }
+    if let Some(peer) = Opw::new(&chain) {
+        let targets: Vec<_> = poses.iter().map(|pose| peer.target(pose)).collect();
+        contenders.push(Contender::new("opw", move || {
+            for target in &targets {
+                black_box(peer.solutions(black_box(target)));
+            }
+        }));
+    }
+    if !contenders.is_empty() {
+        print!("{}", measure(&format!("poses/{}", robot.name()), poses.len(), contenders)?);
+    }
+    Ok(())
+}

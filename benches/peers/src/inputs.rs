@@ -1,0 +1,61 @@
+//! Random inputs that are the same on every machine.
+
+use std::f64::consts::PI;
+
+use groebot::kinematics::Chain;
+use groebot::spatial::{Axis, Pose};
+use nalgebra::{Point3, Vector3};
+
+/// How many inputs a measurement goes over.
+pub const COUNT: usize = 256;
+
+/// SplitMix64 (Steele, Lea and Flood 2014).
+pub struct Random(pub u64);
+
+impl Random {
+    /// The next 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Even in `low..high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// An angle, even on the circle \[rad\].
+    pub fn angle(&mut self) -> f64 {
+        self.between(-PI, PI)
+    }
+
+    /// A vector in the cube from -1 to 1, not near its middle.
+    pub fn vector(&mut self) -> Vector3<f64> {
+        loop {
+            let v = Vector3::from_fn(|_, _| self.between(-1.0, 1.0));
+            if v.norm() > 0.1 {
+                return v;
+            }
+        }
+    }
+
+    /// A point \[m\].
+    pub fn point(&mut self) -> Point3<f64> {
+        self.vector().into()
+    }
+
+    /// An axis through the origin.
+    pub fn axis(&mut self) -> Axis {
+        Axis::new(self.vector(), Point3::origin()).expect("a vector that is not zero")
+    }
+}
+
+/// `COUNT` joint vectors of `chain`, even on the circles, and the poses of its tip in its length unit.
+pub fn poses(chain: &Chain) -> Vec<(Vec<f64>, Pose)> {
+    let mut random = Random(7);
+    let joints = chain.joints().len();
+    let q = (0..COUNT).map(|_| (0..joints).map(|_| random.angle()).collect::<Vec<f64>>());
+    q.map(|q| (q.clone(), chain.forward(&q).expect("finite values"))).collect()
+}

@@ -1,0 +1,12 @@
+//! Peers of groebot behind one interface each, for measurements and for a test that their answers pass our forward kinematics.
+//!
+//! [`by_ik_geo`]: ik-geo (Elias and Wen 2022), closed forms only. [`by_opw`]: rs-opw-kinematics (Brandstoetter, Angerer and Hofbaur
+//! 2014). [`inputs`]: the random inputs, always the same. [`rounds`]: the measurement, interleaved.
+
+pub mod by_ik_geo;
+pub mod by_opw;
+pub mod inputs;
+pub mod rounds;
+
+/// Joint values in the order and with the signs of our chain \[rad\].
+pub type Joints = [f64; 6];

@@ -1,0 +1,102 @@
+//! The measurement: contenders take turns, round by round, so that a change of the machine's speed meets all of them. The result
+//! is written as Criterion writes its own, for `record_benches` of the main package.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io::Result;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Rounds of one measurement.
+const ROUNDS: usize = 101;
+/// The least time that one contender is measured in one round.
+const TURN: Duration = Duration::from_millis(4);
+
+/// One way to do the work: it goes over all inputs once.
+pub struct Contender<'a> {
+    name: &'a str,
+    pass: Box<dyn FnMut() + 'a>,
+}
+
+impl<'a> Contender<'a> {
+    /// A contender that is called `name`; `pass` goes over all inputs once and hides its results from the optimiser.
+    pub fn new(name: &'a str, pass: impl FnMut() + 'a) -> Self {
+        Contender { name, pass: Box::new(pass) }
+    }
+
+    fn time(&mut self, passes: u32) -> Duration {
+        let start = Instant::now();
+        for _ in 0..passes {
+            (self.pass)();
+        }
+        start.elapsed()
+    }
+
+    /// How many passes fill a turn.
+    fn passes(&mut self) -> u32 {
+        let mut passes = 1;
+        while self.time(passes) < TURN {
+            passes *= 2;
+        }
+        passes
+    }
+}
+
+/// Times per input \[ns\] of one contender.
+struct Samples {
+    bench: String,
+    sorted: Vec<f64>,
+}
+
+impl Samples {
+    /// The median, and its 95 % confidence interval by order statistics.
+    fn median(&self) -> [f64; 3] {
+        let n = self.sorted.len() as f64;
+        let at = |rank: f64| self.sorted[(rank.max(0.0) as usize).min(self.sorted.len() - 1)];
+        let spread = 0.98 * n.sqrt();
+        [at(n / 2.0 - spread), at(n / 2.0), at(n / 2.0 + spread)]
+    }
+
+    /// Writes the three files of Criterion that the record is made of.
+    fn write(&self, target: &Path) -> Result<()> {
+        let folder = target.join("criterion").join(&self.bench).join("new");
+        fs::create_dir_all(&folder)?;
+        let [low, median, high] = self.median();
+        let interval = format!(r#"{{"confidence_level":0.95,"lower_bound":{low},"upper_bound":{high}}}"#);
+        let estimate = format!(r#"{{"median":{{"confidence_interval":{interval},"point_estimate":{median}}}}}"#);
+        fs::write(folder.join("benchmark.json"), format!(r#"{{"full_id":"{}"}}"#, self.bench))?;
+        fs::write(folder.join("sample.json"), format!(r#"{{"times":{:?}}}"#, self.sorted))?;
+        fs::write(folder.join("estimates.json"), estimate)
+    }
+}
+
+/// Measures all contenders over `inputs` inputs a pass, writes the results under `group`, and returns them as lines of text.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn measure(group: &str, inputs: usize, mut contenders: Vec<Contender<'_>>) -> Result<String> {
+    let passes: Vec<u32> = contenders.iter_mut().map(Contender::passes).collect();
+    let mut times = vec![Vec::with_capacity(ROUNDS); contenders.len()];
+    for round in 0..ROUNDS {
+        for turn in 0..contenders.len() {
+            let i = (round + turn) % contenders.len();
+            let time = contenders[i].time(passes[i]).as_secs_f64() * 1e9;
+            times[i].push(time / f64::from(passes[i]) / inputs as f64);
+        }
+    }
+    let mut text = String::new();
+    for (contender, mut sorted) in contenders.iter().zip(times) {
+        sorted.sort_by(f64::total_cmp);
+        let samples = Samples { bench: format!("{group}/{}", contender.name), sorted };
+        samples.write(&target())?;
+        let [low, median, high] = samples.median();
+        let _ = writeln!(text, "{:<40} {median:9.1} ns  [{low:.1}, {high:.1}]", samples.bench);
+    }
+    Ok(text)
+}
+
+/// The folder of build output.
+fn target() -> PathBuf {
+    let default = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target");
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(default, PathBuf::from)
+}

@@ -1,0 +1,70 @@
+//! The peers' answers pass our forward kinematics, and ours their definitions: the conventions match.
+
+use groebot::kinematics::Chain;
+use groebot::kinematics::screw::paden_kahan::{rotate_to_distance, rotate_to_point};
+use groebot::robots;
+use groebot::spatial::{Pose, angle};
+use groebot_peers::Joints;
+use groebot_peers::by_ik_geo::{IkGeo, vector};
+use groebot_peers::by_opw::Opw;
+use groebot_peers::inputs::{COUNT, Random, poses};
+use ik_geo::subproblems::{subproblem1, subproblem3};
+
+/// How far `q` is from `pose`: metres plus the distance of the rotation matrices.
+fn error(chain: &Chain, q: &Joints, pose: &Pose) -> f64 {
+    (chain.forward(q).unwrap().to_homogeneous() - pose.to_homogeneous()).norm()
+}
+
+/// Whether all angles agree on the circle, to 1e-6 rad.
+fn same(q: &[f64], other: &Joints) -> bool {
+    q.iter().zip(other).all(|(a, b)| angle::difference(*a, *b).abs() < 1e-6)
+}
+
+/// Every answer is right, and the joint values that made the pose are among them; returns the number of poses where they are not.
+fn missed(chain: &Chain, solve: impl Fn(&Pose) -> Vec<Joints>) -> usize {
+    let mut missed = 0;
+    for (q, pose) in poses(chain) {
+        let answers = solve(&pose);
+        for answer in &answers {
+            let error = error(chain, answer, &pose);
+            assert!(error < 1e-6, "{}: {answer:?} is off by {error:e}", chain.name());
+        }
+        missed += usize::from(!answers.iter().any(|answer| same(&q, answer)));
+    }
+    missed
+}
+
+#[test]
+fn ik_geo_solves_our_chains() {
+    for robot in robots::ALL {
+        let chain = robot.chain();
+        let Some(peer) = IkGeo::new(&chain) else { continue };
+        assert_eq!(missed(&chain, |pose| peer.solutions(&peer.target(pose))), 0, "{}", robot.name());
+    }
+}
+
+#[test]
+fn opw_solves_our_arms() {
+    for chain in [robots::irb120(), robots::puma()] {
+        let peer = Opw::new(&chain).unwrap();
+        assert_eq!(missed(&chain, |pose| peer.solutions(&peer.target(pose))), 0, "{}", chain.name());
+    }
+}
+
+#[test]
+fn subproblems_mean_the_same() {
+    let mut random = Random(1);
+    for _ in 0..COUNT {
+        let (axis, p, k, turn) = (random.axis(), random.point(), random.point(), random.angle());
+        let (w, reached) = (vector(&axis.direction()), axis.rotate(turn, &p));
+        let ours = rotate_to_point(&axis, &p, &reached).iter().next().unwrap();
+        let (other, _) = subproblem1(&vector(&p.coords), &vector(&reached.coords), &w);
+        assert!(angle::difference(ours, other).abs() < 1e-7 && angle::difference(ours, turn).abs() < 1e-7);
+
+        let delta = (reached - k).norm();
+        let (other, _) = subproblem3(&vector(&p.coords), &vector(&k.coords), &w, delta);
+        for ours in rotate_to_distance(&axis, &p, &k, delta).iter() {
+            assert!(other.get_all().iter().any(|other| angle::difference(ours, *other).abs() < 1e-6));
+        }
+    }
+}
