@@ -108,7 +108,7 @@ fn cells(answer: &Answer<'_>, solution: &Solution) -> Vec<String> {
 }
 
 /// Rows with right-aligned columns; the last column is left as it is.
-fn table(rows: &[Vec<String>]) -> String {
+pub fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..columns).map(width).collect();

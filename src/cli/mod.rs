@@ -11,7 +11,9 @@ mod derive;
 mod ends;
 mod files;
 mod fk;
+mod ik;
 mod info;
+mod plan;
 mod progress;
 mod report;
 mod solve;
@@ -50,6 +52,8 @@ enum Command {
     Solve(solve::Arguments),
     Check(check::Arguments),
     Info(info::Arguments),
+    Plan(plan::Arguments),
+    Ik(ik::Arguments),
     Fk(fk::Arguments),
 }
 
@@ -84,6 +88,8 @@ pub fn run() -> ExitCode {
         Command::Solve(arguments) => solve::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Info(arguments) => info::run(arguments),
+        Command::Plan(arguments) => plan::run(arguments),
+        Command::Ik(arguments) => ik::run(arguments),
         Command::Fk(arguments) => fk::run(arguments),
     };
     match outcome {

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, Quaternion, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-use Subproblem::{PadenKahan1, PadenKahan2, PadenKahan3, Pardos1, Pardos4, Pardos5, Pardos8, PardosOne, ThreeCircles};
+use Subproblem::{PadenKahan1, PadenKahan2, PadenKahan3, PardosOne};
 
 /// The reach, or one for a chain that only turns its tip.
 pub fn reach(chain: &Chain) -> f64 {

@@ -1,0 +1,196 @@
+//! `groebot ik`: all joint values that bring a tip to a target, by screw theory, without deriving anything first.
+
+use serde::Serialize;
+
+use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+
+use super::answers::table;
+use super::plan::{self, Mechanism};
+use super::{Outcome, console, targets};
+use crate::kinematics::screw::{ScrewSolver, Solution, Target};
+use crate::kinematics::{Chain, JointKind, Task};
+use crate::spatial::Pose;
+use crate::{Error, ErrorKind, Result};
+
+const EXAMPLES: &str = "Examples:
+  groebot ik ur5 --target 0.4,0.1,0.5,0,180,0 --degrees      position, then roll, pitch, yaw
+  groebot ik puma --target 0.3,1.1,0.4,0,0,0,1               position, then the quaternion x, y, z, w
+  groebot ik nao_left_leg --q 0.1,0.2,-0.3,0.5,-0.1,0.2      the pose that these joint values reach
+  groebot ik robot.urdf --base base_link --tip tool0 --q 0,-90,90,0,0,0 --degrees
+
+Positions are in the length unit of the description, in its base frame. A rotation is Rz(yaw) Ry(pitch) Rx(roll), as in a URDF. The
+task of a chain may ask for less: x,y,z for a position; two coordinates in a plane, or those and the angle about its normal.
+A target out of reach is no error: the answer is \"no solution\".";
+
+/// Finds all joint values for a target by screw theory, each checked by forward kinematics
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    mechanism: Mechanism,
+    /// The target, numbers with commas between them (repeatable)
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    target: Vec<String>,
+    /// Joint values whose pose is the target (repeatable)
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    q: Vec<String>,
+    /// JSON: an object for each target
+    #[arg(long)]
+    json: bool,
+    /// Angles in degrees, in targets, joint values and JSON (text shows both)
+    #[arg(long)]
+    degrees: bool,
+}
+
+/// Prints the answers to each target.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let chain = arguments.mechanism.chain()?;
+    let solver = plan::solver(&chain)?;
+    let degrees = arguments.degrees;
+    let given = arguments.target.iter().map(|text| (text, target(&chain, text, degrees)));
+    let reached = arguments.q.iter().map(|text| (text, reached(&chain, text, degrees)));
+    let mut page = String::new();
+    for (text, target) in given.chain(reached) {
+        let context = |error: Error| error.with_context(format!("`{}`", targets::shown(text)));
+        let answers = target.and_then(|target| solver.solve(&target)).map_err(context)?;
+        page +=
+            &if arguments.json { json(&solver, text, &answers, degrees) } else { table_of(&solver, text, &answers) };
+    }
+    if page.is_empty() {
+        let text = "no target; give one by --target, or joint values by --q";
+        return Err(Error::new(ErrorKind::MissingKey, text).into());
+    }
+    console::print(&page)
+}
+
+/// The numbers of `text`, angles still in the unit that they were given in.
+fn numbers(text: &str) -> Result<Vec<f64>> {
+    let number = |part: &str| {
+        let value: f64 = part.trim().parse().ok().filter(|value: &f64| value.is_finite())?;
+        Some(value)
+    };
+    text.split(',').map(number).collect::<Option<_>>().ok_or_else(|| {
+        Error::new(ErrorKind::Syntax, "give finite numbers with commas between them, such as 0.3,-1.5,2e-3")
+    })
+}
+
+/// The target that `text` names, in the form of the chain's task.
+fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Target> {
+    let values = numbers(text)?;
+    let radians = |value: f64| if degrees { value.to_radians() } else { value };
+    let wanted = match chain.task() {
+        Task::Pose => "a pose has 6 numbers (x, y, z, roll, pitch, yaw) or 7 (x, y, z, qx, qy, qz, qw)",
+        Task::Position => "a position has 3 numbers (x, y, z)",
+        Task::PlanarPosition { .. } => "a planar position has 2 numbers",
+        Task::PlanarPose { .. } => "a planar pose has 3 numbers, the last one the angle",
+    };
+    Ok(match (chain.task(), values[..].len(), &values[..]) {
+        (Task::Pose, 6, &[x, y, z, roll, pitch, yaw]) => {
+            let rotation = UnitQuaternion::from_euler_angles(radians(roll), radians(pitch), radians(yaw));
+            Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation))
+        }
+        (Task::Pose, 7, &[x, y, z, i, j, k, w]) => {
+            let rotation = UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k));
+            Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation))
+        }
+        (Task::Position, 3, &[x, y, z]) => Target::Position([x, y, z].into()),
+        (Task::PlanarPosition { .. }, 2, &[x, y]) => Target::PlanarPosition([x, y]),
+        (Task::PlanarPose { .. }, 3, &[x, y, phi]) => Target::PlanarPose([x, y, radians(phi)]),
+        (_, count, _) => {
+            return Err(Error::new(ErrorKind::BadValue, format!("{count} numbers are given; {wanted}")));
+        }
+    })
+}
+
+/// What the joint values of `text` reach.
+fn reached(chain: &Chain, text: &str, degrees: bool) -> Result<Target> {
+    let turns = |i: usize| chain.joints().get(i).is_some_and(|joint| joint.kind == JointKind::Revolute);
+    let inside = |(i, value): (usize, f64)| if degrees && turns(i) { value.to_radians() } else { value };
+    let q: Vec<f64> = numbers(text)?.into_iter().enumerate().map(inside).collect();
+    Target::reached(chain, &q)
+}
+
+fn table_of(solver: &ScrewSolver, given: &str, answers: &[Solution]) -> String {
+    let chain = solver.chain();
+    let title = format!("{} at {}", chain.name(), targets::shown(given));
+    let unit = chain.length_unit().symbol();
+    if answers.is_empty() {
+        return format!("{title}: out of reach: no solution\n");
+    }
+    let plural = if answers.len() == 1 { "solution" } else { "solutions" };
+    let mut header = vec!["#".to_owned()];
+    header.extend(chain.joints().iter().map(|joint| match joint.kind {
+        JointKind::Revolute => format!("{} [deg]", joint.name),
+        JointKind::Prismatic => format!("{} [{unit}]", joint.name),
+    }));
+    header.extend([format!("position off [{unit}]"), "rotation off [rad]".to_owned(), String::new()]);
+    let mut rows = vec![header];
+    for (index, answer) in answers.iter().enumerate() {
+        let mut row = vec![(index + 1).to_string()];
+        row.extend(chain.joints().iter().zip(&answer.q).map(|(joint, value)| match joint.kind {
+            JointKind::Revolute => format!("{:.6}", value.to_degrees() + 0.0),
+            JointKind::Prismatic => format!("{value:.9}"),
+        }));
+        row.extend([answer.position_residual, answer.rotation_residual].map(|miss| format!("{miss:.1e}")));
+        row.push(notes(chain, answer));
+        rows.push(row);
+    }
+    format!("{title}: {} {plural}\n{}", answers.len(), table(&rows))
+}
+
+/// Which joints are free, and which stand outside their limits.
+fn notes(chain: &Chain, answer: &Solution) -> String {
+    let named = |joint: &usize| format!("{} is free", chain.joints()[*joint].name);
+    let free = answer.free.iter().map(named);
+    let outside = chain
+        .joints()
+        .iter()
+        .zip(&answer.q)
+        .filter(|(joint, value)| joint.limits.is_some_and(|(low, high)| **value < low || **value > high));
+    let outside = outside.map(|(joint, _)| format!("{} outside its limits", joint.name));
+    free.chain(outside).collect::<Vec<_>>().join(", ")
+}
+
+#[derive(Serialize)]
+struct Page<'a> {
+    name: &'a str,
+    target: &'a str,
+    joints: Vec<&'a str>,
+    unit: Vec<&'a str>,
+    solutions: Vec<Entry<'a>>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    q: Vec<f64>,
+    /// Names of the joints that may take any value.
+    free: Vec<&'a str>,
+    position_residual: f64,
+    rotation_residual: f64,
+    branch: &'a [usize],
+}
+
+fn json(solver: &ScrewSolver, given: &str, answers: &[Solution], degrees: bool) -> String {
+    let chain = solver.chain();
+    let turns = |i: usize| chain.joints()[i].kind == JointKind::Revolute;
+    let unit = |i: usize| match (turns(i), degrees) {
+        (true, true) => "deg",
+        (true, false) => "rad",
+        (false, _) => chain.length_unit().symbol(),
+    };
+    let entry = |answer: &'_ Solution| Entry {
+        q: answer.q.iter().enumerate().map(|(i, q)| if turns(i) && degrees { q.to_degrees() } else { *q }).collect(),
+        free: answer.free.iter().map(|&i| chain.joints()[i].name.as_str()).collect(),
+        position_residual: answer.position_residual,
+        rotation_residual: answer.rotation_residual,
+        branch: &[],
+    };
+    let page = Page {
+        name: chain.name(),
+        target: given,
+        joints: chain.joints().iter().map(|joint| joint.name.as_str()).collect(),
+        unit: (0..chain.joints().len()).map(unit).collect(),
+        solutions: answers.iter().map(|answer| Entry { branch: &answer.branch, ..entry(answer) }).collect(),
+    };
+    serde_json::to_string_pretty(&page).expect("an answer holds nothing that JSON cannot say") + "\n"
+}
