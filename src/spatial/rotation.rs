@@ -17,8 +17,17 @@ pub fn rodrigues(direction: &Unit<Vector3<f64>>, angle: f64) -> Rotation3<f64> {
 
 /// What the rotation by `angle` \[rad\] about `direction` adds to `x`: `R x - x`, exactly zero at angle zero.
 pub fn displacement(direction: &Unit<Vector3<f64>>, angle: f64, x: &Vector3<f64>) -> Vector3<f64> {
+    displacement_by_half(direction, (angle / 2.0).sin_cos(), x)
+}
+
+/// The same by the sine and cosine of half the angle: `sin a = 2 sin(a/2) cos(a/2)`, `1 - cos a = 2 sin(a/2)^2`.
+pub(super) fn displacement_by_half(
+    direction: &Unit<Vector3<f64>>,
+    (sine, cosine): (f64, f64),
+    x: &Vector3<f64>,
+) -> Vector3<f64> {
     let tangent = direction.cross(x);
-    tangent * angle.sin() + direction.cross(&tangent) * versine(angle)
+    (tangent * cosine + direction.cross(&tangent) * sine) * (2.0 * sine)
 }
 
 /// The exponential of `skew(w)`: the rotation about `w` by its length \[rad\], RH0 (2-9) for `w` of any length.

@@ -1,6 +1,6 @@
 //! Joint axes as lines in space, and the motions they allow.
 
-use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::{Pose, Twist, rotation};
 use crate::{Error, ErrorKind, Result};
@@ -71,8 +71,10 @@ impl Axis {
 
     /// The rotation by `angle` \[rad\] about this axis as a rigid transform, RH0 (2-7) with (2-25).
     pub fn rotation(&self, angle: f64) -> Pose {
-        let translation = -rotation::displacement(&self.direction, angle, &self.point.coords);
-        Pose::from_parts(Translation3::from(translation), UnitQuaternion::from_axis_angle(&self.direction, angle))
+        let half = (angle / 2.0).sin_cos();
+        let translation = -rotation::displacement_by_half(&self.direction, half, &self.point.coords);
+        let quaternion = Quaternion::from_parts(half.1, self.direction.scale(half.0));
+        Pose::from_parts(Translation3::from(translation), UnitQuaternion::new_unchecked(quaternion))
     }
 
     /// The axis through the origin along `direction`.

@@ -10,7 +10,7 @@ use crate::spatial::{Screw, angle};
 const STEPS: usize = 8;
 
 /// A candidate that is nearer than this, relative to the size, is left as it is.
-const ENOUGH: f64 = 4.0 * f64::EPSILON;
+const ENOUGH: f64 = 64.0 * f64::EPSILON;
 
 /// Two answers are one when their values differ by at most this much \[rad, or sizes\].
 const MERGE: f64 = 1e-9;

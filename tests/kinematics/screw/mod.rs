@@ -3,6 +3,7 @@
 mod families;
 mod paden_kahan;
 mod solver;
+mod solver_record;
 mod two_link;
 
 use groebot::spatial::{Axis, angle};

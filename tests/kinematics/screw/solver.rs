@@ -159,7 +159,7 @@ fn check_answers(solver: &ScrewSolver, target: &Target, answers: &[Solution]) ->
     Ok(())
 }
 
-fn has_rotation(target: &Target) -> bool {
+pub fn has_rotation(target: &Target) -> bool {
     matches!(target, Target::Pose(_) | Target::PlanarPose(_))
 }
 
@@ -199,7 +199,7 @@ fn the_oracle_finds_as_many_answers() {
 }
 
 /// The numeric oracle's answers: damped least squares on forward kinematics from many seeds.
-fn oracle(chain: &Chain, target: &Target) -> Vec<Vec<f64>> {
+pub fn oracle(chain: &Chain, target: &Target) -> Vec<Vec<f64>> {
     let unknowns: Vec<Unknown> = chain
         .screws()
         .iter()
