@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::ends::EndArguments;
 use super::{Outcome, console};
 use crate::derive::InputFile;
+use crate::kinematics::Chain;
 use crate::kinematics::screw::ScrewSolver;
-use crate::kinematics::{Chain, Geometry};
 use crate::{Error, ErrorKind, Result, robots};
 
 const EXAMPLES: &str = "Examples:
@@ -75,12 +75,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     console::print(&format!("{}, task {}\n{about}\n{}\n", chain.name(), chain.task().name(), solver.plan()))
 }
 
-/// The screw solver of `chain`; the geometry stands beside an error, so that a reader sees what is missing.
+/// The screw solver of `chain`.
 pub fn solver(chain: &Chain) -> Result<ScrewSolver> {
     ScrewSolver::new(chain).map_err(|error| match error.kind() {
         ErrorKind::Unsupported => {
-            let text = format!("{}\nits axes:\n{}", error.message(), Geometry::of(chain));
-            Error::new(ErrorKind::Unsupported, text)
+            Error::new(ErrorKind::Unsupported, format!("{}; `groebot info` shows how its axes lie", error.message()))
         }
         _ => error,
     })

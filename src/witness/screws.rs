@@ -1,12 +1,13 @@
-//! The witnesses that know the chain: forward kinematics, and the screw solver of two parallel revolute joints.
+//! The witnesses that know the chain: forward kinematics, and the screw solver.
 
 use nalgebra::{Point3, Vector3};
 
-use crate::Result;
 use crate::kinematics::screw::two_link::{Solution as Angles, TwoLink};
+use crate::kinematics::screw::{self, ScrewSolver, Target};
 use crate::kinematics::{Chain, JointKind, Plane, Task};
 use crate::solver::Solution;
 use crate::spatial::Screw;
+use crate::{Error, ErrorKind, Result};
 
 /// By how much forward kinematics at `q` misses `target`, as a share of the lengths at hand; infinite where it fails.
 pub(super) fn misplacement(chain: &Chain, q: &[f64], target: &[f64]) -> f64 {
@@ -29,42 +30,78 @@ pub(super) fn misplacement(chain: &Chain, q: &[f64], target: &[f64]) -> f64 {
     misses.fold(turn, |worst, miss| if miss.is_nan() { f64::INFINITY } else { miss.max(worst) })
 }
 
-/// A chain of two parallel revolute joints that places its tip in a plane.
-pub(super) struct Screws {
-    solver: TwoLink,
-    chain: Chain,
-    plane: Plane,
+/// The screw solver of a chain.
+pub(super) enum Screws {
+    /// Two parallel revolute joints that place the tip in a plane.
+    TwoLink(TwoLink, Chain, Plane),
+    /// Any other chain that screw theory solves.
+    Planned(Box<ScrewSolver>),
 }
 
 impl Screws {
-    /// `None` for any other chain.
+    /// `None` for a chain that no order of the known subproblems solves.
     pub fn new(chain: &Chain) -> Option<Self> {
-        let Task::PlanarPosition { plane } = chain.task() else { return None };
-        let [Screw::Revolute(first), Screw::Revolute(second)] = chain.screws() else { return None };
-        let tip = Point3::from(chain.base_from_tip().translation.vector);
-        let solver = TwoLink::new(*first, *second, tip).ok()?;
-        Some(Screws { solver, chain: chain.clone(), plane })
-    }
-
-    /// The point of the tip's plane that `target` names.
-    fn point(&self, target: &[f64]) -> Point3<f64> {
-        let mut point = Point3::from(self.chain.base_from_tip().translation.vector);
-        for (axis, value) in self.plane.coordinates().into_iter().zip(target) {
-            point[axis] = *value;
-        }
-        point
+        two_link(chain).or_else(|| ScrewSolver::new(chain).ok().map(|solver| Screws::Planned(Box::new(solver))))
     }
 
     /// The screw solver's answers, a free joint at zero.
     pub fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
-        let found = self.solver.solve(&self.point(target))?;
-        let answer = |(branch, answer): (usize, &Angles)| Solution {
-            q: answer.q.iter().map(|q| q.unwrap_or(0.0)).collect(),
-            residual: answer.residual,
-            branch,
-            free: (0..2).filter(|&joint| answer.q[joint].is_none()).collect(),
-            chosen: false,
-        };
-        Ok(found.iter().enumerate().map(answer).collect())
+        match self {
+            Screws::TwoLink(solver, chain, plane) => {
+                let found = solver.solve(&point(chain, *plane, target))?;
+                Ok(found.iter().enumerate().map(|(branch, answer)| bent(branch, answer)).collect())
+            }
+            Screws::Planned(solver) => {
+                let found = solver.solve(&planned(solver.chain().task(), target)?)?;
+                let answer = |(branch, answer): (usize, screw::Solution)| Solution {
+                    q: answer.q,
+                    residual: answer.position_residual,
+                    branch,
+                    free: answer.free,
+                    chosen: false,
+                };
+                Ok(found.into_iter().enumerate().map(answer).collect())
+            }
+        }
     }
+}
+
+fn two_link(chain: &Chain) -> Option<Screws> {
+    let Task::PlanarPosition { plane } = chain.task() else { return None };
+    let [Screw::Revolute(first), Screw::Revolute(second)] = chain.screws() else { return None };
+    let tip = Point3::from(chain.base_from_tip().translation.vector);
+    let solver = TwoLink::new(*first, *second, tip).ok()?;
+    Some(Screws::TwoLink(solver, chain.clone(), plane))
+}
+
+/// The point of the tip's plane that `target` names.
+fn point(chain: &Chain, plane: Plane, target: &[f64]) -> Point3<f64> {
+    let mut point = Point3::from(chain.base_from_tip().translation.vector);
+    for (axis, value) in plane.coordinates().into_iter().zip(target) {
+        point[axis] = *value;
+    }
+    point
+}
+
+fn bent(branch: usize, answer: &Angles) -> Solution {
+    Solution {
+        q: answer.q.iter().map(|q| q.unwrap_or(0.0)).collect(),
+        residual: answer.residual,
+        branch,
+        free: (0..2).filter(|&joint| answer.q[joint].is_none()).collect(),
+        chosen: false,
+    }
+}
+
+/// The numbers of a derived solver's target, in the form of the task.
+fn planned(task: Task, target: &[f64]) -> Result<Target> {
+    Ok(match (task, target) {
+        (Task::Position, &[x, y, z]) => Target::Position([x, y, z].into()),
+        (Task::PlanarPosition { .. }, &[x, y]) => Target::PlanarPosition([x, y]),
+        (Task::PlanarPose { .. }, &[x, y, phi]) => Target::PlanarPose([x, y, phi]),
+        _ => {
+            let text = format!("{} numbers are no target of the task `{}`", target.len(), task.name());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+    })
 }

@@ -3,8 +3,10 @@
 mod check;
 mod derive;
 mod fk;
+mod ik;
 mod info;
 mod interrupted;
+mod plan;
 mod refused;
 mod solve;
 

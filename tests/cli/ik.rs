@@ -1,0 +1,73 @@
+//! `groebot ik`: all joint values for a target, each of which `groebot fk` takes back to it.
+
+use serde_json::Value;
+
+use super::{refused, root, succeed, text};
+
+fn solutions(arguments: &[&str]) -> Vec<Value> {
+    let page: Value = serde_json::from_str(&succeed(&[&["ik", "--json"], arguments].concat())).unwrap();
+    page["solutions"].as_array().unwrap().clone()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+fn joined(values: &[f64]) -> String {
+    values.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
+}
+
+#[test]
+fn fk_takes_every_answer_back_to_the_target() {
+    let robot = root("tests/corpus/urdf/ur5.urdf");
+    let (position, rpy) = ([0.4, 0.1, 0.5], [10.0, 120.0, -30.0]);
+    let target = joined(&[position, rpy].concat());
+    let found = solutions(&[text(&robot), "--target", &target, "--degrees"]);
+    assert_eq!(found.len(), 8);
+    for answer in found {
+        let q = joined(&numbers(&answer["q"]));
+        let page = succeed(&["fk", text(&robot), "--json", "--degrees", "--q", &q]);
+        let reached: Value = serde_json::from_str(&page).unwrap();
+        let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9);
+        // At a pitch of 120 degrees the other triple stands for the same rotation.
+        let other = [rpy[0] - 180.0, 180.0 - rpy[1], rpy[2] + 180.0];
+        assert!(near(&numbers(&reached["position"]), &position), "{reached}");
+        assert!(near(&numbers(&reached["rpy"]), &rpy) || near(&numbers(&reached["rpy"]), &other), "{reached}");
+    }
+}
+
+#[test]
+fn a_quaternion_and_angles_say_the_same() {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let by_angles = solutions(&["puma", "--target", "0.3,1.1,0.4,0,0,90", "--degrees"]);
+    let by_quaternion = solutions(&["puma", "--degrees", "--target", &joined(&[0.3, 1.1, 0.4, 0.0, 0.0, half, half])]);
+    assert_eq!(by_angles.len(), 8);
+    for (a, b) in by_angles.iter().zip(&by_quaternion) {
+        assert!(numbers(&a["q"]).iter().zip(numbers(&b["q"])).all(|(a, b)| (a - b).abs() < 1e-9), "{a} {b}");
+    }
+}
+
+#[test]
+fn joint_values_are_among_the_answers_and_limits_are_told() {
+    let page = succeed(&["ik", "nao_left_leg", "--q", "5,10,-20,30,-10,5", "--degrees"]);
+    let row = page.lines().find(|line| line.contains("5.000000           10.000000          -20.000000"));
+    assert!(row.is_some_and(|row| !row.contains("outside")), "{page}");
+    assert!(page.contains("KneePitch outside its limits"), "{page}");
+}
+
+#[test]
+fn a_target_out_of_reach_is_told() {
+    assert_eq!(succeed(&["ik", "puma", "--target", "9,9,9,0,0,0"]), "puma at 9,9,9,0,0,0: out of reach: no solution\n");
+    assert!(solutions(&["polar", "--target", "0.2,0.9,0.3"]).len() == 4);
+}
+
+#[test]
+fn bad_targets_are_refused() {
+    assert!(refused(&["ik", "puma"]).contains("no target"));
+    assert!(refused(&["ik", "puma", "--target", "1,2"]).contains("2 numbers are given; a pose has 6 numbers"));
+    assert!(refused(&["ik", "puma", "--target", "1,2,x,0,0,0"]).contains("finite numbers with commas"));
+    assert!(refused(&["ik", "puma", "--target", "1,2,nan,0,0,0"]).contains("finite numbers"));
+    assert!(refused(&["ik", "puma", "--target", "1,2,3,0,0,0,2"]).contains("norm 2"));
+    assert!(refused(&["ik", "puma", "--q", "1,2,3"]).contains("3 joint values are given; the chain has 6"));
+    assert!(refused(&["ik", "polar", "--target", "1,2,3,4"]).contains("a position has 3 numbers"));
+}
