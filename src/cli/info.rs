@@ -79,12 +79,19 @@ fn chain_page(chain: &Chain, notes: &[String], paint: Paint) -> String {
     let angles = [roll, pitch, yaw].map(|angle| tidy(angle.to_degrees()));
     page += &format!("  tip at {} {unit}, roll pitch yaw ({}) deg\n", vector(&chain.tip().point), angles.join(", "));
     page += &format!("  at most {} {unit} from the first joint{}\n", tidy(chain.reach()), sliding(chain));
-    page += &format!("\n{}\n", Geometry::of(chain));
+    page += &format!("\n{}", geometry(chain, paint));
     if !notes.is_empty() {
         page += &format!("\n{}\n", paint.bold("notes"));
         page += &notes.iter().map(|note| format!("  {note}\n")).collect::<String>();
     }
     page
+}
+
+/// How the axes lie, headings painted.
+fn geometry(chain: &Chain, paint: Paint) -> String {
+    let text = Geometry::of(chain).to_string();
+    let line = |line: &str| if line.starts_with(' ') { format!("{line}\n") } else { format!("{}\n", paint.bold(line)) };
+    text.lines().map(line).collect()
 }
 
 fn joints(count: usize) -> String {

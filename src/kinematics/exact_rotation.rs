@@ -106,6 +106,12 @@ fn pi() -> BigRational {
     parse_rational(PI).unwrap_or_default()
 }
 
+/// The numerators of `numbers` over their least common denominator, and this.
+pub fn over_common<const N: usize>(numbers: [&BigRational; N]) -> ([BigInt; N], BigInt) {
+    let common = numbers.iter().fold(BigInt::one(), |common, number| common.lcm(number.denom()));
+    (numbers.map(|number| number.numer() * (&common / number.denom())), common)
+}
+
 /// A rotation whose matrix has rational entries and is exactly orthogonal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExactRotation {
@@ -135,8 +141,7 @@ impl ExactRotation {
 
     /// The rotation of the quaternion `xyzw`, of any length, to 60 bits; `None` for zero.
     pub fn from_quaternion([x, y, z, w]: &[BigRational; 4]) -> Option<Self> {
-        let common = [x, y, z, w].iter().fold(BigInt::one(), |common, part| common.lcm(part.denom()));
-        let quaternion = [w, x, y, z].map(|part| part.numer() * (&common / part.denom()));
+        let (quaternion, _) = over_common([w, x, y, z]);
         quaternion.iter().any(|part| !part.is_zero()).then(|| ExactRotation { quaternion }.reduced().rounded())
     }
 
@@ -163,9 +168,12 @@ impl ExactRotation {
     /// `vector`, rotated.
     pub fn turn(&self, vector: &ExactVector) -> ExactVector {
         let (rows, scale) = self.scaled_matrix();
-        let scale = BigRational::from_integer(scale);
-        let entry = |row: [BigInt; 3]| -> BigRational { row.iter().zip(vector).map(|(factor, x)| x * factor).sum() };
-        rows.map(|row| entry(row) / &scale)
+        let (numerators, common) = over_common(vector.each_ref());
+        let divisor = scale * common;
+        rows.map(|row| {
+            let entry: BigInt = row.iter().zip(&numerators).map(|(factor, x)| factor * x).sum();
+            BigRational::new(entry, divisor.clone())
+        })
     }
 
     /// The matrix, by rows.

@@ -4,11 +4,12 @@ use std::collections::HashMap;
 
 use super::{Mimic, Tree, TreeJoint, TreeJointKind, listing, some_among};
 use crate::document::shown;
+use crate::kinematics::exact_rotation::over_common;
 use crate::kinematics::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Tip};
 use crate::number::{BigInt, BigRational};
 use crate::{Error, ErrorKind, Result};
 use num_integer::Integer;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{ToPrimitive, Zero};
 
 /// The longest path, fixed joints included.
 const MAX_PATH: usize = 64;
@@ -220,8 +221,7 @@ fn kind_of(joint: &TreeJoint) -> Result<Option<JointKind>> {
 
 /// The direction of `axis` in coprime integers: (0, 0.7071, -0.7071) is (0, 1, -1).
 fn primitive(axis: &ExactVector) -> ExactVector {
-    let common = axis.iter().fold(BigInt::one(), |common, x| common.lcm(x.denom()));
-    let integers = axis.each_ref().map(|x| x.numer() * (&common / x.denom()));
+    let (integers, _) = over_common(axis.each_ref());
     let divisor = integers.iter().fold(BigInt::zero(), |divisor, x| divisor.gcd(x));
     integers.map(|x| BigRational::from_integer(if divisor.is_zero() { x } else { x / &divisor }))
 }
