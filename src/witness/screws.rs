@@ -33,7 +33,7 @@ pub(super) fn misplacement(chain: &Chain, q: &[f64], target: &[f64]) -> f64 {
 /// The screw solver of a chain.
 pub(super) enum Screws {
     /// Two parallel revolute joints that place the tip in a plane.
-    TwoLink(TwoLink, Chain, Plane),
+    TwoLink(Box<(TwoLink, Chain, Plane)>),
     /// Any other chain that screw theory solves.
     Planned(Box<ScrewSolver>),
 }
@@ -47,7 +47,8 @@ impl Screws {
     /// The screw solver's answers, a free joint at zero.
     pub fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
         match self {
-            Screws::TwoLink(solver, chain, plane) => {
+            Screws::TwoLink(parts) => {
+                let (solver, chain, plane) = &**parts;
                 let found = solver.solve(&point(chain, *plane, target))?;
                 Ok(found.iter().enumerate().map(|(branch, answer)| bent(branch, answer)).collect())
             }
@@ -71,7 +72,7 @@ fn two_link(chain: &Chain) -> Option<Screws> {
     let [Screw::Revolute(first), Screw::Revolute(second)] = chain.screws() else { return None };
     let tip = Point3::from(chain.base_from_tip().translation.vector);
     let solver = TwoLink::new(*first, *second, tip).ok()?;
-    Some(Screws::TwoLink(solver, chain.clone(), plane))
+    Some(Screws::TwoLink(Box::new((solver, chain.clone(), plane))))
 }
 
 /// The point of the tip's plane that `target` names.

@@ -137,7 +137,7 @@ impl Pair {
             let step = [(d * miss[0] - b * miss[1]) / determinant, (a * miss[1] - c * miss[0]) / determinant];
             let next = [q[0] - step[0], q[1] - step[1]];
             let better = self.misses(next);
-            if !(norm(better) < norm(miss)) {
+            if norm(better).is_nan() || norm(better) >= norm(miss) {
                 break;
             }
             (q, miss) = (next, better);

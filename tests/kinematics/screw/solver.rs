@@ -98,8 +98,11 @@ pub fn matching(sigma: f64) -> f64 {
     if sigma > 1e-3 { 1e-9 } else { (1e-13 / sigma).max(1e-7) }
 }
 
+/// The subproblems of a plan, each with the joints that it solves.
+type Told = Vec<(Subproblem, Vec<usize>)>;
+
 /// All robots with the subproblems of their plans and the joints that these solve.
-fn plans() -> Vec<(Chain, Vec<(Subproblem, Vec<usize>)>)> {
+fn plans() -> Vec<(Chain, Told)> {
     // RH0 A.2: ..(A-25), and in the same order RH0 (3-15)..(3-22) and (3-30)..(3-37).
     let puma =
         || vec![(PadenKahan3, vec![2]), (PadenKahan2, vec![0, 1]), (PadenKahan2, vec![3, 4]), (PadenKahan1, vec![5])];
