@@ -2,9 +2,9 @@
 //!
 //! Standard: Denavit and Hartenberg 1955, as in Paul 1981. Modified: Craig 1986.
 
+use super::validate::{Fault, check_count};
 use super::{Chain, ChainParts, ExactRotation, Joint, JointKind, LengthUnit, Placement, Task, Tip, Turn};
 use crate::Result;
-use crate::kinematics::validate::Fault;
 use crate::number::BigRational;
 
 /// Where the frames of a table stand.
@@ -96,6 +96,7 @@ impl DhTable {
     }
 
     pub(super) fn assemble(&self) -> std::result::Result<Chain, Fault> {
+        check_count(self.rows.len())?;
         let (mut joints, mut frame) = (Vec::new(), self.base.clone());
         for row in &self.rows {
             match self.convention {

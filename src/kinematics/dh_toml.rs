@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use super::chain_toml::{Units, line_of, read_limits, read_task, read_units};
-use super::validate::{Fault, check_count};
+use super::validate::Fault;
 use super::{Chain, DhConvention, DhRow, DhTable, ExactRotation, ExactVector, JointKind, Placement, Task, Turn};
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
 use crate::number::BigRational;
@@ -50,7 +50,6 @@ impl Chain {
             let line = line_of(&fault, root, &joints);
             fault.error.at_line(line)
         };
-        check_count(joints.len()).map_err(place)?;
         table.assemble().map_err(place)
     }
 }

@@ -70,6 +70,13 @@ fn base_and_tool_stand_before_and_behind() {
 }
 
 #[test]
+fn a_long_table_is_refused_before_it_is_multiplied_out() {
+    let rows = "[[joint]]\nname = 'j'\ntype = 'revolute'\nalpha = 0.3\n".repeat(10_000);
+    let table = DhTable::from_toml(&format!("name = 'long'\n[dh]\nconvention = 'modified'\n{rows}")).unwrap();
+    assert!(table.chain().unwrap_err().message().contains("10000 joints; give 1 to 12"));
+}
+
+#[test]
 fn mistakes_have_a_line_and_a_name() {
     let good = documented_example();
     let cases = [

@@ -1,7 +1,7 @@
 //! Trees and the chains in them: NAO's five chains against the makers' figures, ways up and down, what is refused.
 
 use groebot::ErrorKind;
-use groebot::kinematics::tree::{TreeJoint, TreeJointKind, TreeLink};
+use groebot::kinematics::tree::{Mimic, TreeJoint, TreeJointKind, TreeLink};
 use groebot::kinematics::{Chain, JointKind, Placement, Task, Tree};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -140,6 +140,8 @@ fn what_is_no_tree_is_refused() {
     );
     refused(&["a"], vec![joint("j", "a", "a")], BadValue, "loop");
     refused(&[" "], vec![], BadValue, "visible characters");
+    let nameless = Tree::new("r\n".into(), vec![link("a")], vec![]).unwrap_err();
+    assert!(nameless.message().contains("the robot's name is `r\\n`"), "{nameless}");
 }
 
 #[test]
@@ -150,9 +152,7 @@ fn what_is_no_joint_is_refused() {
         change(&mut joint);
         vec![joint]
     };
-    let follows = |name: &str| {
-        Some(groebot::kinematics::tree::Mimic { leader: name.into(), multiplier: exact("1"), offset: exact("0") })
-    };
+    let follows = |name: &str| Some(Mimic { leader: name.into(), multiplier: exact("1"), offset: exact("0") });
     let links = &["a", "b"];
     refused(links, with(&|joint| joint.axis = ["0"; 3].map(exact)), BadValue, "no direction");
     refused(links, with(&|joint| joint.kind = TreeJointKind::Revolute), BadValue, "needs limits");
@@ -161,6 +161,29 @@ fn what_is_no_joint_is_refused() {
     refused(links, with(&|joint| joint.limits = Some((f64::NEG_INFINITY, 1.0))), BadValue, "not finite");
     refused(links, with(&|joint| joint.mimic = follows("k")), UnknownName, "mimics `k`, which is no joint");
     refused(links, with(&|joint| joint.mimic = follows("j")), BadValue, "mimic one another");
+}
+
+/// Joints j0 to j(n-1) from the link l0; each follows the one before.
+fn followers(count: usize) -> groebot::Result<Tree> {
+    let links = (0..=count).map(|i| link(&format!("l{i}"))).collect();
+    let follow = |i: usize| {
+        let mut joint = joint(&format!("j{i}"), "l0", &format!("l{}", i + 1));
+        let leader = format!("j{}", i.saturating_sub(1));
+        joint.mimic = (i > 0).then(|| Mimic { leader, multiplier: exact("1"), offset: exact("0") });
+        joint
+    };
+    Tree::new("r".into(), links, (0..count).map(follow).collect())
+}
+
+#[test]
+fn followers_of_followers_have_one_leader() {
+    let tree = followers(60).unwrap();
+    let error = tree.chain(Some("l60"), Some("l30")).unwrap_err();
+    assert!(
+        error.kind() == ErrorKind::Unsupported && error.message().contains("joint `j29`: it moves with joint `j59`"),
+        "{error}"
+    );
+    assert!(followers(300).unwrap_err().message().contains("more than 100"));
 }
 
 #[test]

@@ -14,6 +14,8 @@ use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
 const MAX_NAME: usize = 200;
+/// How many joints may follow in turn.
+const MAX_FOLLOWERS: usize = 100;
 /// How many names a message lists.
 const LISTED: usize = 12;
 
@@ -127,6 +129,7 @@ impl Tree {
     /// that do not exist, or that follows no joint; [`ErrorKind::BadValue`] for no or several roots, a loop, an axis of zero,
     /// missing, inverted or infinite limits, a joint that follows itself in the end, an empty name. All with name and line.
     pub fn new(name: String, links: Vec<TreeLink>, joints: Vec<TreeJoint>) -> Result<Self> {
+        check_name(&name, None, "robot")?;
         let link_index = index_links(&links)?;
         let joint_index = index_joints(&joints)?;
         for joint in &joints {
@@ -168,7 +171,7 @@ impl Tree {
         leaves.map(|(link, _)| link.name.as_str()).collect()
     }
 
-    /// The links that end a limb: moved by a joint, with no moving joint below, each the first such on its way from the root.
+    /// The links that end a limb: moved by the joint above them, with no moving joint below.
     pub fn tips(&self) -> Vec<&str> {
         let mut moves_below = vec![false; self.links.len()];
         for (index, joint) in self.joints.iter().enumerate() {
@@ -293,9 +296,11 @@ fn check_mimic(joint: &TreeJoint, joints: &[TreeJoint], index: &HashMap<&str, us
             return Err(follower.error(ErrorKind::UnknownName, &message));
         };
         (follower, steps) = (&joints[*leader], steps + 1);
-        if steps > LISTED || follower.name == joint.name {
-            let message = "the joints that it mimics mimic one another; let one of them lead";
-            return Err(joint.error(ErrorKind::BadValue, message));
+        if steps > MAX_FOLLOWERS || follower.name == joint.name {
+            let message = format!(
+                "the joints that it mimics mimic one another, or are more than {MAX_FOLLOWERS}; let one of them lead"
+            );
+            return Err(joint.error(ErrorKind::BadValue, &message));
         }
     }
     Ok(())
