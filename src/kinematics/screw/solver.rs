@@ -1,5 +1,7 @@
 //! The screw solver: all inverse-kinematics answers of a chain, by an order of subproblems that it finds itself.
 
+use std::ops::Range;
+
 use nalgebra::{Point3, Vector3};
 
 use super::feature::Scale;
@@ -9,7 +11,7 @@ use super::refine::{MOST_JOINTS, refine};
 use super::search::{Sample, Search, scale_of};
 use super::step::Step;
 use super::target::{Solution, Target, whole};
-use crate::kinematics::{Chain, Task};
+use crate::kinematics::{Chain, Geometry, Task};
 use crate::spatial::{Axis, Screw, angle};
 use crate::{Error, ErrorKind, Result};
 
@@ -146,10 +148,21 @@ impl ScrewSolver {
     }
 }
 
+/// What is there, and what would be needed.
 fn unsolved(chain: &Chain) -> Error {
+    let geometry = Geometry::of(chain);
+    let axes = |joints: &Range<usize>, how: &str| {
+        let numbers: Vec<String> = joints.clone().map(|joint| (joint + 1).to_string()).collect();
+        format!("axes {} {how}", numbers.join(", "))
+    };
+    let parallel = geometry.parallel.iter().map(|joints| axes(joints, "are parallel"));
+    let meeting = geometry.meeting.iter().map(|meeting| axes(&meeting.joints, "meet"));
+    let there: Vec<String> = parallel.chain(meeting).collect();
+    let there =
+        if there.is_empty() { "no neighbouring axes meet or are parallel".to_owned() } else { there.join(", ") };
     let text = format!(
-        "`{}`: no order of the known subproblems solves its {} joints for the task `{}`; needed are, for six joints, \
-         three axes in a row that meet in a point or are parallel",
+        "`{}`: no order of the known subproblems solves its {} joints for the task `{}`: {there}; six joints need three \
+         axes in a row that meet or are parallel, or three parallel pairs",
         chain.name(),
         chain.joints().len(),
         chain.task().name()

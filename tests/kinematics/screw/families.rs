@@ -198,3 +198,16 @@ fn a_chain_in_general_position_is_refused() {
     });
     outcome.unwrap();
 }
+
+#[test]
+fn two_parallel_pairs_alone_are_refused_and_told() {
+    let mut runner = TestRunner::new(Config::with_cases(10));
+    let chains = poses(joined(joined(parallel(2), parallel(2)), anywhere(2)));
+    let outcome = runner.run(&chains, |chain| {
+        let Err(error) = ScrewSolver::new(&chain) else { return Err(TestCaseError::fail("solved")) };
+        prop_assert_eq!(error.kind(), groebot::ErrorKind::Unsupported);
+        prop_assert!(error.message().contains("axes 1, 2 are parallel, axes 3, 4 are parallel"), "{}", error);
+        Ok(())
+    });
+    outcome.unwrap();
+}
