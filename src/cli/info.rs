@@ -78,7 +78,9 @@ fn chain_page(chain: &Chain, notes: &[String], paint: Paint) -> String {
     let (roll, pitch, yaw) = pose.rotation.euler_angles();
     let angles = [roll, pitch, yaw].map(|angle| tidy(angle.to_degrees()));
     page += &format!("  tip at {} {unit}, roll pitch yaw ({}) deg\n", vector(&chain.tip().point), angles.join(", "));
-    page += &format!("  at most {} {unit} from the first joint{}\n", tidy(chain.reach()), sliding(chain));
+    if chain.reach() > 0.0 {
+        page += &format!("  at most {} {unit} from the first joint{}\n", tidy(chain.reach()), sliding(chain));
+    }
     page += &format!("\n{}", geometry(chain, paint));
     if !notes.is_empty() {
         page += &format!("\n{}\n", paint.bold("notes"));

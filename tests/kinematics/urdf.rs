@@ -99,7 +99,12 @@ fn mistakes_have_a_line_and_a_name() {
         ),
         ("<parent link=\"palm\"/>", "<parent link=\"fingertip\"/>", BadValue, "loop"),
         ("<link name=\"palm\"/>", "<link name=\"palm\"/><link name=\"thumb\"/>", BadValue, "`palm`, `thumb`"),
-        ("0 0.02 0.0451", "0 0.02", BadValue, "joint `knuckle`: <origin> has `xyz` = \"0 0.02\": 2 stand there"),
+        (
+            "0 0.02 0.0451",
+            "0 0.02",
+            BadValue,
+            "joint `knuckle`: <origin> has `xyz` = \"0 0.02\": 2 found; give 3 numbers",
+        ),
         ("0 0.02 0.0451", "0 x 0.02 0.0451", BadValue, "`x` is no number"),
         ("0 0.02 0.0451", "0 nan 0.0451", BadValue, "nan is not finite"),
         ("0 0.02 0.0451", "0 1/3 0.0451", BadValue, "`1/3` is no number"),

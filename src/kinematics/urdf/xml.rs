@@ -84,7 +84,7 @@ impl Element {
         let words: Vec<&str> = text.split_whitespace().collect();
         let numbers: Vec<BigRational> = words.iter().map(|word| decimal(word).map_err(bad)).collect::<Result<_>>()?;
         let count = numbers.len();
-        numbers.try_into().map(Some).map_err(|_| bad(format!("{count} stand there")))
+        numbers.try_into().map(Some).map_err(|_| bad(format!("{count} found")))
     }
 
     /// The exact number of an attribute.
