@@ -30,7 +30,7 @@ pub const TINY: f64 = 1e-30;
 /// Among polynomials for one unknown, the first whose leading coefficient exceeds this share of the largest one is used.
 pub const PIVOT: f64 = 1e-9;
 /// Newton steps that polish each answer; a step that does not lower the residual is not taken.
-pub const POLISH_STEPS: usize = 8;
+pub const POLISH_STEPS: usize = 32;
 /// Shares of the squared Jacobian's size that are added to it where a plain Newton step fails, as at a singular configuration.
 pub const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 1e-3];
 /// The most joints that a program may have.
