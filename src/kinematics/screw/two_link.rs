@@ -5,7 +5,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::paden_kahan::{Angles, Circle, TOLERANCE, rotate_to_distance};
+use super::one_joint::{Circle, rotate_to_distance};
+use super::values::{Reach, TOLERANCE, Values};
 use crate::spatial::Axis;
 use crate::{Error, ErrorKind, Result};
 
@@ -61,7 +62,7 @@ impl TwoLink {
     /// All joint angles that bring the tip to `target` \[m\]: none, one or two answers.
     ///
     /// A target within 1e-12 of the reach from a reachable one counts as reached, and its residual tells. Two
-    /// answers merge where the arm is stretched or folded (the rounding rule of [`super::paden_kahan`]). The first joint
+    /// answers merge where the arm is stretched or folded (the rounding rule of [`super::one_joint`]). The first joint
     /// is free when target and folded tip lie on its axis; the second when the tip lies on the second axis.
     ///
     /// # Errors
@@ -74,9 +75,9 @@ impl TwoLink {
         }
         let base = self.first.point();
         let distance = length(&(target - self.first.foot(target)));
-        let answers: Vec<Solution> = match rotate_to_distance(&self.second, &self.tip, &base, distance) {
-            Angles::Free => self.complete(None, target).into_iter().collect(),
-            angles => angles.iter().filter_map(|q2| self.complete(Some(q2), target)).collect(),
+        let answers: Vec<Solution> = match rotate_to_distance(&self.second, &self.tip, &base, distance, Reach::EXACT) {
+            Values::Free => self.complete(None, target).into_iter().collect(),
+            values => values.iter().filter_map(|q2| self.complete(Some(q2), target)).collect(),
         };
         match answers.iter().find(|answer| answer.q[0].is_none()) {
             Some(folded) => Ok(vec![*folded]),

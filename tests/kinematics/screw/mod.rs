@@ -1,10 +1,16 @@
 //! The screw solver.
 
-mod paden_kahan;
+mod instance;
+mod one_joint;
+mod three_joints;
+mod two_joints;
 mod two_link;
 
+use groebot::kinematics::screw::values::Reach;
 use groebot::spatial::{Axis, angle};
 use nalgebra::{Point3, Rotation3};
+
+const EXACT: Reach = Reach::EXACT;
 
 /// `p` turned about `axis`, by nalgebra's rotation: shares no code with `Axis::rotate`.
 fn turned(axis: &Axis, angle: f64, p: &Point3<f64>) -> Point3<f64> {

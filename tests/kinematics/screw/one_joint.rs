@@ -2,12 +2,13 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use groebot::kinematics::screw::paden_kahan::{Angles, rotate_to_distance, rotate_to_point};
+use groebot::kinematics::screw::one_joint::{rotate_to_distance, rotate_to_point};
+use groebot::kinematics::screw::values::Values;
 use groebot::spatial::Axis;
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
-use super::{same, turned};
+use super::{EXACT, same, turned};
 use crate::spatial::{axis, vector};
 
 fn point(size: f64) -> impl Strategy<Value = Point3<f64>> {
@@ -30,8 +31,8 @@ fn radius(axis: &Axis, p: &Point3<f64>) -> f64 {
 }
 
 /// Checks that every answer lies in (-pi, pi] and reaches `delta` within `tolerance` * size; of a free angle, some.
-fn check(angles: Angles, axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, delta: f64, tolerance: f64) {
-    let some: &[f64] = if angles == Angles::Free { &[0.0, 1.0, PI, -2.0] } else { &[] };
+fn check(angles: Values, axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, delta: f64, tolerance: f64) {
+    let some: &[f64] = if angles == Values::Free { &[0.0, 1.0, PI, -2.0] } else { &[] };
     for angle in angles.iter().chain(some.iter().copied()) {
         assert!(-PI < angle && angle <= PI, "{angle} is outside (-pi, pi]");
         let error = ((turned(axis, angle, p) - k).norm() - delta).abs();
@@ -49,7 +50,7 @@ fn all_four_quadrants() {
         (Point3::new(1.0, 1.0, 0.5), -FRAC_PI_2),
     ];
     for (k, expected) in cases {
-        let Angles::One(angle) = rotate_to_point(&upright(), &p, &k) else { panic!("one angle") };
+        let Values::One(angle) = rotate_to_point(&upright(), &p, &k, EXACT) else { panic!("one angle") };
         assert!((angle - expected).abs() < 1e-15, "{angle} is not {expected}");
     }
 }
@@ -58,55 +59,55 @@ fn all_four_quadrants() {
 fn a_right_triangle_gives_right_angles() {
     // Radii 3 and 4 at a distance of 5 enclose a right angle, on either side.
     let (p, k) = (Point3::new(4.0, 2.0, 0.0), Point3::new(5.0, 2.0, 0.0));
-    let Angles::Two(ahead, behind) = rotate_to_distance(&upright(), &p, &k, 5.0) else { panic!("two angles") };
+    let Values::Two(ahead, behind) = rotate_to_distance(&upright(), &p, &k, 5.0, EXACT) else { panic!("two angles") };
     assert!((ahead - FRAC_PI_2).abs() < 1e-15 && (behind + FRAC_PI_2).abs() < 1e-15);
 }
 
 #[test]
 fn ends_of_the_reach_have_one_angle() {
     let (p, k) = (Point3::new(4.0, 2.0, 0.0), Point3::new(1.0, 6.0, 0.0));
-    assert_eq!(rotate_to_distance(&upright(), &p, &k, 1.0), Angles::One(FRAC_PI_2));
-    assert_eq!(rotate_to_distance(&upright(), &p, &k, 7.0), Angles::One(-FRAC_PI_2));
+    assert_eq!(rotate_to_distance(&upright(), &p, &k, 1.0, EXACT), Values::One(FRAC_PI_2));
+    assert_eq!(rotate_to_distance(&upright(), &p, &k, 7.0, EXACT), Values::One(-FRAC_PI_2));
     // Twelve metres above, the distances are the hypotenuses (12, 5, 13) and (12, 9, 15).
     let (p, k) = (Point3::new(8.0, 2.0, 0.0), Point3::new(1.0, 4.0, 12.0));
-    assert_eq!(rotate_to_distance(&upright(), &p, &k, 13.0), Angles::One(FRAC_PI_2));
-    assert_eq!(rotate_to_distance(&upright(), &p, &k, 15.0), Angles::One(-FRAC_PI_2));
+    assert_eq!(rotate_to_distance(&upright(), &p, &k, 13.0, EXACT), Values::One(FRAC_PI_2));
+    assert_eq!(rotate_to_distance(&upright(), &p, &k, 15.0, EXACT), Values::One(-FRAC_PI_2));
 }
 
 #[test]
 fn points_on_the_axis_leave_the_angle_free() {
     let (on, other) = (Point3::new(1.0, 2.0, 3.0), Point3::new(1.0, 5.0, 7.0));
-    assert_eq!(rotate_to_point(&upright(), &on, &on), Angles::Free);
-    assert_eq!(rotate_to_point(&upright(), &upright().point(), &upright().point()), Angles::Free);
-    assert_eq!(rotate_to_point(&upright(), &on, &other), Angles::None);
-    assert_eq!(rotate_to_point(&upright(), &other, &on), Angles::None);
+    assert_eq!(rotate_to_point(&upright(), &on, &on, EXACT), Values::Free);
+    assert_eq!(rotate_to_point(&upright(), &upright().point(), &upright().point(), EXACT), Values::Free);
+    assert_eq!(rotate_to_point(&upright(), &on, &other, EXACT), Values::None);
+    assert_eq!(rotate_to_point(&upright(), &other, &on, EXACT), Values::None);
     for (p, k) in [(on, other), (other, on)] {
-        assert_eq!(rotate_to_distance(&upright(), &p, &k, 5.0), Angles::Free);
-        check(Angles::Free, &upright(), &p, &k, 5.0, 1e-15);
-        assert_eq!(rotate_to_distance(&upright(), &p, &k, 4.9), Angles::None);
-        assert_eq!(rotate_to_distance(&upright(), &p, &k, 5.1), Angles::None);
+        assert_eq!(rotate_to_distance(&upright(), &p, &k, 5.0, EXACT), Values::Free);
+        check(Values::Free, &upright(), &p, &k, 5.0, 1e-15);
+        assert_eq!(rotate_to_distance(&upright(), &p, &k, 4.9, EXACT), Values::None);
+        assert_eq!(rotate_to_distance(&upright(), &p, &k, 5.1, EXACT), Values::None);
     }
 }
 
 #[test]
 fn coincident_points_need_no_rotation() {
     let p = Point3::new(4.0, -1.0, 0.3);
-    assert_eq!(rotate_to_point(&upright(), &p, &p), Angles::One(0.0));
-    assert_eq!(rotate_to_distance(&upright(), &p, &p, 0.0), Angles::One(0.0));
+    assert_eq!(rotate_to_point(&upright(), &p, &p, EXACT), Values::One(0.0));
+    assert_eq!(rotate_to_distance(&upright(), &p, &p, 0.0, EXACT), Values::One(0.0));
 }
 
 #[test]
 fn nothing_comes_of_bad_numbers() {
     let (p, k) = (Point3::new(4.0, 2.0, 0.0), Point3::new(1.0, 6.0, 0.0));
     for bad in [f64::NAN, f64::INFINITY, -1.0, -f64::MIN_POSITIVE] {
-        assert_eq!(rotate_to_distance(&upright(), &p, &k, bad), Angles::None);
-        assert_eq!(rotate_to_distance(&upright(), &p, &p, bad), Angles::None);
+        assert_eq!(rotate_to_distance(&upright(), &p, &k, bad, EXACT), Values::None);
+        assert_eq!(rotate_to_distance(&upright(), &p, &p, bad, EXACT), Values::None);
     }
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let bad = Point3::new(0.0, bad, 0.0);
         for (p, k) in [(p, bad), (bad, k), (bad, bad)] {
-            assert_eq!(rotate_to_point(&upright(), &p, &k), Angles::None);
-            assert_eq!(rotate_to_distance(&upright(), &p, &k, 5.0), Angles::None);
+            assert_eq!(rotate_to_point(&upright(), &p, &k, EXACT), Values::None);
+            assert_eq!(rotate_to_distance(&upright(), &p, &k, 5.0, EXACT), Values::None);
         }
     }
 }
@@ -116,7 +117,7 @@ fn any_magnitude_will_do() {
     let axis = Axis::new(Vector3::z(), Point3::origin()).unwrap();
     for unit in [1e-300, 1e-200, 1e-9, 1e9, 1e200, 1e300] {
         let (p, k) = (Point3::new(3.0 * unit, 0.0, 0.0), Point3::new(4.0 * unit, 0.0, 0.0));
-        let Angles::Two(ahead, behind) = rotate_to_distance(&axis, &p, &k, 5.0 * unit) else { panic!("{unit}") };
+        let Values::Two(ahead, behind) = rotate_to_distance(&axis, &p, &k, 5.0 * unit, EXACT) else { panic!("{unit}") };
         assert!((ahead - FRAC_PI_2).abs() < 1e-15 && (behind + FRAC_PI_2).abs() < 1e-15);
     }
 }
@@ -132,16 +133,16 @@ fn the_boundary_is_crossed_in_order() {
         for exponent in 1..=16 {
             let step = 10f64.powi(-exponent) * size(&axis, &p, &k);
             let inside = limit + inwards * step;
-            let angles = rotate_to_distance(&axis, &p, &k, inside);
+            let angles = rotate_to_distance(&axis, &p, &k, inside, EXACT);
             let expected = if exponent <= 14 { 2 } else { angles.iter().count().clamp(1, 2) };
             assert_eq!(angles.iter().count(), expected, "{exponent}: {angles:?}");
             check(angles, &axis, &p, &k, inside, 4e-15);
             let outside = limit - inwards * step;
-            let angles = rotate_to_distance(&axis, &p, &k, outside);
+            let angles = rotate_to_distance(&axis, &p, &k, outside, EXACT);
             match exponent {
-                ..12 => assert_eq!(angles, Angles::None),
+                ..12 => assert_eq!(angles, Values::None),
                 12 => {}
-                _ => assert!(matches!(angles, Angles::One(_)), "{exponent}: {angles:?}"),
+                _ => assert!(matches!(angles, Values::One(_)), "{exponent}: {angles:?}"),
             }
             check(angles, &axis, &p, &k, outside, 1.01e-12);
         }
@@ -156,12 +157,12 @@ fn the_axis_is_left_in_order() {
         let offset = 10f64.powi(-exponent);
         let p = upright().point() + Vector3::new(offset, 0.0, 0.0);
         let delta = (turned(&upright(), 0.7, &p) - k).norm();
-        let angles = rotate_to_distance(&upright(), &p, &k, delta);
-        let found = angles == Angles::Free || angles.iter().any(|angle| same(angle, 0.7, 1e-14 / offset));
+        let angles = rotate_to_distance(&upright(), &p, &k, delta, EXACT);
+        let found = angles == Values::Free || angles.iter().any(|angle| same(angle, 0.7, 1e-14 / offset));
         assert!(found, "{exponent}: {angles:?}");
         // The circle changes the distance by twice the offset, of a size of three metres.
-        assert_eq!(angles == Angles::Free, 2.0 * offset < 3e-12, "{exponent}: {angles:?}");
-        check(angles, &upright(), &p, &k, delta, if angles == Angles::Free { 1e-12 } else { 1e-15 });
+        assert_eq!(angles == Values::Free, 2.0 * offset < 3e-12, "{exponent}: {angles:?}");
+        check(angles, &upright(), &p, &k, delta, if angles == Values::Free { 1e-12 } else { 1e-15 });
     }
 }
 
@@ -172,8 +173,8 @@ proptest! {
     fn the_angle_that_moved_the_point_is_found(axis in axis(), p in point(3.0), theta in -PI..PI) {
         prop_assume!(radius(&axis, &p) > 1e-3);
         let k = turned(&axis, theta, &p);
-        let angles = rotate_to_point(&axis, &p, &k);
-        let Angles::One(angle) = angles else { return Err(TestCaseError::fail(format!("{angles:?}"))) };
+        let angles = rotate_to_point(&axis, &p, &k, EXACT);
+        let Values::One(angle) = angles else { return Err(TestCaseError::fail(format!("{angles:?}"))) };
         prop_assert!(same(angle, theta, 1e-14 / radius(&axis, &p)), "{angle} is not {theta}");
         check(angles, &axis, &p, &k, 0.0, 4e-15);
     }
@@ -189,40 +190,40 @@ proptest! {
         let k = on_circle + off_circle;
         let height = axis.direction().dot(&(k - p));
         prop_assume!(height.hypot(radius(&axis, &k) - radius(&axis, &p)) > 1e-6);
-        prop_assert_eq!(rotate_to_point(&axis, &p, &k), Angles::None);
+        prop_assert_eq!(rotate_to_point(&axis, &p, &k, EXACT), Values::None);
     }
 
     #[test]
     fn the_angle_that_made_the_distance_is_found(axis in axis(), p in point(3.0), k in point(3.0), theta in -PI..PI) {
         let delta = (turned(&axis, theta, &p) - k).norm();
-        let angles = rotate_to_distance(&axis, &p, &k, delta);
-        prop_assert!(angles != Angles::None);
+        let angles = rotate_to_distance(&axis, &p, &k, delta, EXACT);
+        prop_assert!(angles != Values::None);
         check(angles, &axis, &p, &k, delta, 1e-14);
         // How fast the distance changes with the angle, at the known angle.
         let radial = (turned(&axis, theta, &p) - k) / delta;
         let slope = radial.dot(&axis.direction().cross(&(turned(&axis, theta, &p) - axis.point()))).abs();
         let found = angles.iter().any(|angle| same(angle, theta, (1e-14 / slope).max(1e-9)));
         prop_assert!(slope < 1e-6 || found, "{theta} is not among {angles:?}, slope {slope}");
-        prop_assert!(slope < 1e-6 || matches!(angles, Angles::Two(..)));
+        prop_assert!(slope < 1e-6 || matches!(angles, Values::Two(..)));
     }
 
     #[test]
     fn tangent_distances_are_reached_at_the_tangent(axis in axis(), p in point(3.0), k in point(3.0)) {
         let (a, b) = (radius(&axis, &p), radius(&axis, &k));
         prop_assume!(a > 0.1 && b > 0.1 && (a - b).abs() > 0.1);
-        let Angles::One(nearest) = rotate_to_point(&axis, &p, &(axis.foot(&p) + (k - axis.foot(&k)) * (a / b))) else {
+        let Values::One(nearest) = rotate_to_point(&axis, &p, &(axis.foot(&p) + (k - axis.foot(&k)) * (a / b)), EXACT) else {
             return Err(TestCaseError::fail("no nearest point"));
         };
         let height = axis.direction().dot(&(p - k));
         for (delta, tangent) in [(height.hypot(a - b), nearest), (height.hypot(a + b), nearest + PI)] {
             for delta in [delta, delta - 1e-14, delta + 1e-14] {
-                let angles = rotate_to_distance(&axis, &p, &k, delta);
+                let angles = rotate_to_distance(&axis, &p, &k, delta, EXACT);
                 prop_assert!(angles.iter().count() > 0, "{angles:?}");
                 prop_assert!(angles.iter().all(|angle| same(angle, tangent, 1e-5)), "{angles:?} is not {tangent}");
                 check(angles, &axis, &p, &k, delta, 3e-13);
             }
-            prop_assert_eq!(rotate_to_distance(&axis, &p, &k, delta + 1e-9).iter().count(), 2 * usize::from(tangent == nearest));
-            prop_assert_eq!(rotate_to_distance(&axis, &p, &k, delta - 1e-9).iter().count(), 2 * usize::from(tangent != nearest));
+            prop_assert_eq!(rotate_to_distance(&axis, &p, &k, delta + 1e-9, EXACT).iter().count(), 2 * usize::from(tangent == nearest));
+            prop_assert_eq!(rotate_to_distance(&axis, &p, &k, delta - 1e-9, EXACT).iter().count(), 2 * usize::from(tangent != nearest));
         }
     }
 }
