@@ -1,6 +1,7 @@
 //! The robots that come with the crate: their data against a second statement of the same figures.
 
 mod figures;
+mod polar;
 
 use groebot::kinematics::{LengthUnit, Task};
 use groebot::robots;

@@ -1,14 +1,17 @@
 //! The peers' answers pass our forward kinematics, and ours their definitions: the conventions match.
 
 use groebot::kinematics::Chain;
-use groebot::kinematics::screw::paden_kahan::{rotate_to_distance, rotate_to_point};
+use groebot::kinematics::screw::one_joint::{rotate_to_distance, rotate_to_plane, rotate_to_point};
+use groebot::kinematics::screw::two_joints::rotate_about_meeting_axes;
+use groebot::kinematics::screw::values::Reach;
 use groebot::robots;
 use groebot::spatial::{Pose, angle};
 use groebot_peers::Joints;
 use groebot_peers::by_ik_geo::{IkGeo, vector};
 use groebot_peers::by_opw::Opw;
 use groebot_peers::inputs::{COUNT, Random, poses};
-use ik_geo::subproblems::{subproblem1, subproblem3};
+use ik_geo::subproblems::{subproblem1, subproblem2, subproblem3, subproblem4};
+use nalgebra::Unit;
 
 /// How far `q` is from `pose`: metres plus the distance of the rotation matrices.
 fn error(chain: &Chain, q: &Joints, pose: &Pose) -> f64 {
@@ -57,14 +60,39 @@ fn subproblems_mean_the_same() {
     for _ in 0..COUNT {
         let (axis, p, k, turn) = (random.axis(), random.point(), random.point(), random.angle());
         let (w, reached) = (vector(&axis.direction()), axis.rotate(turn, &p));
-        let ours = rotate_to_point(&axis, &p, &reached).iter().next().unwrap();
+        let ours = rotate_to_point(&axis, &p, &reached, Reach::EXACT).iter().next().unwrap();
         let (other, _) = subproblem1(&vector(&p.coords), &vector(&reached.coords), &w);
         assert!(angle::difference(ours, other).abs() < 1e-7 && angle::difference(ours, turn).abs() < 1e-7);
 
         let delta = (reached - k).norm();
         let (other, _) = subproblem3(&vector(&p.coords), &vector(&k.coords), &w, delta);
-        for ours in rotate_to_distance(&axis, &p, &k, delta).iter() {
+        for ours in rotate_to_distance(&axis, &p, &k, delta, Reach::EXACT).iter() {
             assert!(other.get_all().iter().any(|other| angle::difference(ours, *other).abs() < 1e-6));
+        }
+    }
+}
+
+#[test]
+fn subproblems_of_two_axes_and_of_a_plane_mean_the_same() {
+    let mut random = Random(2);
+    for _ in 0..COUNT {
+        let (first, second, p) = (random.axis(), random.axis(), random.point());
+        let k = first.rotate(random.angle(), &second.rotate(random.angle(), &p));
+        let ours = rotate_about_meeting_axes(&first, &second, &p, &k, Reach::EXACT);
+        let [w1, w2] = [first, second].map(|axis| vector(&axis.direction()));
+        let (theirs, _) = subproblem2(&vector(&p.coords), &vector(&k.coords), &w2, &-w1);
+        for answer in &ours {
+            let [yaw, pitch] = answer.map(Option::unwrap);
+            let near = |(a, b): &(f64, f64)| angle::difference(*b, yaw).hypot(angle::difference(*a, pitch)) < 1e-5;
+            assert!(theirs.get_all().iter().any(near), "{answer:?} is not among {theirs:?}");
+        }
+
+        let (normal, turned) = (random.vector(), second.rotate(random.angle(), &p));
+        let ours = rotate_to_plane(&second, &p, &Unit::new_normalize(normal), &turned, Reach::EXACT);
+        let height = normal.dot(&turned.coords);
+        let (theirs, _) = subproblem4(&vector(&normal), &vector(&p.coords), &w2, height);
+        for ours in ours.iter() {
+            assert!(theirs.get_all().iter().any(|theirs| angle::difference(ours, *theirs).abs() < 1e-5));
         }
     }
 }
