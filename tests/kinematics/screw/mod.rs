@@ -1,7 +1,7 @@
 //! The screw solver.
 
 mod families;
-mod paden_kahan;
+mod one_joint;
 mod solver;
 mod two_link;
 
