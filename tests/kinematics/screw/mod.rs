@@ -1,8 +1,10 @@
 //! The screw solver.
 
 mod families;
+mod instance;
 mod one_joint;
 mod solver;
+mod subproblems_record;
 mod two_link;
 
 use groebot::spatial::{Axis, angle};
