@@ -3,7 +3,7 @@
 
 use nalgebra::{Cholesky, Point3, SMatrix, SVector, Vector3};
 
-use super::values::{Answers, Reach};
+use super::values::{Answers, Reach, TOLERANCE};
 use crate::spatial::{Screw, angle};
 
 /// Steps at most.
@@ -11,6 +11,9 @@ const STEPS: usize = 8;
 
 /// A candidate that is nearer than this, relative to the size, is left as it is.
 const ENOUGH: f64 = 4.0 * f64::EPSILON;
+
+/// A miss that rises to more than this, relative to the size, ends the refinement.
+const NEAR: f64 = 1e-3;
 
 /// Two answers are one when their values differ by at most this much \[rad, or sizes\].
 const MERGE: f64 = 1e-9;
@@ -52,7 +55,8 @@ fn contains<const N: usize>(screws: &[Screw; N], size: f64, found: &Answers<N>, 
     found.iter().any(|other| (0..N).all(|i| same(i, other)))
 }
 
-/// A better answer near `answer`, and how far it still is from `k`.
+/// The best answer on the way of Gauss-Newton from `answer`, and how far it still is from `k`. Where two answers meet the
+/// miss rises before it falls.
 fn refine<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
@@ -61,25 +65,26 @@ fn refine<const N: usize>(
     mut answer: [Option<f64>; N],
 ) -> ([Option<f64>; N], f64) {
     let mut miss = k - carried(screws, &answer, p);
+    let mut best = (answer, miss.norm());
     for _ in 0..STEPS {
-        if miss.norm() <= ENOUGH * size {
+        if best.1 <= ENOUGH * size {
             break;
         }
         let Some(step) = step(screws, p, &answer, &miss, size) else { break };
-        let mut next = answer;
-        next.iter_mut().zip(step.iter()).for_each(|(q, d)| *q = q.map(|q| q + d));
-        let better = k - carried(screws, &next, p);
-        if better.norm() >= miss.norm() {
+        answer.iter_mut().zip(step.iter()).for_each(|(q, d)| *q = q.map(|q| q + d));
+        miss = k - carried(screws, &answer, p);
+        if miss.norm() < best.1 {
+            best = (answer, miss.norm());
+        } else if !(miss.norm() <= NEAR * size) || best.1 <= TOLERANCE * size / 10.0 {
             break;
         }
-        (answer, miss) = (next, better);
     }
-    for (q, screw) in answer.iter_mut().zip(screws) {
+    for (q, screw) in best.0.iter_mut().zip(screws) {
         if screw.axis().is_some() {
             *q = q.map(angle::wrap);
         }
     }
-    (answer, miss.norm())
+    best
 }
 
 /// `e^(S1 q1) ... e^(Sn qn) p`, a free joint being at zero.

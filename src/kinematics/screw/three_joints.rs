@@ -150,7 +150,7 @@ fn turned(first: &Screw, second: &Axis, third: &Screw, p: &Point3<f64>, k: &Poin
         if flat <= TOLERANCE * size { [Some(0.0), None] } else { turn.angles(&y, kept.sides(&y)) }
     };
     let thirds: SmallVec<[f64; 16]> = match third {
-        Screw::Revolute(_) => trigonometric::zeros(2, condition),
+        Screw::Revolute(_) => trigonometric::zeros_to(2, turn.grain(size), condition),
         Screw::Prismatic(_) => polynomial::zeros(size, condition),
     };
     let mut found = Candidates::new();

@@ -58,6 +58,8 @@ const THREE_JOINTS: &[Family] = &[
     ("TTT two parallel before", |r| aligned(r, 0)),
     ("TTT two meeting before", |r| meeting(r, 0)),
     ("TTT two meeting behind", |r| meeting(r, 1)),
+    ("TTT point near the third axis", near_the_third_axis),
+    ("TTT target near the first axis", near_the_first_axis),
     ("TTT singular", |r| singular(r, [true, true, true])),
     ("TTS singular", |r| singular(r, [true, true, false])),
     ("TST singular", |r| singular(r, [true, false, true])),
@@ -362,6 +364,26 @@ fn singular(r: &mut Random, turns: [bool; 3]) -> Verdict {
     three_by(screws, p, q)
 }
 
+/// A length of 10^-1 ... 10^-11.
+fn small(r: &mut Random) -> f64 {
+    10f64.powi(-r.integer(1, 11))
+}
+
+fn near_the_third_axis(r: &mut Random) -> Verdict {
+    let (screws, q) = ([(); 3].map(|()| r.screw(true)), [r.angle(), r.angle(), r.angle()]);
+    let axis = screws[2].axis().copied().unwrap_or_else(|| r.axis());
+    let p = axis.point() + axis.direction().scale(r.within(-1.0, 1.0)) + r.vector() * small(r);
+    three_by(screws, p, q)
+}
+
+fn near_the_first_axis(r: &mut Random) -> Verdict {
+    let (screws, q) = ([(); 3].map(|()| r.screw(true)), [r.angle(), r.angle(), r.angle()]);
+    let axis = screws[0].axis().copied().unwrap_or_else(|| r.axis());
+    let k = axis.point() + axis.direction().scale(r.within(-1.0, 1.0)) + r.vector() * small(r);
+    let (screws, p) = moved_back(screws, &q, &k);
+    three_by(screws, p, q)
+}
+
 fn pg8(r: &mut Random) -> Verdict {
     let [a, b] = parallel(r);
     let c = b.shifted(&r.vector());
@@ -479,10 +501,12 @@ fn four_circle_families() {
 #[test]
 #[ignore = "minutes: cargo test --release --test main -- --ignored subproblems_record --nocapture"]
 fn subproblems_record() {
+    let only = std::env::var("ONLY").unwrap_or_default();
     let instances: u64 = std::env::var("GROEBOT_INSTANCES").ok().and_then(|n| n.parse().ok()).unwrap_or(100_000);
     println!("date,family,instances,lost,residual_p50,residual_p999,residual_max,answers_max");
     let mut failed = Vec::new();
     for (name, instance) in [ONE_JOINT, TWO_JOINTS, THREE_JOINTS, FOUR_CIRCLES].concat() {
+        if !name.contains(&only) { continue; }
         let verdicts: Vec<Verdict> = (0..instances).map(|seed| instance(&mut Random(seed))).collect();
         let mut residuals: Vec<f64> = verdicts.iter().flat_map(|verdict| &verdict.residuals).copied().collect();
         residuals.sort_by(f64::total_cmp);
