@@ -36,7 +36,7 @@ impl Turn {
 
     /// What of the condition is rounding, for y of at most this length.
     pub fn grain(&self, length: f64) -> f64 {
-        16.0 * f64::EPSILON * (self.lengths * length).powi(2)
+        256.0 * f64::EPSILON * (self.lengths * length).powi(2)
     }
 
     /// Whether the two equations contradict or repeat each other but for their right sides.

@@ -156,10 +156,10 @@ impl Question<'_> {
 }
 
 impl Verdict {
-    /// Whether the known answer is not among those found. Rounding of 1e-13 of the size displaces a simple one by 1e-13 / sigma;
-    /// where two meet, at a curvature c, the tolerance displaces them by sqrt(1e-12 / c), here with c over 1e-6.
+    /// Whether the known answer is not among those found. What is reached may miss by the tolerance, 1e-12 of the size: that
+    /// displaces a simple answer by 1e-12 / sigma, and two that meet, at a curvature c, by sqrt(1e-12 / c).
     pub fn is_lost(&self) -> bool {
-        self.nearest > 1e-9 + (1e-13 / self.sigma).min(1e-3)
+        self.nearest > 1e-9 + (1e-12 / self.sigma).min(1e-2)
     }
 }
 
