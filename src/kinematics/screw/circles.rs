@@ -15,7 +15,7 @@ use super::values::{Answers, Reach, Values};
 use crate::spatial::{Axis, Screw, angle};
 
 /// Steps of refinement.
-const STEPS: usize = 10;
+const STEPS: usize = 24;
 
 type Direction = Unit<Vector3<f64>>;
 
@@ -149,6 +149,8 @@ impl Pair {
             miss = Vector2::from(self.misses(q));
             if miss.amax() < best.1 {
                 best = (q, miss.amax());
+            } else if step.amax() <= 8.0 * f64::EPSILON {
+                break;
             }
         }
         (best.0.map(angle::wrap), best.1)

@@ -7,7 +7,7 @@ use super::values::{Answers, Reach};
 use crate::spatial::{Screw, angle};
 
 /// Steps at most.
-const STEPS: usize = 12;
+const STEPS: usize = 24;
 
 /// A candidate that is nearer than this, relative to the size, is left as it is.
 const ENOUGH: f64 = 4.0 * f64::EPSILON;
@@ -19,7 +19,7 @@ const NEAR: f64 = 1e-3;
 const MERGE: f64 = 1e-9;
 
 /// The longest step of a joint \[rad, or sizes\].
-const LEAP: f64 = 0.1;
+const LEAP: f64 = 0.02;
 
 /// Two answers that differ by more are two, whatever lies between them.
 const NEARBY: f64 = 1e-2;

@@ -372,9 +372,9 @@ fn singular(r: &mut Random, turns: [bool; 3]) -> Verdict {
     three_by(screws, p, q)
 }
 
-/// A length of 10^-1 ... 10^-9.
+/// A length of 10^-1 ... 10^-8.
 fn small(r: &mut Random) -> f64 {
-    10f64.powi(-r.integer(1, 9))
+    10f64.powi(-r.integer(1, 8))
 }
 
 fn near_the_third_axis(r: &mut Random) -> Verdict {
