@@ -4,15 +4,18 @@
 //! [`super::one_joint`], [`super::two_joints`] and [`super::three_joints`] in other words; the sixth has two equations in two
 //! angles. Lengths in one unit, angles in radians, tolerances as in [`super::values`].
 
-use nalgebra::{Point3, Unit, Vector3};
+use nalgebra::{Matrix2, Point3, Unit, Vector2, Vector3};
 
 use super::one_joint::{rotate_to_distance, rotate_to_plane, rotate_to_point};
 use super::three_joints::three_screws_to_point;
-use super::trigonometric::zeros;
+use super::trigonometric::zeros_to;
 use super::turn::Turn;
 use super::two_joints::two_screws_to_point;
 use super::values::{Answers, Reach, Values};
 use crate::spatial::{Axis, Screw, angle};
+
+/// Steps of refinement.
+const STEPS: usize = 24;
 
 type Direction = Unit<Vector3<f64>>;
 
@@ -101,7 +104,7 @@ impl Pair {
         };
         let x = Vector3::x();
         let mut found: Answers<2> = Answers::default();
-        for q in zeros(2, |q| turn.condition(&x, sides(q))) {
+        for q in zeros_to(2, turn.grain(1.0), |q| turn.condition(&x, sides(q))) {
             for other in turn.angles(&x, sides(q)).into_iter().flatten() {
                 let (answer, miss) = self.refine(if swapped { [q, other] } else { [other, q] });
                 let same = |known: &[Option<f64>; 2]| {
@@ -123,26 +126,34 @@ impl Pair {
         })
     }
 
-    /// Newton's method; the answer, and the larger of the two misses.
+    /// The matrix of how fast the misses change with the two angles.
+    fn slopes(&self, q: [f64; 2]) -> Matrix2<f64> {
+        let ([s1, s2], [c1, c2]) = (q.map(f64::sin), q.map(f64::cos));
+        let [a, b] = [0, 1].map(|i| self.first[i].y * c1 - self.first[i].x * s1);
+        let [c, d] = [0, 1].map(|i| self.second[i].y * c2 - self.second[i].x * s2);
+        Matrix2::new(a, c, b, d)
+    }
+
+    /// Gauss-Newton from `q`: the best answer on the way, and the larger of its two misses. Where two answers meet the miss
+    /// rises before it falls.
     fn refine(&self, mut q: [f64; 2]) -> ([f64; 2], f64) {
-        let norm = |miss: [f64; 2]| miss[0].abs().max(miss[1].abs());
-        let mut miss = self.misses(q);
-        for _ in 0..8 {
-            let ([s1, s2], [c1, c2]) = (q.map(f64::sin), q.map(f64::cos));
-            let [(a, b), (c, d)] = [0, 1].map(|i| {
-                let (first, second) = (self.first[i], self.second[i]);
-                (first.y * c1 - first.x * s1, second.y * c2 - second.x * s2)
-            });
-            let determinant = a * d - b * c;
-            let step = [(d * miss[0] - b * miss[1]) / determinant, (a * miss[1] - c * miss[0]) / determinant];
-            let next = [q[0] - step[0], q[1] - step[1]];
-            let better = self.misses(next);
-            if norm(better).is_nan() || norm(better) >= norm(miss) {
+        let mut miss = Vector2::from(self.misses(q));
+        let mut best = (q, miss.amax());
+        for _ in 0..STEPS {
+            let slopes = self.slopes(q);
+            let square = slopes.tr_mul(&slopes);
+            let damping = Matrix2::identity() * (1e-15 * square.trace());
+            let Some(inverse) = (square + damping).try_inverse() else { break };
+            let step = inverse * slopes.tr_mul(&miss);
+            q = [q[0] - step.x, q[1] - step.y];
+            miss = Vector2::from(self.misses(q));
+            if miss.amax() < best.1 {
+                best = (q, miss.amax());
+            } else if step.amax() <= 8.0 * f64::EPSILON {
                 break;
             }
-            (q, miss) = (next, better);
         }
-        (q.map(angle::wrap), norm(miss))
+        (best.0.map(angle::wrap), best.1)
     }
 }
 

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::values::{ROUNDING, Reach, TOLERANCE, Values};
+use super::values::{ROUNDING, Reach, TOLERANCE, Values, size_of_way};
 use crate::spatial::{Axis, angle};
 
 /// Paden-Kahan 1, RH0 (2-28), (2-29): the angle that rotates `p` about `axis` onto `k` \[m\].
@@ -81,18 +81,29 @@ pub fn rotate_line_to_plane(
 ) -> Values {
     let direction = Point3::from(line.direction().into_inner());
     let turned = rotate_to_plane(&axis.through_origin(), &direction, normal, &Point3::origin(), reach);
+    if turned == Values::Free {
+        return rotate_to_plane(axis, &line.point(), normal, plane_point, reach);
+    }
     let size = (line.point() - axis.point()).norm().max((plane_point - axis.point()).norm());
-    let lies = |q: &f64| normal.dot(&(axis.rotate(*q, &line.point()) - plane_point)).abs() <= reach.slack(size);
-    match turned {
-        Values::Free => rotate_to_plane(axis, &line.point(), normal, plane_point, reach),
-        turned => {
-            let mut kept = turned.iter().filter(lies);
-            match (kept.next(), kept.next()) {
-                (Some(q), Some(r)) => Values::Two(q, r),
-                (Some(q), None) => Values::One(q),
-                _ => Values::None,
-            }
-        }
+    // How far the line's direction is from the plane, and its point, and how fast both change.
+    let misses = |q: f64| {
+        let heading = axis.through_origin().rotate(q, &direction).coords;
+        let (arm, w) = (axis.rotate(q, &line.point()) - axis.point(), axis.direction());
+        let height = normal.dot(&(arm - (plane_point - axis.point()))) / size;
+        let slopes = [normal.dot(&w.cross(&heading)), normal.dot(&w.cross(&arm)) / size];
+        ([normal.dot(&heading), height], slopes)
+    };
+    let refined = |q: f64| {
+        let ([a, b], [c, d]) = misses(q);
+        let step = (a * c + b * d) / (c * c + d * d);
+        if step.abs() <= 1e-6 { angle::wrap(q - step) } else { q }
+    };
+    let lies = |q: &f64| misses(*q).0.iter().all(|miss| miss.abs() <= reach.slack(1.0));
+    let mut kept = turned.iter().map(refined).filter(lies);
+    match (kept.next(), kept.next()) {
+        (Some(q), Some(r)) => Values::Two(q, r),
+        (Some(q), None) => Values::One(q),
+        _ => Values::None,
     }
 }
 
@@ -101,7 +112,7 @@ pub fn translate_to_point(direction: &Unit<Vector3<f64>>, p: &Point3<f64>, k: &P
     let way = k - p;
     let along = direction.dot(&way);
     let beside = (way - direction.scale(along)).norm();
-    if beside <= reach.slack(way.norm()) { Values::One(along) } else { Values::None }
+    if beside <= reach.slack(size_of_way(p, k)) { Values::One(along) } else { Values::None }
 }
 
 /// Pardos-One (PG3), RH0 (2-34): the displacements along `direction` that move `p` to the distance `delta` from `k` \[m\].
@@ -119,7 +130,7 @@ pub fn translate_to_distance(
     let way = k - p;
     let along = direction.dot(&way);
     let beside = (way - direction.scale(along)).norm();
-    let (size, beyond) = (way.norm().max(delta), delta - beside);
+    let (size, beyond) = (size_of_way(p, k).max(delta), delta - beside);
     if !(size.is_finite() && delta >= 0.0) || -beyond > reach.slack(size) {
         return Values::None;
     }
@@ -148,7 +159,7 @@ pub fn translate_to_plane(
     if slope.abs() > TOLERANCE {
         return Values::One(height / slope);
     }
-    if height.abs() <= reach.slack(way.norm()) { Values::Free } else { Values::None }
+    if height.abs() <= reach.slack(size_of_way(p, plane_point)) { Values::Free } else { Values::None }
 }
 
 /// A quantity that swings between two ends while a joint turns once, and its target.

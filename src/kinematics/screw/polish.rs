@@ -7,13 +7,22 @@ use super::values::{Answers, Reach};
 use crate::spatial::{Screw, angle};
 
 /// Steps at most.
-const STEPS: usize = 8;
+const STEPS: usize = 24;
 
 /// A candidate that is nearer than this, relative to the size, is left as it is.
 const ENOUGH: f64 = 64.0 * f64::EPSILON;
 
+/// A miss that rises to more than this, relative to the size, ends the refinement.
+const NEAR: f64 = 1e-3;
+
 /// Two answers are one when their values differ by at most this much \[rad, or sizes\].
 const MERGE: f64 = 1e-9;
+
+/// The longest step of a joint \[rad, or sizes\].
+const LEAP: f64 = 0.02;
+
+/// Two answers that differ by more are two, whatever lies between them.
+const NEARBY: f64 = 1e-2;
 
 /// The candidates that reach `k` after refinement, each once; with [`Reach::Closest`], when none reaches it, those that come
 /// nearest, or what a search from many starting values finds.
@@ -32,7 +41,7 @@ pub(super) fn polish<const N: usize>(
     };
     for candidate in candidates {
         let (answer, miss) = refine(screws, p, k, size, candidate);
-        if miss <= within && !contains(screws, size, &found, &answer) {
+        if miss <= within && !contains(screws, p, k, size, &found, &answer) {
             found.push(answer);
         }
     }
@@ -42,17 +51,36 @@ pub(super) fn polish<const N: usize>(
     found
 }
 
-/// Whether `found` has `answer` already.
-fn contains<const N: usize>(screws: &[Screw; N], size: f64, found: &Answers<N>, answer: &[Option<f64>; N]) -> bool {
-    let same = |i: usize, other: &[Option<f64>; N]| match (answer[i], other[i], screws[i].axis()) {
-        (Some(a), Some(b), Some(_)) => angle::difference(a, b).abs() <= MERGE,
-        (Some(a), Some(b), None) => (a - b).abs() <= MERGE * size,
-        (a, b, _) => a.is_none() && b.is_none(),
+/// Whether `found` has `answer` already: its values, or values near them with nothing but answers between, as rounding leaves
+/// them where two answers meet or an axis passes near its point.
+fn contains<const N: usize>(
+    screws: &[Screw; N],
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    size: f64,
+    found: &Answers<N>,
+    answer: &[Option<f64>; N],
+) -> bool {
+    let within = |share: f64, other: &[Option<f64>; N]| {
+        (0..N).all(|i| match (answer[i], other[i], screws[i].axis()) {
+            (Some(a), Some(b), Some(_)) => angle::difference(a, b).abs() <= share,
+            (Some(a), Some(b), None) => (a - b).abs() <= share * size,
+            (a, b, _) => a.is_none() && b.is_none(),
+        })
     };
-    found.iter().any(|other| (0..N).all(|i| same(i, other)))
+    let miss = |q: &[Option<f64>; N]| (k - carried(screws, q, p)).norm();
+    let joined = |other: &[Option<f64>; N]| {
+        let between = std::array::from_fn(|i| {
+            let (a, b) = (answer[i]?, other[i]?);
+            Some(if screws[i].axis().is_some() { a + angle::difference(b, a) / 2.0 } else { (a + b) / 2.0 })
+        });
+        miss(&between) <= miss(answer).max(miss(other)).max(2.0 * ENOUGH * size)
+    };
+    found.iter().any(|other| within(MERGE, other) || (within(NEARBY, other) && joined(other)))
 }
 
-/// A better answer near `answer`, and how far it still is from `k`.
+/// The best answer on the way of Gauss-Newton from `answer`, and how far it still is from `k`. Where two answers meet the
+/// miss rises before it falls.
 fn refine<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
@@ -61,25 +89,30 @@ fn refine<const N: usize>(
     mut answer: [Option<f64>; N],
 ) -> ([Option<f64>; N], f64) {
     let mut miss = k - carried(screws, &answer, p);
+    let mut best = (answer, miss.norm());
     for _ in 0..STEPS {
-        if miss.norm() <= ENOUGH * size {
+        if best.1 <= ENOUGH * size {
             break;
         }
         let Some(step) = step(screws, p, &answer, &miss, size) else { break };
-        let mut next = answer;
-        next.iter_mut().zip(step.iter()).for_each(|(q, d)| *q = q.map(|q| q + d));
-        let better = k - carried(screws, &next, p);
-        if better.norm() >= miss.norm() {
+        // Candidates are near: a joint whose axis passes near its point would leap.
+        for i in 0..N {
+            let most = LEAP * if screws[i].axis().is_some() { 1.0 } else { size };
+            answer[i] = answer[i].map(|q| q + step[i].clamp(-most, most));
+        }
+        miss = k - carried(screws, &answer, p);
+        if miss.norm() < best.1 {
+            best = (answer, miss.norm());
+        } else if !(miss.norm() <= NEAR * size) || best.1 <= 10.0 * ENOUGH * size {
             break;
         }
-        (answer, miss) = (next, better);
     }
-    for (q, screw) in answer.iter_mut().zip(screws) {
+    for (q, screw) in best.0.iter_mut().zip(screws) {
         if screw.axis().is_some() {
             *q = q.map(angle::wrap);
         }
     }
-    (answer, miss.norm())
+    best
 }
 
 /// `e^(S1 q1) ... e^(Sn qn) p`, a free joint being at zero.
@@ -114,21 +147,17 @@ fn step<const N: usize>(
         if answer[i].is_some() {
             columns[i] = match &screws[i] {
                 Screw::Revolute(axis) => axis.direction().cross(&(x - axis.point())),
-                Screw::Prismatic(direction) => direction.into_inner() * size,
+                Screw::Prismatic(direction) => direction.into_inner(),
             };
         }
     }
-    let square = SMatrix::<f64, N, N>::from_fn(|i, j| columns[i].dot(&columns[j]));
+    // Each joint in its own unit: an axis may pass near its point.
+    let units = columns.map(|column| column.norm().max(1e-12 * size));
+    let square = SMatrix::<f64, N, N>::from_fn(|i, j| columns[i].dot(&columns[j]) / units[i] / units[j]);
     let damping = 1e-15 * square.trace().max(f64::MIN_POSITIVE);
-    let projected = SVector::<f64, N>::from_fn(|i, _| columns[i].dot(miss));
+    let projected = SVector::<f64, N>::from_fn(|i, _| columns[i].dot(miss) / units[i]);
     let solved = Cholesky::new(square + SMatrix::<f64, N, N>::identity() * damping)?.solve(&projected);
-    let mut step: [f64; N] = solved.into();
-    for (d, screw) in step.iter_mut().zip(screws) {
-        if screw.axis().is_none() {
-            *d *= size;
-        }
-    }
-    Some(step)
+    Some(std::array::from_fn(|i| solved[i] / units[i]))
 }
 
 fn turn(screw: &Screw, q: f64, x: &Vector3<f64>) -> Vector3<f64> {

@@ -2,10 +2,14 @@
 
 use smallvec::SmallVec;
 
-use crate::roots::real_roots;
+use crate::roots::{TANGENT, real_roots};
+
+/// An extremum this near to a zero, in sizes, is no other candidate.
+const APART: f64 = 1e-3;
 
 /// The displacements at which `f`, a polynomial of degree four at most, is zero or nearly so; `size` is a typical one.
-pub(super) fn zeros(size: f64, f: impl Fn(f64) -> f64) -> SmallVec<[f64; 16]> {
+/// With those where `f` is extremal and at most `grain`: rounding may hide a tangency there, when all of `f` is small.
+pub(super) fn zeros(size: f64, grain: f64, f: impl Fn(f64) -> f64) -> SmallVec<[f64; 16]> {
     let [m2, m1, zero, p1, p2] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|x| f(x * size));
     // The polynomial through five equidistant values, by central differences.
     let (odd1, odd2) = ((p1 - m1) / 2.0, (p2 - m2) / 2.0);
@@ -21,5 +25,15 @@ pub(super) fn zeros(size: f64, f: impl Fn(f64) -> f64) -> SmallVec<[f64; 16]> {
         }
         *coefficient = 0.0;
     }
-    real_roots(&coefficients, 1.0).as_slice().iter().map(|x| x * size).collect()
+    let mut found: SmallVec<[f64; 16]> = real_roots(&coefficients, 1.0).as_slice().iter().copied().collect();
+    if grain > TANGENT * largest {
+        let slope = [1, 2, 3, 4].map(|i| i as f64 * coefficients[i]);
+        for &extremum in real_roots(&slope, 1.0).as_slice() {
+            let is_new = found.iter().all(|x| (x - extremum).abs() > APART);
+            if is_new && f(extremum * size).abs() <= grain {
+                found.push(extremum);
+            }
+        }
+    }
+    found.iter().map(|x| x * size).collect()
 }

@@ -24,6 +24,9 @@ use crate::spatial::{Axis, Pose, Screw, angle};
 /// How much a condition may be missed by a candidate; the point that it reaches decides.
 const CANDIDATE: Reach = Reach::Within(1e-4);
 
+/// A target at most this far from the first axis, relative to the size, is near it.
+const NEAR_AXIS: f64 = 0.03;
+
 type Candidates = SmallVec<[[Option<f64>; 3]; 8]>;
 
 /// `e^(S1 q1) e^(S2 q2) e^(S3 q3) p = k` for any three screws: up to four answers.
@@ -150,14 +153,17 @@ fn turned(first: &Screw, second: &Axis, third: &Screw, p: &Point3<f64>, k: &Poin
         if flat <= TOLERANCE * size { [Some(0.0), None] } else { turn.angles(&y, kept.sides(&y)) }
     };
     let thirds: SmallVec<[f64; 16]> = match third {
-        Screw::Revolute(_) => trigonometric::zeros(2, condition),
-        Screw::Prismatic(_) => polynomial::zeros(size, condition),
+        Screw::Revolute(_) => trigonometric::zeros_to(2, turn.grain(size), condition),
+        Screw::Prismatic(_) => polynomial::zeros(size, turn.grain(size), condition),
     };
     let mut found = Candidates::new();
     for q3 in thirds {
         for q2 in angles(q3).into_iter().flatten() {
-            let x = second.rotate(q2, &move_by(third, q3, p));
-            found.extend(reach_by(first, &x, k).into_iter().map(|q1| [q1, Some(q2), Some(q3)]));
+            let y = move_by(third, q3, p);
+            let x = second.rotate(q2, &y);
+            let back = second.through_origin().rotate(q2, &velocity(third, &y).into()).coords;
+            let normal = velocity(&Screw::Revolute(*second), &x).cross(&back);
+            found.extend(reach_by(first, &x, k, &normal, size).into_iter().map(|q1| [q1, Some(q2), Some(q3)]));
         }
     }
     found
@@ -190,7 +196,7 @@ fn slid(
     };
     let thirds: SmallVec<[f64; 16]> = match third {
         Screw::Revolute(_) => trigonometric::zeros(if level { 1 } else { 2 }, condition),
-        Screw::Prismatic(_) => polynomial::zeros(size, condition),
+        Screw::Prismatic(_) => polynomial::zeros(size, 0.0, condition),
     };
     let mut found = Candidates::new();
     for q3 in thirds {
@@ -198,7 +204,8 @@ fn slid(
         let slides = translate_to_distance(second, &x, &axis.point(), radius, CANDIDATE);
         let slides = if level { slides } else { Values::One(height(q3) / slope) };
         for q2 in slides.iter() {
-            let firsts = reach_by(first, &(x + second.scale(q2)), k);
+            let normal = second.cross(&velocity(third, &x));
+            let firsts = reach_by(first, &(x + second.scale(q2)), k, &normal, size);
             found.extend(firsts.into_iter().map(|q1| [q1, Some(q2), Some(q3)]));
         }
     }
@@ -227,13 +234,35 @@ fn two_slides(first: &Screw, second: &Screw, third: &Screw, p: &Point3<f64>, k: 
     found
 }
 
-/// The values of the first joint that bring `x` near `k`.
-fn reach_by(first: &Screw, x: &Point3<f64>, k: &Point3<f64>) -> SmallVec<[Option<f64>; 2]> {
-    match first {
-        Screw::Revolute(axis) => rotate_to_point(axis, x, k, CANDIDATE),
-        Screw::Prismatic(direction) => translate_to_point(direction, x, k, Reach::Closest),
+/// The values of the first joint that bring `x` near `k`, the other joints moving it on a surface with this `normal`.
+///
+/// Where `k` is near the first axis, `x` hardly tells the angle. There two angles bring `k` back to the surface.
+fn reach_by(
+    first: &Screw,
+    x: &Point3<f64>,
+    k: &Point3<f64>,
+    normal: &Vector3<f64>,
+    size: f64,
+) -> SmallVec<[Option<f64>; 3]> {
+    let axis = match first {
+        Screw::Prismatic(direction) => {
+            return translate_to_point(direction, x, k, Reach::Closest).iter().map(Some).collect();
+        }
+        Screw::Revolute(axis) => axis,
+    };
+    let mut found: SmallVec<[Option<f64>; 3]> = rotate_to_point(axis, x, k, Reach::Closest).iter().map(Some).collect();
+    if let Some(normal) = Unit::try_new(*normal, 0.0).filter(|_| axis.distance_to(k) <= NEAR_AXIS * size) {
+        found.extend(rotate_to_plane(axis, k, &normal, x, Reach::Closest).negated().iter().map(Some));
     }
-    .choices()
+    found
+}
+
+/// How fast `x` moves with the joint.
+fn velocity(screw: &Screw, x: &Point3<f64>) -> Vector3<f64> {
+    match screw {
+        Screw::Revolute(axis) => axis.direction().cross(&(x - axis.point())),
+        Screw::Prismatic(direction) => direction.into_inner(),
+    }
 }
 
 fn move_by(screw: &Screw, q: f64, x: &Point3<f64>) -> Point3<f64> {

@@ -4,17 +4,25 @@ use std::f64::consts::{PI, TAU};
 
 use smallvec::SmallVec;
 
-use crate::roots::real_roots;
+use crate::roots::{TANGENT, real_roots};
 use crate::spatial::angle;
 
 /// The highest degree: a polynomial in the tangent of the half angle has twice as many roots.
 pub(super) const MOST: usize = 8;
+
+/// An extremum this near to a zero \[rad\] is no other candidate.
+const APART: f64 = 1e-3;
 
 /// The angles in (-pi, pi] at which `f`, a polynomial of degree `degree` in the cosine and sine, is zero or nearly so.
 ///
 /// Tangencies are found too, as [`real_roots`] finds them: an answer is off by up to the square root of the rounding
 /// there, and the caller refines and checks it.
 pub(super) fn zeros(degree: usize, f: impl Fn(f64) -> f64) -> SmallVec<[f64; 16]> {
+    zeros_to(degree, 0.0, f)
+}
+
+/// [`zeros`], and where `f` is extremal and at most `grain`: rounding may hide a tangency there, when all of `f` is small.
+pub(super) fn zeros_to(degree: usize, grain: f64, f: impl Fn(f64) -> f64) -> SmallVec<[f64; 16]> {
     debug_assert!(degree <= MOST);
     let count = 2 * degree + 1;
     let at = |sample: usize| angle::wrap(TAU * sample as f64 / count as f64);
@@ -22,8 +30,24 @@ pub(super) fn zeros(degree: usize, f: impl Fn(f64) -> f64) -> SmallVec<[f64; 16]
     // The tangent is infinite opposite the origin: there f had better be large.
     let largest = (0..count).max_by(|&i, &j| values[i].abs().total_cmp(&values[j].abs())).unwrap_or(0);
     let origin = at(largest) - PI;
-    let polynomial = in_half_tangent(degree, &harmonics(degree, &values, |sample| at(sample) - origin));
-    let roots = real_roots(&polynomial, 1.0);
+    let harmonics = harmonics(degree, &values, |sample| at(sample) - origin);
+    let mut found = angles(degree, origin, &harmonics);
+    if grain > TANGENT * values[largest].abs() {
+        let slope: SmallVec<[(f64, f64); MOST + 1]> =
+            harmonics.iter().enumerate().map(|(k, (a, b))| (k as f64 * b, -(k as f64) * a)).collect();
+        for extremum in angles(degree, origin, &slope) {
+            let is_new = found.iter().all(|&q| angle::difference(q, extremum).abs() > APART);
+            if is_new && f(extremum).abs() <= grain {
+                found.push(extremum);
+            }
+        }
+    }
+    found
+}
+
+/// The angles at which a sum of harmonics, counted from `origin`, is zero.
+fn angles(degree: usize, origin: f64, harmonics: &[(f64, f64)]) -> SmallVec<[f64; 16]> {
+    let roots = real_roots(&in_half_tangent(degree, harmonics), 1.0);
     roots.as_slice().iter().map(|t| angle::wrap(origin + 2.0 * t.atan())).collect()
 }
 

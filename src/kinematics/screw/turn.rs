@@ -12,6 +12,8 @@ pub(super) struct Turn {
     across: [Vector3<f64>; 2],
     /// The two vectors a_i along the axis.
     along: [f64; 2],
+    /// The product of the two vectors' lengths.
+    lengths: f64,
     matrix: Matrix2<f64>,
     determinant: f64,
 }
@@ -29,7 +31,12 @@ impl Turn {
         let lengths = a[0].norm() * a[1].norm();
         let determinant = matrix.determinant();
         let determinant = if determinant.abs() <= SINGULAR * lengths { 0.0 } else { determinant };
-        Turn { axis: *axis, across, along: [axis.dot(&a[0]), axis.dot(&a[1])], matrix, determinant }
+        Turn { axis: *axis, across, along: [axis.dot(&a[0]), axis.dot(&a[1])], lengths, matrix, determinant }
+    }
+
+    /// What of the condition is rounding, for y of at most this length.
+    pub fn grain(&self, length: f64) -> f64 {
+        256.0 * f64::EPSILON * (self.lengths * length).powi(2)
     }
 
     /// Whether the two equations contradict or repeat each other but for their right sides.

@@ -10,7 +10,7 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::one_joint::{Circle, rotate_to_distance, rotate_to_plane, translate_to_distance, translate_to_point};
 use super::polish::polish;
-use super::values::{Answers, Reach, TOLERANCE, Values};
+use super::values::{Answers, Reach, TOLERANCE, Values, size_of_way};
 use crate::spatial::{Axis, Screw};
 
 /// How much a condition may be missed by a candidate; the point that it reaches decides.
@@ -134,7 +134,7 @@ pub fn translate_twice(
         return translate_to_point(first, p, k, reach).iter().map(|q| [Some(q), None]).collect();
     }
     let square = normal.norm_squared();
-    if !(way.norm().is_finite() && normal.dot(&way).abs() / square.sqrt() <= reach.slack(way.norm())) {
+    if !(way.norm().is_finite() && normal.dot(&way).abs() / square.sqrt() <= reach.slack(size_of_way(p, k))) {
         return Answers::default();
     }
     let part = |a: &Vector3<f64>, b: &Vector3<f64>| a.cross(b).dot(&normal) / square;
@@ -185,5 +185,5 @@ fn rotate_then_translate(
 /// The largest distance of `p` and `k` from the centres and from each other.
 pub(super) fn size(centres: &[Point3<f64>], p: &Point3<f64>, k: &Point3<f64>) -> f64 {
     let far = |centre: &Point3<f64>| (p - centre).norm().max((k - centre).norm());
-    centres.iter().map(far).fold((k - p).norm(), |a, b| if b.is_nan() { b } else { a.max(b) })
+    centres.iter().map(far).fold(size_of_way(p, k), |a, b| if b.is_nan() { b } else { a.max(b) })
 }

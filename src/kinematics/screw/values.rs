@@ -1,6 +1,7 @@
 //! What the subproblems answer: all values of one joint, or of several, and when a target counts as reached.
 //!
-//! Tolerances are relative to the *size* of a subproblem, the largest distance between its points (1 for directions):
+//! Tolerances are relative to the *size* of a subproblem, the largest distance between its points (1 for directions), though at
+//! least [`GRAIN`] of the distance of the moved points from the origin, where their coordinates round:
 //! * a target out of reach by at most the [`Reach`] counts as reached, at the nearest end;
 //! * a joint is *free* when moving it changes what is asked for by at most [`TOLERANCE`] of the size;
 //! * two values are one where the target is within [`ROUNDING`] of the size of an end of its interval.
@@ -10,6 +11,7 @@
 
 use std::ops::Deref;
 
+use nalgebra::Point3;
 use smallvec::SmallVec;
 
 /// How far out of reach, relative to the size of the problem, a target may be and still be reached.
@@ -17,6 +19,17 @@ pub const TOLERANCE: f64 = 1e-12;
 
 /// How near to an end of its interval, relative to the size of the problem, a target has one value instead of two.
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// The smallest size of a problem, relative to its points' distance from the origin: its [`TOLERANCE`] is then the coordinates'
+/// [`ROUNDING`].
+pub const GRAIN: f64 = ROUNDING / TOLERANCE;
+
+/// The size that the rounding of these points' coordinates leaves to a problem, and no less than their distance.
+pub(super) fn size_of_way(p: &Point3<f64>, k: &Point3<f64>) -> f64 {
+    let grain = GRAIN * p.coords.norm().max(k.coords.norm());
+    let way = (k - p).norm();
+    if way.is_nan() { way } else { way.max(grain) }
+}
 
 /// What to do with a target out of reach.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,11 @@
 //! The screw solver.
 
 mod families;
-mod paden_kahan;
+mod instance;
+mod one_joint;
 mod solver;
 mod solver_record;
+mod subproblems_record;
 mod two_link;
 
 use groebot::spatial::{Axis, angle};
