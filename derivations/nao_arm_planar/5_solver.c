@@ -12,7 +12,7 @@
  * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
  * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
  * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 8 Newton steps at most.
+ * answer is polished by 32 Newton steps at most.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * NAO_ARM_PLANAR_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -84,7 +84,7 @@ double nao_arm_planar_residual(const double *target, const double *q);
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
-#define POLISH_STEPS 8
+#define POLISH_STEPS 32
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define SPLIT 0.001
 /* A factor is near zero up to this share of its scale. */

@@ -13,7 +13,7 @@
 //! Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
 //! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
 //! scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
-//! answer is polished by 8 Newton steps at most.
+//! answer is polished by 32 Newton steps at most.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
 //! `sin`, `cos`, `atan2` and `round` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
@@ -108,7 +108,7 @@ const BLUR: f64 = 0.001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
-const POLISH_STEPS: usize = 8;
+const POLISH_STEPS: usize = 32;
 /// Shares of the squared Jacobian's size that are added where a plain step fails.
 const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 0.001];
 /// A candidate that misses the equations by this share of their size at most may be a double root.

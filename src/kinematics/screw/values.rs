@@ -128,3 +128,12 @@ impl<const N: usize> FromIterator<[Option<f64>; N]> for Answers<N> {
         Answers { list: answers.into_iter().collect() }
     }
 }
+
+impl<'a, const N: usize> IntoIterator for &'a Answers<N> {
+    type Item = &'a [Option<f64>; N];
+    type IntoIter = std::slice::Iter<'a, [Option<f64>; N]>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.list.iter()
+    }
+}
