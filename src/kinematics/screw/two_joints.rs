@@ -182,8 +182,9 @@ fn rotate_then_translate(
     back.iter().map(|[turn, slide]| [slide.map(|q| -q), turn.map(|q| -q)]).collect()
 }
 
-/// The largest distance of `p` and `k` from the centres and from each other.
+/// The largest distance of `p` and `k` from the centres and from each other; NaN when a coordinate is.
 pub(super) fn size(centres: &[Point3<f64>], p: &Point3<f64>, k: &Point3<f64>) -> f64 {
+    let way = size_of_way(p, k);
     let far = |centre: &Point3<f64>| (p - centre).norm().max((k - centre).norm());
-    centres.iter().map(far).fold(size_of_way(p, k), |a, b| if b.is_nan() { b } else { a.max(b) })
+    if way.is_nan() { way } else { centres.iter().map(far).fold(way, f64::max) }
 }
