@@ -14,7 +14,7 @@ use super::values::{Answers, Reach, TOLERANCE, Values, size_of_way};
 use crate::spatial::{Axis, Screw};
 
 /// How much a condition may be missed by a candidate; the point that it reaches decides.
-const CANDIDATE: Reach = Reach::Within(1e-6);
+const CANDIDATE: f64 = 1e-6;
 
 /// `e^(S1 q1) e^(S2 q2) p = k` for any two screws: PK2, PG2, PG4, PG6, or a rotation and a translation.
 ///
@@ -112,7 +112,7 @@ fn rotate_about_crossing_axes(
     if !size.is_finite() {
         return Answers::default();
     }
-    let bend = rotate_to_plane(second, p, &first.direction(), k, CANDIDATE);
+    let bend = rotate_to_plane(second, p, &first.direction(), k, reach.at_least(CANDIDATE));
     let turned = |q2: Option<f64>| complete(first, p, k, size, q2, |q| second.rotate(q, p));
     let candidates = bend.choices().into_iter().filter_map(turned);
     let screws = [Screw::Revolute(*first), Screw::Revolute(*second)];
@@ -163,7 +163,7 @@ fn translate_then_rotate(
     let slides = if along {
         Values::One(direction.dot(&(k - axis.foot(p))))
     } else {
-        translate_to_distance(direction, p, &axis.point(), distance, CANDIDATE)
+        translate_to_distance(direction, p, &axis.point(), distance, reach.at_least(CANDIDATE))
     };
     let turned = |q2: Option<f64>| complete(&axis, p, k, size, q2, moved);
     let screws = [Screw::Revolute(axis), Screw::Prismatic(*direction)];
