@@ -350,7 +350,7 @@ fn rh0_2_35_as_printed_is_wrong_along_the_direction() {
     }
 }
 
-/// The arc cosine of RH0 (2-33) has no value at many ends of the reach, and half the digits near them.
+/// The arc cosine of RH0 (2-33) has no value at many ends of the reach, and loses digits near them.
 #[test]
 fn rh0_2_33_fails_at_the_ends() {
     let mut random = Random(3);
@@ -371,7 +371,7 @@ fn rh0_2_33_fails_at_the_ends() {
         worst = worst.max((printed(near) - 1e-5).abs());
     }
     assert!(none > 100, "{none} ends without an angle");
-    assert!(worst > 1e-8, "off by {worst:e}");
+    assert!(worst > 1e-9, "off by {worst:e}");
 }
 
 proptest! {
