@@ -17,6 +17,7 @@ mod wrench;
 
 pub use line::Relation;
 pub use roll_pitch_yaw::RollPitchYaw;
+pub(crate) use screw::Half;
 pub use screw::{Axis, Screw};
 pub use screw_coordinates::ScrewCoordinates;
 pub use twist::Twist;

@@ -12,6 +12,22 @@ pub struct Axis {
     point: Point3<f64>,
 }
 
+/// A joint value with the sine and cosine of half of it, for a joint that is moved more than once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Half {
+    pub q: f64,
+    sine: f64,
+    cosine: f64,
+}
+
+impl Half {
+    /// At `q`.
+    pub fn new(q: f64) -> Self {
+        let (sine, cosine) = (q / 2.0).sin_cos();
+        Half { q, sine, cosine }
+    }
+}
+
 /// The motion that a joint allows, in the base frame at the zero configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Screw {
@@ -71,7 +87,11 @@ impl Axis {
 
     /// The rotation by `angle` \[rad\] about this axis as a rigid transform, RH0 (2-7) with (2-25).
     pub fn rotation(&self, angle: f64) -> Pose {
-        let half = (angle / 2.0).sin_cos();
+        self.rotation_by_half((angle / 2.0).sin_cos())
+    }
+
+    /// The same by the sine and cosine of half the angle.
+    fn rotation_by_half(&self, half: (f64, f64)) -> Pose {
         let translation = -rotation::displacement_by_half(&self.direction, half, &self.point.coords);
         let quaternion = Quaternion::from_parts(half.1, self.direction.scale(half.0));
         Pose::from_parts(Translation3::from(translation), UnitQuaternion::new_unchecked(quaternion))
@@ -146,6 +166,14 @@ impl Screw {
         match self {
             Screw::Revolute(axis) => Some(axis),
             Screw::Prismatic(_) => None,
+        }
+    }
+
+    /// [`Screw::exp`] by a value whose sine and cosine are known.
+    pub(crate) fn exp_half(&self, value: Half) -> Pose {
+        match self {
+            Screw::Revolute(axis) => axis.rotation_by_half((value.sine, value.cosine)),
+            Screw::Prismatic(_) => self.exp(value.q),
         }
     }
 

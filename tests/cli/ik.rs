@@ -50,7 +50,9 @@ fn a_quaternion_and_angles_say_the_same() {
 #[test]
 fn joint_values_are_among_the_answers_and_limits_are_told() {
     let page = succeed(&["ik", "nao_left_leg", "--q", "5,10,-20,30,-10,5", "--degrees"]);
-    let row = page.lines().find(|line| ["5.000000", "10.000000", "-20.000000", "30.000000"].iter().all(|value| line.contains(value)));
+    let row = page
+        .lines()
+        .find(|line| ["5.000000", "10.000000", "-20.000000", "30.000000"].iter().all(|value| line.contains(value)));
     assert!(row.is_some_and(|row| !row.contains("outside")), "{page}");
     assert!(page.contains("KneePitch outside its limits"), "{page}");
 }

@@ -104,7 +104,7 @@ impl Pair {
         };
         let x = Vector3::x();
         let mut found: Answers<2> = Answers::default();
-        for q in zeros_to(2, turn.grain(1.0), |q| turn.condition(&x, sides(q))) {
+        for q in zeros_to(2, turn.grain(1.0, 0.0), |q| turn.condition(&x, sides(q))) {
             for other in turn.angles(&x, sides(q)).into_iter().flatten() {
                 let (answer, miss) = self.refine(if swapped { [q, other] } else { [other, q] });
                 let same = |known: &[Option<f64>; 2]| {

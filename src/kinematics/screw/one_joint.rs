@@ -49,7 +49,7 @@ pub fn rotate_to_plane(
     let w = axis.direction();
     let (u, height) = (p - axis.point(), normal.dot(&(plane_point - axis.point())));
     let size = u.norm().max(height.abs());
-    if !size.is_finite() {
+    if !(u.norm().is_finite() && height.is_finite()) {
         return Values::None;
     }
     let (u_flat, n_flat) = (u - w.scale(w.dot(&u)), normal.into_inner() - w.scale(w.dot(normal)));
@@ -112,7 +112,8 @@ pub fn translate_to_point(direction: &Unit<Vector3<f64>>, p: &Point3<f64>, k: &P
     let way = k - p;
     let along = direction.dot(&way);
     let beside = (way - direction.scale(along)).norm();
-    if beside <= reach.slack(size_of_way(p, k)) { Values::One(along) } else { Values::None }
+    let is_reached = along.is_finite() && beside <= reach.slack(size_of_way(p, k));
+    if is_reached { Values::One(along) } else { Values::None }
 }
 
 /// Pardos-One (PG3), RH0 (2-34): the displacements along `direction` that move `p` to the distance `delta` from `k` \[m\].

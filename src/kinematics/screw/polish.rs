@@ -127,6 +127,32 @@ fn move_by(screw: &Screw, q: f64, x: &Point3<f64>) -> Point3<f64> {
     }
 }
 
+/// How fast the carried point moves with each joint: the columns of the Jacobian; zero for a free joint. With the directions of
+/// the axes where they are then, zero for slides.
+fn columns<const N: usize>(
+    screws: &[Screw; N],
+    p: &Point3<f64>,
+    answer: &[Option<f64>; N],
+) -> [(Vector3<f64>, Vector3<f64>); N] {
+    // From the last joint on: the velocity at the joint, turned by the joints before it.
+    let mut columns = [(Vector3::zeros(), Vector3::zeros()); N];
+    let mut x = *p;
+    for i in (0..N).rev() {
+        let q = answer[i].unwrap_or(0.0);
+        x = move_by(&screws[i], q, &x);
+        for (later, axis) in columns.iter_mut().skip(i + 1) {
+            (*later, *axis) = (turn(&screws[i], q, later), turn(&screws[i], q, axis));
+        }
+        if answer[i].is_some() {
+            columns[i] = match &screws[i] {
+                Screw::Revolute(axis) => (axis.direction().cross(&(x - axis.point())), axis.direction().into_inner()),
+                Screw::Prismatic(direction) => (direction.into_inner(), Vector3::zeros()),
+            };
+        }
+    }
+    columns
+}
+
 /// The Gauss-Newton step, damped so little that it only keeps singular configurations finite.
 fn step<const N: usize>(
     screws: &[Screw; N],
@@ -135,22 +161,7 @@ fn step<const N: usize>(
     miss: &Vector3<f64>,
     size: f64,
 ) -> Option<[f64; N]> {
-    // The columns of the Jacobian, from the last joint on: the velocity at the joint, turned by the joints before it.
-    let mut columns = [Vector3::zeros(); N];
-    let mut x = *p;
-    for i in (0..N).rev() {
-        let q = answer[i].unwrap_or(0.0);
-        x = move_by(&screws[i], q, &x);
-        for later in columns.iter_mut().skip(i + 1) {
-            *later = turn(&screws[i], q, later);
-        }
-        if answer[i].is_some() {
-            columns[i] = match &screws[i] {
-                Screw::Revolute(axis) => axis.direction().cross(&(x - axis.point())),
-                Screw::Prismatic(direction) => direction.into_inner(),
-            };
-        }
-    }
+    let columns = columns(screws, p, answer).map(|(column, _)| column);
     // Each joint in its own unit: an axis may pass near its point.
     let units = columns.map(|column| column.norm().max(1e-12 * size));
     let square = SMatrix::<f64, N, N>::from_fn(|i, j| columns[i].dot(&columns[j]) / units[i] / units[j]);
@@ -158,6 +169,29 @@ fn step<const N: usize>(
     let projected = SVector::<f64, N>::from_fn(|i, _| columns[i].dot(miss) / units[i]);
     let solved = Cholesky::new(square + SMatrix::<f64, N, N>::identity() * damping)?.solve(&projected);
     Some(std::array::from_fn(|i| solved[i] / units[i]))
+}
+
+/// Newton's step to a least distance, damped; none when the distance does not curve upwards.
+fn downhill<const N: usize>(
+    screws: &[Screw; N],
+    p: &Point3<f64>,
+    answer: &[Option<f64>; N],
+    miss: &Vector3<f64>,
+    size: f64,
+    damping: f64,
+) -> Option<[f64; N]> {
+    let columns = columns(screws, p, answer);
+    let units = screws.each_ref().map(|screw| if screw.axis().is_some() { 1.0 } else { size });
+    let hessian = SMatrix::<f64, N, N>::from_fn(|i, j| {
+        // A joint turns the velocities of those behind it.
+        let (before, behind) = (i.min(j), i.max(j));
+        let curvature = columns[before].1.cross(&columns[behind].0).dot(miss);
+        (columns[i].0.dot(&columns[j].0) - curvature) * units[i] * units[j]
+    });
+    let projected = SVector::<f64, N>::from_fn(|i, _| columns[i].0.dot(miss) * units[i]);
+    let damped = hessian + SMatrix::<f64, N, N>::identity() * (damping * size * size);
+    let solved = Cholesky::new(damped)?.solve(&projected);
+    Some(std::array::from_fn(|i| solved[i] * units[i]))
 }
 
 fn turn(screw: &Screw, q: f64, x: &Vector3<f64>) -> Vector3<f64> {
@@ -199,7 +233,7 @@ fn closest<const N: usize>(screws: &[Screw; N], p: &Point3<f64>, k: &Point3<f64>
     found
 }
 
-/// Levenberg-Marquardt to a least distance from `k`.
+/// Damped Newton (Levenberg 1944) to a least distance from `k`.
 fn descend<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
@@ -207,19 +241,16 @@ fn descend<const N: usize>(
     size: f64,
     start: [Option<f64>; N],
 ) -> ([Option<f64>; N], f64) {
-    let (mut answer, mut share) = (start, 1.0);
-    let mut miss = (k - carried(screws, &answer, p)).norm();
+    let (mut answer, mut damping) = (start, 1e-3);
+    let mut miss = k - carried(screws, &answer, p);
     for _ in 0..100 {
-        let Some(step) = step(screws, p, &answer, &(k - carried(screws, &answer, p)), size) else { break };
-        let mut next = answer;
-        next.iter_mut().zip(step.iter()).for_each(|(q, d)| *q = q.map(|q| q + d * share));
-        let better = (k - carried(screws, &next, p)).norm();
-        if better < miss {
-            (answer, miss, share) = (next, better, f64::min(1.0, share * 2.0));
-        } else if share < 1e-6 {
-            break;
-        } else {
-            share /= 4.0;
+        let next = downhill(screws, p, &answer, &miss, size, damping)
+            .map(|step| std::array::from_fn(|i| answer[i].map(|q| q + step[i])));
+        let better = next.map(|next| (next, k - carried(screws, &next, p)));
+        match better.filter(|(_, better)| better.norm() < miss.norm()) {
+            Some((next, better)) => (answer, miss, damping) = (next, better, damping / 10.0),
+            None if damping > 1e6 => break,
+            None => damping *= 10.0,
         }
     }
     refine(screws, p, k, size, answer)

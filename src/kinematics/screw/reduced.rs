@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use nalgebra::Point3;
 use smallvec::SmallVec;
 
-use crate::spatial::{Pose, Screw};
+use crate::spatial::{Half, Pose, Screw};
 
 /// A joint that is still unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub(super) struct Member {
 }
 
 /// Joints in a row.
-pub(super) type Row = SmallVec<[Member; 8]>;
+pub(super) type Row = SmallVec<[Member; 6]>;
 
 /// What the product of the unknown joints must do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,8 +46,8 @@ pub(super) struct Reduced {
 
 impl Reduced {
     /// The loop with the joint at `place` known to be at `q`.
-    pub fn absorb(&mut self, place: usize, q: f64) {
-        let motion = self.row[place].screw.exp(q);
+    pub fn absorb(&mut self, place: usize, q: Half) {
+        let motion = self.row[place].screw.exp_half(q);
         let after = self.row.len() - 1 - place;
         self.row.remove(place);
         match (&mut self.goal, place <= after) {

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector, Vector3};
 
 use super::reduced::Goal;
-use crate::spatial::{Pose, Screw};
+use crate::spatial::{Half, Pose, Screw};
 
 /// The most joints of a chain that has finitely many answers.
 pub(super) const MOST_JOINTS: usize = 6;
@@ -29,8 +29,9 @@ impl Miss {
     }
 
     /// What is missing at `q`; `tip` is the point whose distance counts.
-    fn of(screws: &[Screw], q: &[f64], goal: &Goal, tip: &Vector3<f64>) -> Miss {
-        let product = screws.iter().zip(q).rev().fold(Pose::identity(), |pose, (screw, &q)| screw.exp(q) * pose);
+    fn of(screws: &[Screw], q: &[Half], goal: &Goal, tip: &Vector3<f64>) -> Miss {
+        let motions = screws.iter().zip(q).rev().map(|(screw, q)| screw.exp_half(*q));
+        let product = motions.reduce(|pose, motion| motion * pose).unwrap_or_else(Pose::identity);
         let mut twist = SVector::<f64, 6>::zeros();
         match goal {
             Goal::Point { from, to } => {
@@ -50,30 +51,32 @@ impl Miss {
     }
 }
 
-/// `q`, improved until it misses the goal by less than `enough`, and by how much it misses. Joints of `fixed` stay.
+/// `q`, improved until it misses the goal by no more than `enough`, and by how much it misses. Joints of `fixed` stay.
 pub(super) fn refine(
     screws: &[Screw],
     goal: &Goal,
     tip: &Vector3<f64>,
     reach: f64,
-    (q, fixed): (&mut [f64; MOST_JOINTS], &[bool; MOST_JOINTS]),
+    (start, fixed): (&[Half], &[bool; MOST_JOINTS]),
     enough: f64,
-) -> Miss {
-    let mut miss = Miss::of(screws, &q[..screws.len()], goal, tip);
+) -> ([f64; MOST_JOINTS], Miss) {
+    let mut q = [0.0; MOST_JOINTS];
+    q.iter_mut().zip(start).for_each(|(q, start)| *q = start.q);
+    let mut miss = Miss::of(screws, start, goal, tip);
     for _ in 0..STEPS {
         if miss.size(reach) <= enough || miss.size(reach) > 1e-2 {
             break;
         }
-        let Some(step) = newton(screws, q, goal, tip, reach, (&miss, fixed)) else { break };
-        let mut next = *q;
+        let Some(step) = newton(screws, &q, goal, tip, reach, (&miss, fixed)) else { break };
+        let mut next = q;
         next.iter_mut().zip(step.iter()).for_each(|(q, d)| *q += d);
-        let better = Miss::of(screws, &next[..screws.len()], goal, tip);
+        let better = Miss::of(screws, &next.map(Half::new), goal, tip);
         if better.size(reach) >= miss.size(reach) {
             break;
         }
-        (*q, miss) = (next, better);
+        (q, miss) = (next, better);
     }
-    miss
+    (q, miss)
 }
 
 /// The damped least-squares step.

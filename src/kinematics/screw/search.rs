@@ -12,7 +12,7 @@ use super::feature::{Feature, Scale, features, last_features};
 use super::parallel_pairs;
 use super::reduced::{Goal, Reduced};
 use super::step::{Kind, Relation, Step};
-use crate::spatial::{Screw, angle};
+use crate::spatial::{Half, Screw, angle};
 
 /// How near a sample's own value must come to count as found \[rad, or lengths of the chain\].
 const FOUND: f64 = 1e-6;
@@ -109,7 +109,7 @@ impl Sample {
         let mut reduced = self.start.clone();
         for (joint, &q) in self.q.iter().enumerate().filter(|(joint, _)| known >> joint & 1 == 1) {
             if let Some(place) = reduced.place(joint) {
-                reduced.absorb(place, q);
+                reduced.absorb(place, Half::new(q));
             }
         }
         reduced

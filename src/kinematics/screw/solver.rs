@@ -12,7 +12,7 @@ use super::search::{Sample, Search, scale_of};
 use super::step::Step;
 use super::target::{Solution, Target, whole};
 use crate::kinematics::{Chain, Geometry, Task};
-use crate::spatial::{Axis, Screw, angle};
+use crate::spatial::{Axis, Half, Screw, angle};
 use crate::{Error, ErrorKind, Result};
 
 /// How far, relative to the reach and in radians, an answer's tip may be from its target.
@@ -36,7 +36,7 @@ pub struct ScrewSolver {
 
 /// A partial answer on the way through the steps.
 struct Trail {
-    q: [f64; MOST_JOINTS],
+    q: [Half; MOST_JOINTS],
     free: [bool; MOST_JOINTS],
     branch: [usize; MOST_JOINTS],
 }
@@ -86,7 +86,8 @@ impl ScrewSolver {
     pub fn solve(&self, target: &Target) -> Result<Vec<Solution>> {
         let start = whole(&self.screws, target.goal(&self.chain)?);
         let mut found = Vec::with_capacity(self.plan.most_solutions());
-        let mut trail = Trail { q: [0.0; MOST_JOINTS], free: [false; MOST_JOINTS], branch: [0; MOST_JOINTS] };
+        let mut trail =
+            Trail { q: [Half::new(0.0); MOST_JOINTS], free: [false; MOST_JOINTS], branch: [0; MOST_JOINTS] };
         self.descend(0, &start, &start.goal, &mut trail, &mut found);
         Ok(found)
     }
@@ -98,7 +99,7 @@ impl ScrewSolver {
         for (branch, answer) in step.solve(reduced).into_iter().flatten().enumerate() {
             trail.branch[depth] = branch;
             for (&joint, value) in joints.iter().zip(&answer) {
-                (trail.q[joint], trail.free[joint]) = (value.unwrap_or(0.0), value.is_none());
+                (trail.q[joint], trail.free[joint]) = (Half::new(value.unwrap_or(0.0)), value.is_none());
             }
             if depth + 1 == self.steps.len() {
                 self.finish(goal, trail, found);
@@ -117,12 +118,11 @@ impl ScrewSolver {
     /// Refines and checks a complete answer, and keeps it when it is new.
     fn finish(&self, goal: &Goal, trail: &Trail, found: &mut Vec<Solution>) {
         let tip = self.chain.base_from_tip().translation.vector;
-        let mut q = trail.q;
-        let miss = refine(&self.screws, goal, &tip, self.reach, (&mut q, &trail.free), ENOUGH);
+        let count = self.screws.len();
+        let (mut q, miss) = refine(&self.screws, goal, &tip, self.reach, (&trail.q[..count], &trail.free), ENOUGH);
         if miss.size(self.reach).is_nan() || miss.size(self.reach) > ACCEPT {
             return;
         }
-        let count = self.screws.len();
         for (q, screw) in q.iter_mut().zip(&self.screws) {
             if screw.axis().is_some() {
                 *q = angle::wrap(*q);
@@ -192,7 +192,7 @@ fn tell(steps: &[Step], sample: &Sample, scale: Scale) -> Plan {
         told.push(describe(step, &reduced, step.most_answers(&reduced), scale));
         for joint in step.solved(&reduced) {
             if let Some(place) = reduced.place(joint) {
-                reduced.absorb(place, sample.q[joint]);
+                reduced.absorb(place, Half::new(sample.q[joint]));
             }
         }
     }

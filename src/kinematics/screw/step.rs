@@ -26,8 +26,13 @@ use smallvec::SmallVec;
 const LOOSE: Reach = Reach::Within(1e-7);
 
 /// Values for the joints that a step solves, in the order of [`Step::solved`]; `None` when every value does it.
-pub(super) type Answer = SmallVec<[Option<f64>; 3]>;
-pub(super) type Answers = SmallVec<[Answer; 4]>;
+pub(super) type Answer = [Option<f64>; 6];
+pub(super) type Answers = SmallVec<[Answer; 2]>;
+
+/// The first entries of an answer; it has more places than most steps have joints.
+fn answer<const N: usize>(values: [Option<f64>; N]) -> Answer {
+    std::array::from_fn(|i| values.get(i).copied().flatten())
+}
 
 /// Where the loop is cut, and what is solved there.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,7 +104,7 @@ impl Step {
                 let to = (pose.rotation * n, pose * c);
                 let [a, b, c3] = [rest[0].screw.axis()?, rest[1].screw.axis()?, rest[2].screw.axis()?];
                 let found = carry_plane(a, b, c3, &(n, c), &to);
-                Some(found.iter().map(|[q, r]| SmallVec::from_slice(&[Some(*q), Some(*r)])).collect())
+                Some(found.iter().map(|[q, r]| answer([Some(*q), Some(*r)])).collect())
             }
             Kind::Last => {
                 let Goal::Pose(pose) = reduced.goal else { return None };
@@ -108,7 +113,7 @@ impl Step {
             Kind::ThreePairs => {
                 let Goal::Pose(pose) = reduced.goal else { return None };
                 let found = parallel_pairs::solve(&reduced.row, &pose, LOOSE);
-                Some(found.iter().map(|q| q.iter().map(|q| Some(*q)).collect()).collect())
+                Some(found.iter().map(|q| q.map(Some)).collect())
             }
             Kind::Between(relation) => {
                 let (a, b) = relation.locate(rest, tail, &reduced.goal)?;
@@ -143,7 +148,7 @@ impl Relation {
 }
 
 fn answers(values: Values) -> Answers {
-    values.choices().into_iter().map(|q| SmallVec::from_slice(&[q])).collect()
+    values.choices().into_iter().map(|q| answer([q])).collect()
 }
 
 /// `p` to `k` by all joints of `rest`.
@@ -155,11 +160,11 @@ fn carry_point(rest: &[Member], p: &Point3<f64>, k: &Point3<f64>) -> Answers {
         }),
         [first, second] => {
             let found = two_screws_to_point(&first.screw, &second.screw, p, k, LOOSE);
-            found.iter().map(|q| SmallVec::from_slice(q)).collect()
+            found.iter().map(|q| answer(*q)).collect()
         }
         [first, second, third] => {
             let found = three_screws_to_point([&first.screw, &second.screw, &third.screw], p, k, LOOSE);
-            found.iter().map(|q| SmallVec::from_slice(q)).collect()
+            found.iter().map(|q| answer(*q)).collect()
         }
         _ => Answers::new(),
     }
@@ -175,7 +180,7 @@ fn turn_direction(screws: &[Screw], x: &Unit<Vector3<f64>>, y: &Unit<Vector3<f64
             (Some(first), Some(second)) => {
                 let (first, second) = (Screw::Revolute(first), Screw::Revolute(second));
                 let found = two_screws_to_point(&first, &second, &p, &k, LOOSE);
-                found.iter().map(|q| SmallVec::from_slice(q)).collect()
+                found.iter().map(|q| answer(*q)).collect()
             }
             _ => Answers::new(),
         },
@@ -191,7 +196,7 @@ fn last(screw: &Screw, pose: &Pose) -> Answers {
         }
         Screw::Prismatic(direction) => direction.dot(&pose.translation.vector),
     };
-    std::iter::once(SmallVec::from_slice(&[Some(q)])).collect()
+    std::iter::once(answer([Some(q)])).collect()
 }
 
 /// The one joint `screw` that is left, behind the run (`E b` is to lie to a as `T b` does) or before it (`E a` is to lie to
@@ -239,7 +244,7 @@ fn around(screws: [&Screw; 2], pairs: &[(Object, Object); 2], pose: &Pose) -> Op
     let part = |i: usize, j: usize| Vector3::new(rows[i][j], rows[i][j + 1], 0.0);
     let found =
         four_circles([part(0, 0), part(0, 2), part(1, 0), part(1, 2)], [z; 4], [x; 4], rows[0][4], rows[1][4], LOOSE);
-    Some(found.iter().map(|q| SmallVec::from_slice(q)).collect())
+    Some(found.iter().map(|q| answer(*q)).collect())
 }
 
 /// `f(q) = f0 + f1 cos q + f2 sin q` for a revolute joint.

@@ -49,10 +49,11 @@ pub fn three_screws_to_point(screws: [&Screw; 3], p: &Point3<f64>, k: &Point3<f6
         let two = two_screws_to_point(screws[1], screws[2], p, k, reach);
         return two.iter().map(|[b, c]| [None, *b, *c]).collect();
     }
+    let miss = reach.slack(4.0).min(1e-2);
     let candidates = match screws {
         [Screw::Revolute(_), Screw::Prismatic(_), Screw::Prismatic(_)] => backwards(screws, p, k),
-        [first, Screw::Revolute(second), third] => turned(first, second, third, p, k, size),
-        [first, Screw::Prismatic(second), third] => slid(first, second, third, p, k, size),
+        [first, Screw::Revolute(second), third] => turned(first, second, third, p, k, size, miss),
+        [first, Screw::Prismatic(second), third] => slid(first, second, third, p, k, size, miss),
     };
     polish(&screws.map(|screw| *screw), p, k, size, reach, candidates.into_iter())
 }
@@ -139,7 +140,15 @@ impl Kept {
 }
 
 /// The second joint turns.
-fn turned(first: &Screw, second: &Axis, third: &Screw, p: &Point3<f64>, k: &Point3<f64>, size: f64) -> Candidates {
+fn turned(
+    first: &Screw,
+    second: &Axis,
+    third: &Screw,
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    size: f64,
+    miss: f64,
+) -> Candidates {
     let kept = Kept::new(first, k, &second.point());
     let turn = Turn::new(&second.direction(), kept.a);
     let seen = |q: f64| move_by(third, q, p) - second.point();
@@ -153,8 +162,8 @@ fn turned(first: &Screw, second: &Axis, third: &Screw, p: &Point3<f64>, k: &Poin
         if flat <= TOLERANCE * size { [Some(0.0), None] } else { turn.angles(&y, kept.sides(&y)) }
     };
     let thirds: SmallVec<[f64; 16]> = match third {
-        Screw::Revolute(_) => trigonometric::zeros_to(2, turn.grain(size), condition),
-        Screw::Prismatic(_) => polynomial::zeros(size, turn.grain(size), condition),
+        Screw::Revolute(_) => trigonometric::zeros_to(2, turn.grain(size, miss), condition),
+        Screw::Prismatic(_) => polynomial::zeros(size, turn.grain(size, miss), condition),
     };
     let mut found = Candidates::new();
     for q3 in thirds {
@@ -177,6 +186,7 @@ fn slid(
     p: &Point3<f64>,
     k: &Point3<f64>,
     size: f64,
+    miss: f64,
 ) -> Candidates {
     let axis = match first {
         Screw::Prismatic(_) => return two_slides(first, &Screw::Prismatic(*second), third, p, k),
@@ -194,9 +204,10 @@ fn slid(
         let y = (move_by(third, q, p) - axis.point()) * slope + second.scale(height(q));
         y.norm_squared() - (slope * radius).powi(2)
     };
+    let grain = miss * if level { size } else { size * size };
     let thirds: SmallVec<[f64; 16]> = match third {
-        Screw::Revolute(_) => trigonometric::zeros(if level { 1 } else { 2 }, condition),
-        Screw::Prismatic(_) => polynomial::zeros(size, 0.0, condition),
+        Screw::Revolute(_) => trigonometric::zeros_to(if level { 1 } else { 2 }, grain, condition),
+        Screw::Prismatic(_) => polynomial::zeros(size, grain, condition),
     };
     let mut found = Candidates::new();
     for q3 in thirds {

@@ -34,9 +34,11 @@ impl Turn {
         Turn { axis: *axis, across, along: [axis.dot(&a[0]), axis.dot(&a[1])], lengths, matrix, determinant }
     }
 
-    /// What of the condition is rounding, for y of at most this length.
-    pub fn grain(&self, length: f64) -> f64 {
-        256.0 * f64::EPSILON * (self.lengths * length).powi(2)
+    /// How far from zero the condition may be, for y of at most this length, by rounding or where what is asked for is missed
+    /// by the share `miss` of that length.
+    pub fn grain(&self, length: f64, miss: f64) -> f64 {
+        let factor = if self.is_singular() { self.matrix.norm() } else { self.lengths };
+        miss.max(256.0 * f64::EPSILON) * (factor * length).powi(2)
     }
 
     /// Whether the two equations contradict or repeat each other but for their right sides.

@@ -8,13 +8,13 @@
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::one_joint::{Circle, rotate_to_distance, rotate_to_plane, translate_to_distance, translate_to_point};
+use super::one_joint::{rotate_to_distance, rotate_to_plane, translate_to_distance, translate_to_point};
 use super::polish::polish;
 use super::values::{Answers, Reach, TOLERANCE, Values, size_of_way};
 use crate::spatial::{Axis, Screw};
 
 /// How much a condition may be missed by a candidate; the point that it reaches decides.
-const CANDIDATE: Reach = Reach::Within(1e-6);
+const CANDIDATE: f64 = 1e-6;
 
 /// `e^(S1 q1) e^(S2 q2) p = k` for any two screws: PK2, PG2, PG4, PG6, or a rotation and a translation.
 ///
@@ -95,9 +95,11 @@ fn complete(
     moved: impl Fn(f64) -> Point3<f64>,
 ) -> Option<[Option<f64>; 2]> {
     let c = second.map_or(*p, moved);
-    let circle = Circle::new(first, &c, k)?;
-    let is_free = first.distance_to(k).max(first.distance_to(&c)) <= TOLERANCE * size || circle.farthest() == 0.0;
-    Some([(!is_free).then_some(circle.bearing), second])
+    let (w, u, v) = (first.direction(), c - first.point(), k - first.point());
+    let (u, v) = (u - w.scale(w.dot(&u)), v - w.scale(w.dot(&v)));
+    let radius = u.norm_squared().max(v.norm_squared()).sqrt();
+    let bearing = w.dot(&u.cross(&v)).atan2(u.dot(&v));
+    radius.is_finite().then_some([(radius > TOLERANCE * size).then_some(bearing), second])
 }
 
 /// Rotations about axes that are not parallel.
@@ -112,7 +114,7 @@ fn rotate_about_crossing_axes(
     if !size.is_finite() {
         return Answers::default();
     }
-    let bend = rotate_to_plane(second, p, &first.direction(), k, CANDIDATE);
+    let bend = rotate_to_plane(second, p, &first.direction(), k, reach.at_least(CANDIDATE));
     let turned = |q2: Option<f64>| complete(first, p, k, size, q2, |q| second.rotate(q, p));
     let candidates = bend.choices().into_iter().filter_map(turned);
     let screws = [Screw::Revolute(*first), Screw::Revolute(*second)];
@@ -163,7 +165,7 @@ fn translate_then_rotate(
     let slides = if along {
         Values::One(direction.dot(&(k - axis.foot(p))))
     } else {
-        translate_to_distance(direction, p, &axis.point(), distance, CANDIDATE)
+        translate_to_distance(direction, p, &axis.point(), distance, reach.at_least(CANDIDATE))
     };
     let turned = |q2: Option<f64>| complete(&axis, p, k, size, q2, moved);
     let screws = [Screw::Revolute(axis), Screw::Prismatic(*direction)];
@@ -182,8 +184,9 @@ fn rotate_then_translate(
     back.iter().map(|[turn, slide]| [slide.map(|q| -q), turn.map(|q| -q)]).collect()
 }
 
-/// The largest distance of `p` and `k` from the centres and from each other.
+/// The largest distance of `p` and `k` from the centres and from each other; NaN when a coordinate is.
 pub(super) fn size(centres: &[Point3<f64>], p: &Point3<f64>, k: &Point3<f64>) -> f64 {
+    let way = size_of_way(p, k);
     let far = |centre: &Point3<f64>| (p - centre).norm().max((k - centre).norm());
-    centres.iter().map(far).fold(size_of_way(p, k), |a, b| if b.is_nan() { b } else { a.max(b) })
+    if way.is_nan() { way } else { centres.iter().map(far).fold(way, f64::max) }
 }

@@ -44,6 +44,11 @@ impl Reach {
     /// Within [`TOLERANCE`].
     pub const EXACT: Reach = Reach::Within(TOLERANCE);
 
+    /// A reach for candidates that are checked later: at least `share` of the size.
+    pub(super) fn at_least(self, share: f64) -> Reach {
+        Reach::Within(share.max(self.slack(10.0).min(1.0)))
+    }
+
     /// The largest miss that is allowed in a problem of this size.
     pub(super) fn slack(self, size: f64) -> f64 {
         match self {

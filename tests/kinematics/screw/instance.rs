@@ -1,5 +1,6 @@
 //! Random subproblems whose answer is known by construction, and what a solver's answers to them are worth.
 
+use groebot::kinematics::oracle::{Oracle, Unknown};
 use groebot::kinematics::screw::values::{Answers, Values};
 use groebot::spatial::{Axis, Screw, angle};
 use nalgebra::{DMatrix, Point3, Unit, Vector3};
@@ -192,4 +193,39 @@ pub fn judge<const N: usize>(
 pub fn size(screws: &[Screw], p: &Point3<f64>, k: &Point3<f64>) -> f64 {
     let centres = screws.iter().filter_map(|screw| screw.axis()).map(Axis::point);
     centres.map(|c| (p - c).norm().max((k - c).norm())).fold((k - p).norm(), f64::max)
+}
+
+/// The smallest distance from `k` on a grid of `steps` values of each joint, displacements up to 3.
+pub fn least_distance(screws: &[Screw], p: &Point3<f64>, k: &Point3<f64>, steps: usize) -> f64 {
+    let value = |i: usize, number: usize| {
+        let share = (number / steps.pow(i as u32) % steps) as f64 / steps as f64;
+        if screws[i].axis().is_some() { std::f64::consts::TAU * share } else { 6.0 * share - 3.0 }
+    };
+    let distance = |number: usize| {
+        let q: Vec<f64> = (0..screws.len()).map(|i| value(i, number)).collect();
+        (carried(screws, &q, p) - k).norm()
+    };
+    (0..steps.pow(screws.len() as u32)).map(distance).fold(f64::INFINITY, f64::min)
+}
+
+/// How many answers the numeric oracle finds to `screws p = k`.
+pub fn oracle_count(screws: &[Screw], p: &Point3<f64>, k: &Point3<f64>) -> usize {
+    let unknown = |screw: &Screw| match screw {
+        Screw::Revolute(_) => Unknown::Angle,
+        Screw::Prismatic(_) => Unknown::Displacement { low: -3.0, high: 3.0 },
+    };
+    let unknowns: Vec<Unknown> = screws.iter().map(unknown).collect();
+    let oracle = Oracle { seeds: 200, ..Oracle::default() };
+    let miss = |q: &[f64]| (carried(screws, q, p) - k).iter().copied().collect();
+    oracle.search(&unknowns, miss).unwrap().len()
+}
+
+/// The same joint in a world `unit` times as large.
+pub fn scaled(screw: &Screw, unit: f64) -> Screw {
+    match screw {
+        Screw::Revolute(axis) => {
+            Screw::Revolute(Axis::central(axis.direction()).shifted(&(axis.point().coords * unit)))
+        }
+        sliding => *sliding,
+    }
 }

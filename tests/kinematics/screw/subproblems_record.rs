@@ -7,7 +7,7 @@ use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-use super::instance::{Question, Random, Verdict, carried, judge, list, moved};
+use super::instance::{Question, Random, Verdict, carried, judge, list};
 use super::turned;
 
 /// The first digits are the kinds of the joints, T for one that turns and S for one that slides.
