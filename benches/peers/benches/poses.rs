@@ -5,6 +5,7 @@
 use std::hint::black_box;
 use std::io::Result;
 
+use groebot::kinematics::screw::{ScrewSolver, Target};
 use groebot::robots::{self, Robot};
 use groebot_peers::by_ik_geo::IkGeo;
 use groebot_peers::by_opw::Opw;
@@ -19,6 +20,14 @@ fn contest(robot: &Robot) -> Result<()> {
     let chain = robot.chain();
     let poses: Vec<_> = poses(&chain).into_iter().map(|(_, pose)| pose).collect();
     let mut contenders = Vec::new();
+    if let Ok(ours) = ScrewSolver::new(&chain) {
+        let targets: Vec<_> = poses.iter().map(|pose| Target::Pose(*pose)).collect();
+        contenders.push(Contender::new("groebot", move || {
+            for target in &targets {
+                let _ = black_box(ours.solve(black_box(target)));
+            }
+        }));
+    }
     if let Some(peer) = IkGeo::new(&chain) {
         let targets: Vec<_> = poses.iter().map(|pose| peer.target(pose)).collect();
         contenders.push(Contender::new("ik-geo", move || {
@@ -35,7 +44,7 @@ fn contest(robot: &Robot) -> Result<()> {
             }
         }));
     }
-    if !contenders.is_empty() {
+    if contenders.len() > 1 {
         print!("{}", measure(&format!("poses/{}", robot.name()), poses.len(), contenders)?);
     }
     Ok(())
