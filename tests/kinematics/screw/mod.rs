@@ -1,10 +1,14 @@
 //! The screw solver.
 
+mod circles;
 mod families;
 mod instance;
 mod one_joint;
 mod solver;
+mod subproblem_families;
 mod subproblems_record;
+mod three_joints;
+mod two_joints;
 mod two_link;
 
 use groebot::spatial::{Axis, angle};

@@ -251,7 +251,13 @@ fn the_oracle_finds_as_many() {
 }
 
 /// The points c of RH0 (2-31), with the denominator of alpha and beta in the reader's hand, and whether gamma is real.
-fn printed(axes: &[Axis; 2], r: [Point3<f64>; 2], p: &Point3<f64>, k: &Point3<f64>, denominator: f64) -> Vec<Point3<f64>> {
+fn printed(
+    axes: &[Axis; 2],
+    r: [Point3<f64>; 2],
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    denominator: f64,
+) -> Vec<Point3<f64>> {
     let [w1, w2] = axes.each_ref().map(|axis| axis.direction().into_inner());
     let (u, v, dot) = (p - r[1], k - r[0], w1.dot(&w2));
     let alpha = (dot * w2.dot(&u) - w1.dot(&v)) / denominator;
