@@ -8,10 +8,10 @@ use super::subproblem_families::{FOUR_CIRCLES, Family, ONE_JOINT, THREE_JOINTS, 
 
 /// What is wrong with a verdict.
 fn complaint(verdict: &Verdict) -> Option<&'static str> {
-    let worst = verdict.residuals.iter().copied().fold(0.0, f64::max);
+    let accurate = verdict.residuals.iter().all(|residual| *residual <= 1e-11);
     [
         (verdict.is_lost(), "lost"),
-        (!(worst <= 1e-11), "residual"),
+        (!accurate, "residual"),
         (verdict.apart <= 1e-9, "twice"),
         (!verdict.in_range, "out of (-pi, pi]"),
     ]
