@@ -132,7 +132,7 @@ pub fn translate_to_distance(
     let along = direction.dot(&way);
     let beside = (way - direction.scale(along)).norm();
     let (size, beyond) = (size_of_way(p, k).max(delta), delta - beside);
-    if !(size.is_finite() && delta >= 0.0) || -beyond > reach.slack(size) {
+    if !(way.norm().is_finite() && size.is_finite() && delta >= 0.0) || -beyond > reach.slack(size) {
         return Values::None;
     }
     if beyond <= ROUNDING * size {

@@ -103,7 +103,7 @@ fn refine<const N: usize>(
         miss = k - carried(screws, &answer, p);
         if miss.norm() < best.1 {
             best = (answer, miss.norm());
-        } else if !(miss.norm() <= NEAR * size) || best.1 <= 10.0 * ENOUGH * size {
+        } else if miss.norm() > NEAR * size || best.1 <= 10.0 * ENOUGH * size {
             break;
         }
     }

@@ -261,7 +261,8 @@ fn reach_by(
         }
         Screw::Revolute(axis) => axis,
     };
-    let mut found: SmallVec<[Option<f64>; 3]> = rotate_to_point(axis, x, k, Reach::Closest).iter().map(Some).collect();
+    let towards = rotate_to_point(axis, x, k, Reach::Closest).choices();
+    let mut found: SmallVec<[Option<f64>; 3]> = towards.into_iter().map(|q| Some(q.unwrap_or(0.0))).collect();
     if let Some(normal) = Unit::try_new(*normal, 0.0).filter(|_| axis.distance_to(k) <= NEAR_AXIS * size) {
         found.extend(rotate_to_plane(axis, k, &normal, x, Reach::Closest).negated().iter().map(Some));
     }

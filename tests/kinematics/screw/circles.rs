@@ -7,7 +7,7 @@ use groebot::spatial::Axis;
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::instance::Random;
-use super::subproblems_record::sp6_by;
+use super::subproblem_families::sp6_by;
 use super::turned;
 
 fn rotated(k: &Unit<Vector3<f64>>, q: f64, p: &Vector3<f64>) -> Vector3<f64> {

@@ -1,11 +1,15 @@
 //! The screw solver.
 
+mod circles;
 mod families;
 mod instance;
 mod one_joint;
 mod solver;
 mod solver_record;
+mod subproblem_families;
 mod subproblems_record;
+mod three_joints;
+mod two_joints;
 mod two_link;
 
 use groebot::spatial::{Axis, angle};

@@ -139,7 +139,7 @@ fn targets_off_the_reach_are_refused_by_the_size() {
         match exponent {
             // Over a long way the surface may come back.
             ..6 => {}
-            ..12 => assert_eq!(count, 0, "{turns:?} {exponent}"),
+            6..12 => assert_eq!(count, 0, "{turns:?} {exponent}"),
             12 => {}
             _ => assert!(count > 0, "{turns:?} {exponent}"),
         }
@@ -251,7 +251,13 @@ fn the_oracle_finds_as_many() {
 }
 
 /// The points c of RH0 (2-31), with the denominator of alpha and beta in the reader's hand, and whether gamma is real.
-fn printed(axes: &[Axis; 2], r: [Point3<f64>; 2], p: &Point3<f64>, k: &Point3<f64>, denominator: f64) -> Vec<Point3<f64>> {
+fn printed(
+    axes: &[Axis; 2],
+    r: [Point3<f64>; 2],
+    p: &Point3<f64>,
+    k: &Point3<f64>,
+    denominator: f64,
+) -> Vec<Point3<f64>> {
     let [w1, w2] = axes.each_ref().map(|axis| axis.direction().into_inner());
     let (u, v, dot) = (p - r[1], k - r[0], w1.dot(&w2));
     let alpha = (dot * w2.dot(&u) - w1.dot(&v)) / denominator;
@@ -319,7 +325,8 @@ fn one_minus_the_product_is_not_one_minus_its_square() {
             points.iter().map(|c| off_both(&axes, &p, &k, c)).fold(f64::INFINITY, f64::min)
         };
         trials += 1;
-        wrong += usize::from(!(best(dot - 1.0) < 1e-3));
+        // Where gamma is not real, no point comes of it: the fold leaves infinity.
+        wrong += usize::from(best(dot - 1.0) >= 1e-3);
         assert!(best(dot * dot - 1.0) < 1e-6);
         assert!(!judge(&screws, &p, &k, &q, &solve(&screws, &p, &k, Reach::EXACT)).is_lost());
     }
