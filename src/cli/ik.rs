@@ -167,7 +167,7 @@ struct Entry<'a> {
     free: Vec<&'a str>,
     position_residual: f64,
     rotation_residual: f64,
-    branch: &'a [usize],
+    branch: usize,
 }
 
 fn json(solver: &ScrewSolver, given: &str, answers: &[Solution], degrees: bool) -> String {
@@ -178,19 +178,19 @@ fn json(solver: &ScrewSolver, given: &str, answers: &[Solution], degrees: bool) 
         (true, false) => "rad",
         (false, _) => chain.length_unit().symbol(),
     };
-    let entry = |answer: &'_ Solution| Entry {
+    let entry = |answer: &Solution| Entry {
         q: answer.q.iter().enumerate().map(|(i, q)| if turns(i) && degrees { q.to_degrees() } else { *q }).collect(),
         free: answer.free.iter().map(|&i| chain.joints()[i].name.as_str()).collect(),
         position_residual: answer.position_residual,
         rotation_residual: answer.rotation_residual,
-        branch: &[],
+        branch: answer.branch,
     };
     let page = Page {
         name: chain.name(),
         target: given,
         joints: chain.joints().iter().map(|joint| joint.name.as_str()).collect(),
         unit: (0..chain.joints().len()).map(unit).collect(),
-        solutions: answers.iter().map(|answer| Entry { branch: &answer.branch, ..entry(answer) }).collect(),
+        solutions: answers.iter().map(entry).collect(),
     };
     serde_json::to_string_pretty(&page).expect("an answer holds nothing that JSON cannot say") + "\n"
 }

@@ -38,10 +38,17 @@ pub(super) enum Goal {
 }
 
 /// The unknown joints in their order, and their goal.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Reduced {
     pub row: Row,
     pub goal: Goal,
+}
+
+impl Clone for Reduced {
+    /// Copies the row as a whole, which a small vector's own `clone` does not.
+    fn clone(&self) -> Self {
+        Reduced { row: Row::from_slice(&self.row), goal: self.goal }
+    }
 }
 
 impl Reduced {

@@ -1,9 +1,10 @@
 //! The last word on an answer: how far the tip is from the goal, and a Gauss-Newton step where rounding left too much.
 
 use nalgebra::{SMatrix, SVector, Vector3};
+use smallvec::SmallVec;
 
 use super::reduced::Goal;
-use crate::spatial::{Half, Pose, Screw};
+use crate::spatial::{Pose, Screw};
 
 /// The most joints of a chain that has finitely many answers.
 pub(super) const MOST_JOINTS: usize = 6;
@@ -28,10 +29,9 @@ impl Miss {
         (self.position / reach).max(self.rotation)
     }
 
-    /// What is missing at `q`; `tip` is the point whose distance counts.
-    fn of(screws: &[Screw], q: &[Half], goal: &Goal, tip: &Vector3<f64>) -> Miss {
-        let motions = screws.iter().zip(q).rev().map(|(screw, q)| screw.exp_half(*q));
-        let product = motions.reduce(|pose, motion| motion * pose).unwrap_or_else(Pose::identity);
+    /// What is missing where the joints move by `motions`; `tip` is the point whose distance counts.
+    pub fn of(motions: &[Pose], goal: &Goal, tip: &Vector3<f64>) -> Miss {
+        let product = motions.iter().copied().reduce(|pose, motion| pose * motion).unwrap_or_else(Pose::identity);
         let mut twist = SVector::<f64, 6>::zeros();
         match goal {
             Goal::Point { from, to } => {
@@ -45,24 +45,24 @@ impl Miss {
                 let v = (pose * nalgebra::Point3::from(*tip)) - (product * nalgebra::Point3::from(*tip));
                 twist.fixed_rows_mut::<3>(0).copy_from(&v);
                 twist.fixed_rows_mut::<3>(3).copy_from(&w);
-                Miss { position: v.norm(), rotation: turn.angle(), twist }
+                // The angle is twice the arc sine of w / 2; next to none, w itself.
+                let rotation = if w.norm() < 1e-5 && turn.scalar() != 0.0 { w.norm() } else { turn.angle() };
+                Miss { position: v.norm(), rotation, twist }
             }
         }
     }
 }
 
-/// `q`, improved until it misses the goal by no more than `enough`, and by how much it misses. Joints of `fixed` stay.
+/// `q`, which misses the goal by `miss`, improved until it misses by no more than `enough`; and by how much. Joints of `fixed`
+/// stay.
 pub(super) fn refine(
     screws: &[Screw],
     goal: &Goal,
     tip: &Vector3<f64>,
     reach: f64,
-    (start, fixed): (&[Half], &[bool; MOST_JOINTS]),
+    (mut q, mut miss, fixed): ([f64; MOST_JOINTS], Miss, &[bool; MOST_JOINTS]),
     enough: f64,
 ) -> ([f64; MOST_JOINTS], Miss) {
-    let mut q = [0.0; MOST_JOINTS];
-    q.iter_mut().zip(start).for_each(|(q, start)| *q = start.q);
-    let mut miss = Miss::of(screws, start, goal, tip);
     for _ in 0..STEPS {
         if miss.size(reach) <= enough || miss.size(reach) > 1e-2 {
             break;
@@ -70,7 +70,8 @@ pub(super) fn refine(
         let Some(step) = newton(screws, &q, goal, tip, reach, (&miss, fixed)) else { break };
         let mut next = q;
         next.iter_mut().zip(step.iter()).for_each(|(q, d)| *q += d);
-        let better = Miss::of(screws, &next.map(Half::new), goal, tip);
+        let motions: SmallVec<[Pose; MOST_JOINTS]> = screws.iter().zip(next).map(|(screw, q)| screw.exp(q)).collect();
+        let better = Miss::of(&motions, goal, tip);
         if better.size(reach) >= miss.size(reach) {
             break;
         }

@@ -7,12 +7,12 @@ use nalgebra::{Point3, Vector3};
 use super::feature::Scale;
 use super::plan::{Plan, PlanStep, describe};
 use super::reduced::{Goal, Reduced};
-use super::refine::{MOST_JOINTS, refine};
+use super::refine::{MOST_JOINTS, Miss, refine};
 use super::search::{Sample, Search, scale_of};
 use super::step::Step;
 use super::target::{Solution, Target, whole};
 use crate::kinematics::{Chain, Geometry, Task};
-use crate::spatial::{Axis, Half, Screw, angle};
+use crate::spatial::{Axis, Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
 
 /// How far, relative to the reach and in radians, an answer's tip may be from its target.
@@ -37,8 +37,10 @@ pub struct ScrewSolver {
 /// A partial answer on the way through the steps.
 struct Trail {
     q: [Half; MOST_JOINTS],
+    /// What each joint's own screw does at its value.
+    motions: [Pose; MOST_JOINTS],
     free: [bool; MOST_JOINTS],
-    branch: [usize; MOST_JOINTS],
+    branch: usize,
 }
 
 impl ScrewSolver {
@@ -86,8 +88,12 @@ impl ScrewSolver {
     pub fn solve(&self, target: &Target) -> Result<Vec<Solution>> {
         let start = whole(&self.screws, target.goal(&self.chain)?);
         let mut found = Vec::with_capacity(self.plan.most_solutions());
-        let mut trail =
-            Trail { q: [Half::new(0.0); MOST_JOINTS], free: [false; MOST_JOINTS], branch: [0; MOST_JOINTS] };
+        let mut trail = Trail {
+            q: [Half::new(0.0); MOST_JOINTS],
+            motions: [Pose::identity(); MOST_JOINTS],
+            free: [false; MOST_JOINTS],
+            branch: 0,
+        };
         self.descend(0, &start, &start.goal, &mut trail, &mut found);
         Ok(found)
     }
@@ -96,10 +102,12 @@ impl ScrewSolver {
     fn descend(&self, depth: usize, reduced: &Reduced, goal: &Goal, trail: &mut Trail, found: &mut Vec<Solution>) {
         let step = &self.steps[depth];
         let joints = step.solved(reduced);
+        let branches = trail.branch * self.plan.steps[depth].answers;
         for (branch, answer) in step.solve(reduced).into_iter().flatten().enumerate() {
-            trail.branch[depth] = branch;
+            trail.branch = branches + branch;
             for (&joint, value) in joints.iter().zip(&answer) {
                 (trail.q[joint], trail.free[joint]) = (Half::new(value.unwrap_or(0.0)), value.is_none());
+                trail.motions[joint] = self.screws[joint].exp_half(trail.q[joint]);
             }
             if depth + 1 == self.steps.len() {
                 self.finish(goal, trail, found);
@@ -119,7 +127,9 @@ impl ScrewSolver {
     fn finish(&self, goal: &Goal, trail: &Trail, found: &mut Vec<Solution>) {
         let tip = self.chain.base_from_tip().translation.vector;
         let count = self.screws.len();
-        let (mut q, miss) = refine(&self.screws, goal, &tip, self.reach, (&trail.q[..count], &trail.free), ENOUGH);
+        let values = trail.q.map(|half| half.q);
+        let miss = Miss::of(&trail.motions[..count], goal, &tip);
+        let (mut q, miss) = refine(&self.screws, goal, &tip, self.reach, (values, miss, &trail.free), ENOUGH);
         if miss.size(self.reach).is_nan() || miss.size(self.reach) > ACCEPT {
             return;
         }
@@ -135,7 +145,7 @@ impl ScrewSolver {
                 free: (0..count).filter(|&i| trail.free[i]).collect(),
                 position_residual: miss.position,
                 rotation_residual: miss.rotation,
-                branch: trail.branch[..self.steps.len()].to_vec(),
+                branch: trail.branch,
             });
         }
     }

@@ -31,8 +31,9 @@ pub struct Solution {
     pub position_residual: f64,
     /// The angle \[rad\] of the tip from its target; zero when only a position is asked for.
     pub rotation_residual: f64,
-    /// Which answer of each step it comes from.
-    pub branch: Vec<usize>,
+    /// Which answer of each step it comes from: a number below [`super::Plan::most_solutions`], whose digits, the first step's
+    /// first, count in the numbers of answers of the steps.
+    pub branch: usize,
 }
 
 impl Target {

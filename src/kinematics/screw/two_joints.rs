@@ -110,6 +110,9 @@ fn rotate_about_crossing_axes(
     k: &Point3<f64>,
     reach: Reach,
 ) -> Answers<2> {
+    if let Some(both) = both_at_a_crossing(first, second, p, k) {
+        return both;
+    }
     let size = size(&[first.point(), second.point()], p, k);
     if !size.is_finite() {
         return Answers::default();
@@ -119,6 +122,33 @@ fn rotate_about_crossing_axes(
     let candidates = bend.choices().into_iter().filter_map(turned);
     let screws = [Screw::Revolute(*first), Screw::Revolute(*second)];
     polish(&screws, p, k, size, reach, candidates)
+}
+
+/// RH0 (2-31) where it is sure to hold: the axes meet in their points, well apart in direction, and the two answers are well
+/// apart from each other and from the axes. `None` elsewhere.
+fn both_at_a_crossing(first: &Axis, second: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> Option<Answers<2>> {
+    const WELL: f64 = 0.02;
+    let (w1, w2) = (first.direction(), second.direction());
+    let (u, v) = (p - first.point(), k - first.point());
+    let (square, cosine) = (u.norm_squared(), w1.dot(&w2));
+    let sine_square = 1.0 - cosine * cosine;
+    let exact = (8.0 * f64::EPSILON).powi(2) * square;
+    let meets = (second.point() - first.point()).norm_squared() <= exact;
+    let fits = (square - v.norm_squared()).abs() <= 8.0 * f64::EPSILON * square;
+    let (height1, height2) = (w1.dot(&v), w2.dot(&u));
+    let (alpha, beta) = ((height1 - cosine * height2) / sine_square, (height2 - cosine * height1) / sine_square);
+    let rest = square - alpha * height1 - beta * height2;
+    let apart = [rest, square - height1 * height1, square - height2 * height2].iter().all(|x| *x > WELL * square);
+    if !(meets && fits && apart && sine_square > WELL) {
+        return None;
+    }
+    let (level, up) = (w1.scale(alpha) + w2.scale(beta), w1.cross(&w2) * (rest / sine_square).sqrt());
+    let answer = |c: Vector3<f64>| {
+        let q1 = w1.dot(&c.cross(&v)).atan2(c.dot(&v) - height1 * height1);
+        let q2 = w2.dot(&u.cross(&c)).atan2(u.dot(&c) - height2 * height2);
+        [Some(q1), Some(q2)]
+    };
+    Some([answer(level + up), answer(level - up)].into_iter().collect())
 }
 
 /// PG2: two translations.
