@@ -109,7 +109,9 @@ impl fmt::Display for Plan {
             writeln!(f, "{}. {}: {name} for {thetas} ({answers})", number + 1, step.text)?;
         }
         let factors: Vec<String> = self.steps.iter().map(|step| step.answers.to_string()).collect();
-        write!(f, "at most {} = {} solutions", factors.join(" x "), self.most_solutions())
+        let product = if factors.len() > 1 { format!("{} = ", factors.join(" x ")) } else { String::new() };
+        let most = self.most_solutions();
+        write!(f, "at most {product}{most} {}", if most == 1 { "solution" } else { "solutions" })
     }
 }
 
@@ -134,7 +136,7 @@ pub(super) fn describe(step: &Step, reduced: &Reduced, answers: usize, scale: Sc
         Kind::Last => {
             let turns = solved[0].axis().is_some();
             let name = if turns { Subproblem::PadenKahan1 } else { Subproblem::Translation };
-            (name, "any other point to its place".to_owned())
+            (name, format!("a point beside axis {} to its place", row[0].joint + 1))
         }
         Kind::Between(relation) => (between(relation, solved[0]), compare(relation, rest, tail)),
         Kind::Around([first, second]) => {
