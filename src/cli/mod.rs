@@ -35,6 +35,8 @@ const EXAMPLES: &str = "Examples:
   groebot info derivations/nao_arm_planar
   groebot info robot.urdf --tip tool0
   groebot fk robot.urdf --tip tool0 --q 0,-90,90,0,0,0 --degrees
+  groebot plan nao_left_leg
+  groebot ik ur5 --target 0.4,0.1,0.5,0,180,0 --degrees
 
 Exit status: 0 success, 1 failure, 2 wrong usage, 130 interrupted.";
 

@@ -169,6 +169,14 @@ impl Screw {
         }
     }
 
+    /// `p` \[m\] after moving the joint by `q` (\[rad\] when revolute, \[m\] when prismatic).
+    pub fn carry(&self, q: f64, p: &Point3<f64>) -> Point3<f64> {
+        match self {
+            Screw::Revolute(axis) => axis.rotate(q, p),
+            Screw::Prismatic(direction) => p + direction.scale(q),
+        }
+    }
+
     /// [`Screw::exp`] by a value whose sine and cosine are known.
     pub(crate) fn exp_half(&self, value: Half) -> Pose {
         match self {

@@ -117,14 +117,7 @@ fn refine<const N: usize>(
 
 /// `e^(S1 q1) ... e^(Sn qn) p`, a free joint being at zero.
 fn carried<const N: usize>(screws: &[Screw; N], answer: &[Option<f64>; N], p: &Point3<f64>) -> Point3<f64> {
-    screws.iter().zip(answer).rev().fold(*p, |x, (screw, q)| move_by(screw, q.unwrap_or(0.0), &x))
-}
-
-fn move_by(screw: &Screw, q: f64, x: &Point3<f64>) -> Point3<f64> {
-    match screw {
-        Screw::Revolute(axis) => axis.rotate(q, x),
-        Screw::Prismatic(direction) => x + direction.scale(q),
-    }
+    screws.iter().zip(answer).rev().fold(*p, |x, (screw, q)| screw.carry(q.unwrap_or(0.0), &x))
 }
 
 /// How fast the carried point moves with each joint: the columns of the Jacobian; zero for a free joint. With the directions of
@@ -139,7 +132,7 @@ fn columns<const N: usize>(
     let mut x = *p;
     for i in (0..N).rev() {
         let q = answer[i].unwrap_or(0.0);
-        x = move_by(&screws[i], q, &x);
+        x = screws[i].carry(q, &x);
         for (later, axis) in columns.iter_mut().skip(i + 1) {
             (*later, *axis) = (turn(&screws[i], q, later), turn(&screws[i], q, axis));
         }

@@ -151,7 +151,7 @@ fn turned(
 ) -> Candidates {
     let kept = Kept::new(first, k, &second.point());
     let turn = Turn::new(&second.direction(), kept.a);
-    let seen = |q: f64| move_by(third, q, p) - second.point();
+    let seen = |q: f64| third.carry(q, p) - second.point();
     let condition = |q: f64| {
         let y = seen(q);
         turn.condition(&y, kept.sides(&y))
@@ -168,7 +168,7 @@ fn turned(
     let mut found = Candidates::new();
     for q3 in thirds {
         for q2 in angles(q3).into_iter().flatten() {
-            let y = move_by(third, q3, p);
+            let y = third.carry(q3, p);
             let x = second.rotate(q2, &y);
             let back = second.through_origin().rotate(q2, &velocity(third, &y).into()).coords;
             let normal = velocity(&Screw::Revolute(*second), &x).cross(&back);
@@ -193,7 +193,7 @@ fn slid(
         Screw::Revolute(axis) => axis.level_with(k),
     };
     let (w, slope) = (axis.direction(), axis.direction().dot(second));
-    let height = |q: f64| w.dot(&(k - move_by(third, q, p)));
+    let height = |q: f64| w.dot(&(k - third.carry(q, p)));
     let radius = (k - axis.point()).norm();
     // Where the slide is normal to the axis it does not change the height, and the third joint alone must.
     let level = slope.abs() <= PARALLEL;
@@ -201,7 +201,7 @@ fn slid(
         if level {
             return height(q);
         }
-        let y = (move_by(third, q, p) - axis.point()) * slope + second.scale(height(q));
+        let y = (third.carry(q, p) - axis.point()) * slope + second.scale(height(q));
         y.norm_squared() - (slope * radius).powi(2)
     };
     let grain = miss * if level { size } else { size * size };
@@ -211,7 +211,7 @@ fn slid(
     };
     let mut found = Candidates::new();
     for q3 in thirds {
-        let x = move_by(third, q3, p);
+        let x = third.carry(q3, p);
         let slides = translate_to_distance(second, &x, &axis.point(), radius, CANDIDATE);
         let slides = if level { slides } else { Values::One(height(q3) / slope) };
         for q2 in slides.iter() {
@@ -238,7 +238,7 @@ fn two_slides(first: &Screw, second: &Screw, third: &Screw, p: &Point3<f64>, k: 
         Screw::Prismatic(v3) => translate_to_plane(v3, p, &normal, k, CANDIDATE),
     };
     for q3 in thirds.choices() {
-        let x = move_by(third, q3.unwrap_or(0.0), p);
+        let x = third.carry(q3.unwrap_or(0.0), p);
         let two = two_screws_to_point(first, second, &x, k, CANDIDATE);
         found.extend(two.iter().map(|[a, b]| [*a, *b, q3]));
     }
@@ -274,12 +274,5 @@ fn velocity(screw: &Screw, x: &Point3<f64>) -> Vector3<f64> {
     match screw {
         Screw::Revolute(axis) => axis.direction().cross(&(x - axis.point())),
         Screw::Prismatic(direction) => direction.into_inner(),
-    }
-}
-
-fn move_by(screw: &Screw, q: f64, x: &Point3<f64>) -> Point3<f64> {
-    match screw {
-        Screw::Revolute(axis) => axis.rotate(q, x),
-        Screw::Prismatic(direction) => x + direction.scale(q),
     }
 }
