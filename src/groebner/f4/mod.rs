@@ -17,7 +17,7 @@ pub use trace::Trace;
 
 use super::Basis;
 use crate::number::Zp;
-use crate::poly::{Polynomial, PolynomialRing, Term};
+use crate::poly::{Order, Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result, Watch};
 use eliminate::{Way, eliminate, normal_forms};
 use packing::{Packing, words};
@@ -100,6 +100,8 @@ struct Run<'a, const W: usize> {
     ring: &'a PolynomialRing<Zp>,
     p: u32,
     way: Way,
+    /// Whether the order looks at the degree first: pairs then go by the degree of their common multiple.
+    graded: bool,
     running: Running<W>,
     coefficients: Vec<Vec<u32>>,
     table: Table<W>,
@@ -108,11 +110,14 @@ struct Run<'a, const W: usize> {
 
 impl<'a, const W: usize> Run<'a, W> {
     fn new(ring: &'a PolynomialRing<Zp>, bits: u32, way: Way) -> Self {
+        let graded = *ring.layout().order() == Order::GrevLex;
+        let packing = Packing::new(ring.layout().order(), ring.variables().len(), bits);
         Run {
             ring,
             p: ring.field().modulus() as u32,
             way,
-            running: Running::new(Packing::new(ring.layout().order(), ring.variables().len(), bits)),
+            graded,
+            running: Running::new(packing, !graded),
             coefficients: Vec::new(),
             table: Table::new(),
             trace: Trace::default(),
@@ -130,18 +135,21 @@ impl<'a, const W: usize> Run<'a, W> {
                 return self.finish(watch);
             }
             watch.report("F4", round, self.running.open() + selected.len());
-            let mut builder = Builder::new(&self.running, &mut self.table);
+            // In an order by degree the sugar of a round is its degree.
+            let sugar = selected[0].sugar;
+            let bound = if self.graded { u32::MAX } else { sugar };
+            let mut builder = Builder::new(&self.running, &mut self.table, bound);
             builder.take_pairs(&selected)?;
             builder.close(watch)?;
             let (shape, columns) = builder.finish();
-            self.eliminate(shape, &columns, watch)?;
+            self.eliminate(shape, &columns, sugar, watch)?;
             round += 1;
         }
     }
 
     /// The generators, reduced by one another without multiplying any.
     fn begin(&mut self, generators: &[Polynomial<u64>], watch: &Watch) -> Result<()> {
-        let mut raw = Running::new(self.running.packing.clone());
+        let mut raw = Running::new(self.running.packing.clone(), false);
         for (index, f) in generators.iter().enumerate().filter(|(_, f)| !f.is_zero()) {
             let keys = f.terms().iter().map(|term| {
                 let exponents = self.ring.layout().exponents(&term.monomial);
@@ -153,17 +161,17 @@ impl<'a, const W: usize> Run<'a, W> {
             self.trace.generators.push((index, f.terms().len()));
         }
         let all: Vec<u32> = (0..raw.elements.len() as u32).collect();
-        let mut builder = Builder::new(&raw, &mut self.table);
+        let mut builder = Builder::new(&raw, &mut self.table, u32::MAX);
         builder.take_elements(&all, 0)?;
         let (shape, columns) = builder.finish();
         let given = self.coefficients.len();
-        self.eliminate(shape, &columns, watch)?;
+        self.eliminate(shape, &columns, 0, watch)?;
         self.coefficients.drain(..given);
         Ok(())
     }
 
     /// Reduces a matrix and adjoins its new rows.
-    fn eliminate(&mut self, shape: Shape, columns: &Columns<W>, watch: &Watch) -> Result<()> {
+    fn eliminate(&mut self, shape: Shape, columns: &Columns<W>, sugar: u32, watch: &Watch) -> Result<()> {
         let terms: usize = shape.upper.iter().chain(&shape.lower).map(|row| row.columns.len()).sum();
         watch.check_terms(terms + self.coefficients.iter().map(Vec::len).sum::<usize>())?;
         let echelon = eliminate(&shape, &self.coefficients, self.p, self.way, watch)?;
@@ -174,7 +182,9 @@ impl<'a, const W: usize> Run<'a, W> {
         for row in echelon.rows.into_iter().rev() {
             let keys: Vec<_> = row.columns.iter().map(|&column| columns[column as usize]).collect();
             self.trace.unit |= keys[0] == [0; W];
-            self.running.adjoin(keys)?;
+            let degree = |key| self.running.packing.degree(key);
+            let sugar = if self.graded { degree(&keys[0]) } else { keys.iter().map(degree).fold(sugar, u32::max) };
+            self.running.adjoin(keys, sugar)?;
             self.coefficients.push(row.coefficients);
         }
         Ok(())
@@ -186,7 +196,7 @@ impl<'a, const W: usize> Run<'a, W> {
         let mut live = self.running.live();
         let lead = |element: &u32| packing.rank(&self.running.elements[*element as usize].keys[0]);
         live.sort_by_key(lead);
-        let mut builder = Builder::new(&self.running, &mut self.table);
+        let mut builder = Builder::new(&self.running, &mut self.table, u32::MAX);
         builder.take_elements(&live, 1)?;
         builder.close(watch)?;
         let (shape, columns) = builder.finish();
