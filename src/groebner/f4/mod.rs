@@ -20,6 +20,7 @@ use crate::number::Zp;
 use crate::poly::{Order, Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result, Watch};
 use eliminate::{Way, eliminate, normal_forms};
+use lanes::Instructions;
 use packing::{Packing, words};
 use running::{Running, overflow};
 use symbolic::{Builder, Columns, Shape};
@@ -37,7 +38,37 @@ pub const MODULUS_LIMIT: u64 = 1 << 31;
 /// [`ErrorKind::BadValue`] for a larger modulus; [`ErrorKind::Overflow`] when a degree outgrows 15 bits or the variables the
 /// widest keys; what `watch` stops with.
 pub fn f4(ring: &PolynomialRing<Zp>, generators: &[Polynomial<u64>], watch: &Watch) -> Result<Basis<Zp>> {
-    Ok(in_some_width(ring, generators, Way::Combined, watch)?.0)
+    f4_with(ring, generators, Settings::default(), watch)
+}
+
+/// How [`f4_with`] works.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Reduce random combinations of rows, as many as the rank; else each row by itself, without chance.
+    pub combinations: bool,
+    /// Use the vector instructions that the processor has; the results are the same.
+    pub vectors: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings { combinations: true, vectors: true }
+    }
+}
+
+/// [`f4`] with settings.
+///
+/// # Errors
+/// As [`f4`].
+pub fn f4_with(
+    ring: &PolynomialRing<Zp>,
+    generators: &[Polynomial<u64>],
+    settings: Settings,
+    watch: &Watch,
+) -> Result<Basis<Zp>> {
+    let instructions = if settings.vectors { Instructions::detect() } else { Instructions::Portable };
+    let way = Way { combinations: settings.combinations, instructions };
+    Ok(in_some_width(ring, generators, way, watch)?.0)
 }
 
 impl Trace {
@@ -50,7 +81,8 @@ impl Trace {
         generators: &[Polynomial<u64>],
         watch: &Watch,
     ) -> Result<(Basis<Zp>, Trace)> {
-        in_some_width(ring, generators, Way::Each, watch)
+        let way = Way { combinations: false, instructions: Instructions::detect() };
+        in_some_width(ring, generators, way, watch)
     }
 }
 
@@ -175,7 +207,7 @@ impl<'a, const W: usize> Run<'a, W> {
         let terms: usize = shape.upper.iter().chain(&shape.lower).map(|row| row.columns.len()).sum();
         watch.check_terms(terms + self.coefficients.iter().map(Vec::len).sum::<usize>())?;
         let echelon = eliminate(&shape, &self.coefficients, self.p, self.way, watch)?;
-        if self.way == Way::Each {
+        if !self.way.combinations {
             self.trace.record(shape, &echelon);
         }
         // The smallest lead first: what makes another redundant then comes before it.
@@ -200,7 +232,7 @@ impl<'a, const W: usize> Run<'a, W> {
         builder.take_elements(&live, 1)?;
         builder.close(watch)?;
         let (shape, columns) = builder.finish();
-        let tails = normal_forms(&shape, &self.coefficients, self.p, watch)?;
+        let tails = normal_forms(&shape, &self.coefficients, self.p, self.way, watch)?;
         let term = |key: &packing::Key<W>, coefficient: u32| {
             let monomial = self.ring.monomial(&packing.exponents(key))?;
             Ok(Term { coefficient: u64::from(coefficient), monomial })
@@ -211,7 +243,7 @@ impl<'a, const W: usize> Run<'a, W> {
             let rest = tail.columns.iter().zip(&tail.coefficients).map(|(&c, &a)| term(&columns[c as usize], a));
             polynomials.push(self.ring.collect(std::iter::once(lead).chain(rest).collect::<Result<Vec<_>>>()?));
         }
-        if self.way == Way::Each {
+        if !self.way.combinations {
             self.trace.last = trace::pruned(shape);
             self.trace.supports = tails.into_iter().map(|tail| tail.columns.into()).collect();
         }
