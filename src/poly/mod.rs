@@ -19,6 +19,7 @@ mod ring;
 mod root;
 mod token;
 pub mod univariate;
+mod words;
 
 pub use evaluate::ExpansionBound;
 pub use expression::Expression;
