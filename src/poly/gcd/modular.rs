@@ -158,7 +158,7 @@ impl<'a, K: WordField> Search<'a, K> {
     }
 
     /// `f` with numbers for all of `others`, then for all but the first, and so on up to `f` itself.
-    fn restrictions(&self, f: &Flat, others: &[usize], anchor: &[u64]) -> Vec<Flat> {
+    pub fn restrictions(&self, f: &Flat, others: &[usize], anchor: &[u64]) -> Vec<Flat> {
         let mut chain = vec![f.clone()];
         for (&v, &x) in others.iter().zip(anchor).rev() {
             chain.push(chain[chain.len() - 1].evaluate(self.field, self.packing, v, x));
@@ -192,7 +192,7 @@ impl<'a, K: WordField> Search<'a, K> {
     }
 
     /// `h` without its content in `main`; the leading coefficient of `h` is a constant times `lead`.
-    fn primitive_part(&mut self, h: &Flat, lead: &Flat, main: usize) -> Option<Flat> {
+    pub fn primitive_part(&mut self, h: &Flat, lead: &Flat, main: usize) -> Option<Flat> {
         if lead.is_constant() {
             return Some(h.clone());
         }

@@ -145,14 +145,3 @@ pub fn pow_modulo<K: WordField>(field: &K, f: &[u64], mut n: u64, modulus: &[u64
     }
     result
 }
-
-/// `f(x + shift)`, by repeated synthetic division.
-pub fn translate<K: WordField>(field: &K, f: &[u64], shift: u64) -> Dense {
-    let mut result = f.to_vec();
-    for start in 0..result.len() {
-        for k in (start..result.len() - 1).rev() {
-            result[k] = field.add(result[k], field.mul(result[k + 1], shift));
-        }
-    }
-    result
-}

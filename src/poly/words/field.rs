@@ -19,18 +19,6 @@ pub trait WordField: Clone {
     fn sub(&self, a: u64, b: u64) -> u64 {
         self.add(a, self.neg(b))
     }
-    /// `a^n`.
-    fn pow(&self, a: u64, mut n: u64) -> u64 {
-        let (mut result, mut square) = (1, a);
-        while n > 0 {
-            if n & 1 == 1 {
-                result = self.mul(result, square);
-            }
-            square = self.mul(square, square);
-            n >>= 1;
-        }
-        result
-    }
 }
 
 /// The integers modulo a prime `p < 2^61`, multiplied by Barrett's reduction.

@@ -53,6 +53,11 @@ impl Packing {
         u128::from(exponent) << self.lanes[variable].shift
     }
 
+    /// The total degree of `key`.
+    pub fn degree(&self, key: u128) -> u64 {
+        (0..self.variables()).map(|v| u64::from(self.exponent(key, v))).sum()
+    }
+
     /// `key` without `variable`.
     pub fn without(&self, key: u128, variable: usize) -> u128 {
         let lane = self.lanes[variable];

@@ -14,4 +14,4 @@ pub use extension::Extension;
 pub use field::{Prime, Random, WordField};
 pub use flat::{Flat, Packing};
 pub use images::{Images, primes};
-pub use integral::Integral;
+pub use integral::{Integral, residue};

@@ -48,6 +48,16 @@ impl Orbit {
         Orbit { places: f.terms().map(place).collect(), rows: f.degree_in(packing, inner) as usize + 1 }
     }
 
+    /// The value at the point whose powers are all one: the polynomial itself, when it has no further variables.
+    pub fn rows(&self) -> Rows {
+        let mut rows = vec![Dense::new(); self.rows];
+        for place in &self.places {
+            store(&mut rows[place.row], place);
+        }
+        rows.iter_mut().for_each(dense::trim);
+        rows
+    }
+
     /// The value at the next power of the point.
     pub fn advance<K: WordField>(&mut self, field: &K) -> Rows {
         let mut rows = vec![Dense::new(); self.rows];
@@ -62,6 +72,13 @@ impl Orbit {
         rows.iter_mut().for_each(dense::trim);
         rows
     }
+}
+
+fn store(row: &mut Dense, place: &Place) {
+    if row.len() <= place.column {
+        row.resize(place.column + 1, 0);
+    }
+    row[place.column] = place.value;
 }
 
 /// The monomials of a polynomial, by their power of the main variable, ready to solve for their coefficients.
