@@ -19,10 +19,11 @@ mod ring;
 mod root;
 mod token;
 pub mod univariate;
+mod words;
 
 pub use evaluate::ExpansionBound;
 pub use expression::Expression;
-pub use factor::{refine_factors, square_free_factors};
+pub use factor::{Factorisation, factor, refine_factors, square_free_factors};
 pub use fractions::{Fraction, Fractions};
 pub use gcd::gcd;
 pub use grammar::{MAX_DEPTH, MAX_EXPONENT};
