@@ -14,6 +14,6 @@ pub mod verify;
 
 pub use division::{Division, divide, normal_form, s_polynomial};
 pub use engine::{Basis, Options, basis};
-pub use fglm::Quotient;
+pub use fglm::{Quotient, WordQuotient, change_order};
 pub use pairs::Strategy;
 pub use reduced::reduced_basis;
