@@ -1,6 +1,9 @@
 //! Tests of `groebot::groebner`.
 
 mod claims;
+mod fglm;
+mod hilbert;
+mod homogeneous;
 mod known;
 mod limits;
 mod random;

@@ -114,11 +114,7 @@ impl<F: Field> Quotient<F> {
     /// # Errors
     /// [`ErrorKind::BadValue`] when `f` is no polynomial of the ring of the basis, or when a nonzero coefficient has no inverse;
     /// what `watch` stops with.
-    pub fn minimal_polynomial(
-        &self,
-        f: &Polynomial<F::Element>,
-        watch: &Watch,
-    ) -> Result<Univariate<F::Element>> {
+    pub fn minimal_polynomial(&self, f: &Polynomial<F::Element>, watch: &Watch) -> Result<Univariate<F::Element>> {
         let field = self.ring.field();
         let columns = self.multiplication(f, watch)?;
         let mut echelon = Echelon::new(&self.ring);
@@ -213,8 +209,7 @@ fn relation<F: Field>(
     lead: Monomial,
     tail: impl IntoIterator<Item = (usize, F::Element)>,
 ) -> Polynomial<F::Element> {
-    let tail =
-        tail.into_iter().map(|(index, coefficient)| Term { coefficient, monomial: standard[index].clone() });
+    let tail = tail.into_iter().map(|(index, coefficient)| Term { coefficient, monomial: standard[index].clone() });
     ring.collect(tail.chain([Term { coefficient: ring.field().one(), monomial: lead }]))
 }
 

@@ -58,7 +58,8 @@ impl Elimination {
             let block = start..self.rank.min(start + BLOCK);
             let pivots: Vec<u32> = block.clone().map(|row| self.sums.get(row + BLOCK)).collect();
             let (modulus, rows, stride) = (self.modulus, &self.rows, self.stride);
-            let terms = block.clone().zip(pivots).map(|(row, entry)| (modulus.neg(entry), &rows[row * stride..][..stride]));
+            let terms =
+                block.clone().zip(pivots).map(|(row, entry)| (modulus.neg(entry), &rows[row * stride..][..stride]));
             self.sums.add(terms);
             self.sums.clear(block.start + BLOCK..block.end + BLOCK);
         }

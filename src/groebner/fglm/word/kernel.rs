@@ -113,10 +113,51 @@ kernel! {
     }
 }
 
+/// Constants of Montgomery's reduction (Mathematics of Computation 44, 1985) with R = 2^32.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Montgomery {
+    p: u64,
+    /// `-1/p mod R`.
+    factor: u64,
+    /// `R^2 mod p` and `R^3 mod p`.
+    powers: [u64; 2],
+}
+
+impl Montgomery {
+    /// For an odd `p` below 2^31.
+    fn new(p: u64) -> Self {
+        let double = |inverse: u64| inverse.wrapping_mul(2u64.wrapping_sub(p.wrapping_mul(inverse)));
+        let inverse = (0..5).fold(p, |inverse, _| double(inverse));
+        let r = (1 << 32) % p;
+        let square = r * r % p;
+        Montgomery { p, factor: inverse.wrapping_neg() & LOW, powers: [square, square * r % p] }
+    }
+
+    /// `t / R mod p` for `t < R p`.
+    #[inline(always)]
+    fn divide(self, t: u64) -> u64 {
+        let multiple = (t & LOW) * self.factor & LOW;
+        let quotient = (t + multiple * self.p) >> 32;
+        quotient.min(quotient.wrapping_sub(self.p))
+    }
+}
+
+kernel! {
+    /// The residues of `hi * 2^32 + lo`, both below `2^32 p`.
+    fn reduce_all(lo: &[u64], hi: &[u64], montgomery: Montgomery, residues: &mut [u32]) {
+        let [square, cube] = montgomery.powers;
+        for ((&lo, &hi), residue) in lo.iter().zip(hi).zip(residues) {
+            let sum = montgomery.divide(lo) * square + montgomery.divide(hi) * cube;
+            *residue = montgomery.divide(sum) as u32;
+        }
+    }
+}
+
 /// Arithmetic modulo a prime below 2^31 with sums of products put off.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Modulus {
     p: u64,
+    montgomery: Montgomery,
     pub level: Level,
 }
 
@@ -126,7 +167,7 @@ impl Modulus {
 
     /// `None` when `p` is too large.
     pub fn new(p: u64) -> Option<Self> {
-        (p < Self::LIMIT).then(|| Modulus { p, level: Level::detect() })
+        (p < Self::LIMIT).then(|| Modulus { p, montgomery: Montgomery::new(p), level: Level::detect() })
     }
 
     /// The residue of `hi * 2^32 + lo` for `lo < 2^63`.
@@ -221,6 +262,11 @@ impl Sums {
 
     /// All residues.
     pub fn residues(&self) -> Vec<u32> {
-        self.lo.iter().zip(&self.hi).map(|(&lo, &hi)| self.modulus.reduce(lo, hi)).collect()
+        if self.modulus.p == 2 {
+            return self.lo.iter().map(|lo| (lo & 1) as u32).collect();
+        }
+        let mut residues = vec![0; self.lo.len()];
+        reduce_all(self.modulus.level, &self.lo, &self.hi, self.modulus.montgomery, &mut residues);
+        residues
     }
 }

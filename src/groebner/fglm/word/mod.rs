@@ -80,7 +80,8 @@ impl WordQuotient {
         let matrix = self.table.multiplication(f, watch)?;
         let projected = project(&matrix, self.table.modulus, watch, |_, _| ())?;
         let polynomial = projected.polynomial();
-        let found = projected.length() == self.dimension() || vanishes(&matrix, &polynomial, self.table.modulus, watch)?;
+        let found =
+            projected.length() == self.dimension() || vanishes(&matrix, &polynomial, self.table.modulus, watch)?;
         let polynomial = if found { polynomial } else { eliminate_powers(&self.table, &matrix, watch)? };
         Ok(Univariate { coefficients: polynomial.into_iter().map(u64::from).collect() })
     }

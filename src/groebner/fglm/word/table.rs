@@ -26,8 +26,13 @@ impl Table {
         basis.require_zero_dimensional()?;
         let stairs = Staircase::new(basis)?;
         let descending = descending(basis, &stairs);
-        let mut table =
-            Table { modulus, ring: basis.ring.clone(), places: vec![None; stairs.border.len()], rows: Vec::new(), stairs };
+        let mut table = Table {
+            modulus,
+            ring: basis.ring.clone(),
+            places: vec![None; stairs.border.len()],
+            rows: Vec::new(),
+            stairs,
+        };
         for border in 0..table.places.len() {
             if let Origin::Lead(index) = table.stairs.origins[border] {
                 table.store(border, &table.lead_row(basis, index, &descending)?);
@@ -163,7 +168,7 @@ impl Table {
 
     /// The normal form of `f`, term by term.
     fn image(&self, f: &Polynomial<u64>, matrices: &[Matrix<'_>], watch: &Watch) -> Result<Vec<u32>> {
-        let mut sums = Sums::new(self.modulus, self.stride());
+        let mut image = vec![0; self.stride()];
         for term in f.terms() {
             let mut power = self.one();
             for (variable, matrix) in matrices.iter().enumerate() {
@@ -172,9 +177,10 @@ impl Table {
                     power = matrix.apply(&power);
                 }
             }
-            sums.add_at(0, self.modulus.residue(term.coefficient), &power);
+            let factor = self.modulus.residue(term.coefficient);
+            image.iter_mut().zip(&power).for_each(|(sum, &entry)| *sum = self.modulus.add_mul(*sum, factor, entry));
         }
-        Ok(sums.residues())
+        Ok(image)
     }
 }
 
