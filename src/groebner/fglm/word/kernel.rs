@@ -73,17 +73,17 @@ macro_rules! kernel {
 kernel! {
     /// The halves `(lo, hi)` of the sum of `a[i] b[i]`; both have the same length, a multiple of [`LANES`].
     fn dot(a: &[u32], b: &[u32]) -> (u64, u64) {
-        const WORDS: usize = LANES / 4;
-        let (mut lo, mut hi) = ([0u64; WORDS], [0u64; WORDS]);
-        for (x, y) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-            for lane in 0..WORDS {
-                let product = |k: usize| u64::from(x[k * WORDS + lane]) * u64::from(y[k * WORDS + lane]);
-                let sum = product(0) + product(1) + product(2) + product(3);
-                lo[lane] += sum & LOW;
-                hi[lane] += sum >> 32;
-            }
+        let quarter = a.len().min(b.len()) / 4;
+        let range = |k: usize| k * quarter..(k + 1) * quarter;
+        let (a, b) = ([0, 1, 2, 3].map(|k| &a[range(k)]), [0, 1, 2, 3].map(|k| &b[range(k)]));
+        let (mut lo, mut hi) = (0, 0);
+        for i in 0..quarter {
+            let product = |k: usize| u64::from(a[k][i]) * u64::from(b[k][i]);
+            let sum = product(0) + product(1) + product(2) + product(3);
+            lo += sum & LOW;
+            hi += sum >> 32;
         }
-        (lo.iter().sum(), hi.iter().sum())
+        (lo, hi)
     }
 }
 
