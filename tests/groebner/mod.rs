@@ -2,6 +2,9 @@
 
 mod claims;
 mod f4;
+mod fglm;
+mod hilbert;
+mod homogeneous;
 mod known;
 mod limits;
 mod random;
