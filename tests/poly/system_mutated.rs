@@ -25,7 +25,7 @@ impl Chance {
         (self.0 >> 33) as usize % bound.max(1)
     }
 
-    /// One to six changes: a byte, a piece taken out, doubled or moved, a word of the formats, a piece of another seed.
+    /// One to three changes: a byte, a piece taken out or doubled, a word of the formats, a piece of another seed.
     fn damage(&mut self, seed: &str) -> Vec<u8> {
         const WORDS: [&str; 16] = [
             "(",
@@ -46,15 +46,14 @@ impl Chance {
             "99999999999999999999",
         ];
         let mut bytes = seed.as_bytes().to_vec();
-        for _ in 0..=self.below(6) {
+        for _ in 0..=self.below(3) {
             let at = self.below(bytes.len() + 1);
             let end = (at + self.below(12)).min(bytes.len());
-            match self.below(6) {
+            match self.below(5) {
                 0 if at < bytes.len() => bytes[at] = self.below(256) as u8,
                 1 => drop(bytes.drain(at..end)),
                 2 => bytes.extend_from_within(at..end),
                 3 => drop(bytes.splice(at..at, WORDS[self.below(WORDS.len())].bytes())),
-                4 => bytes.rotate_left(at),
                 _ => {
                     let other = SEEDS[self.below(SEEDS.len())].as_bytes();
                     let from = self.below(other.len());

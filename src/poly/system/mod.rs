@@ -71,6 +71,30 @@ pub struct Heading {
     pub order: Order,
 }
 
+impl Heading {
+    /// The same with another order.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when its blocks do not cover the variables.
+    pub fn with_order(self, order: Order) -> Result<Self> {
+        let order = order::fit(order, self.variables.len())?;
+        Ok(Heading { order, ..self })
+    }
+
+    /// The same modulo the prime `p`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `p` is not a prime that [`Zp`] takes, or when the characteristic is another prime already.
+    pub fn modulo(self, p: u64) -> Result<Self> {
+        Zp::new(p)?;
+        if ![0, p].contains(&self.characteristic) {
+            let text = format!("the coefficients are modulo {} already; give that, or nothing", self.characteristic);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        Ok(Heading { characteristic: p, ..self })
+    }
+}
+
 /// One polynomial as it was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Given {
@@ -92,6 +116,12 @@ pub struct PolynomialSystem {
 }
 
 impl PolynomialSystem {
+    /// The format that the content of `text` shows: [`Format::Singular`] when it starts with `ring` or one of Singular's comments,
+    /// [`Format::Msolve`] when its first line is a list of names and the second a number alone, else [`Format::Plain`].
+    pub fn format_of(text: &str) -> Format {
+        detect::format_of(text.strip_prefix('\u{feff}').unwrap_or(text))
+    }
+
     /// Reads a system, in the format that its content shows unless `format` says it.
     ///
     /// # Errors
@@ -105,7 +135,7 @@ impl PolynomialSystem {
             let message = format!("the text is {} bytes long, at most {MAX_SYSTEM_LENGTH} are read", text.len());
             return Err(Error::new(ErrorKind::BadValue, message));
         }
-        match format.unwrap_or_else(|| detect::format_of(text)) {
+        match format.unwrap_or_else(|| Self::format_of(text)) {
             Format::Plain => plain::read(text),
             Format::Singular => singular::read(text),
             Format::Msolve => msolve::read(text),

@@ -1,11 +1,11 @@
 //! Monomial orders as text: `lex`, `grevlex`, `block:2,3`, `grevlex(2), lex(3)`.
 
+use super::Format;
 use super::reader::Reader;
 use super::words::At;
-use super::{Format, MAX_NAMES};
 use crate::poly::token::Kind;
 use crate::poly::{Block, Order};
-use crate::{ErrorKind, Result};
+use crate::{Error, ErrorKind, Result};
 
 const ALLOWED: &str = "`lex`, `grevlex`, `block:2,3` or blocks such as `grevlex(2), lex(3)`";
 
@@ -65,17 +65,23 @@ fn sizes(reader: &mut Reader<'_>) -> Result<Order> {
     Ok(Order::Block(blocks))
 }
 
+/// [`fit`] for an order that stands at `at`.
+pub(super) fn fitted(order: Order, variables: usize, at: At) -> Result<Order> {
+    fit(order, variables).map_err(|error| at.place(&error))
+}
+
 /// `order` for so many variables: a single block is no block order.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] when the blocks do not cover the variables.
-pub(super) fn fitted(order: Order, variables: usize, at: At) -> Result<Order> {
+pub(super) fn fit(order: Order, variables: usize) -> Result<Order> {
     let Order::Block(blocks) = &order else { return Ok(order) };
-    let covered = blocks.iter().fold(0, |sum: usize, block| sum.saturating_add(block.size).min(MAX_NAMES + 1));
+    let covered = blocks.iter().fold(0, |sum: usize, block| sum.saturating_add(block.size));
     if covered != variables {
+        let shown = super::reader::shown(&order.to_string());
         let text =
-            format!("the blocks of the order {order} must cover the {variables} variables, no more and no fewer");
-        return Err(at.error(ErrorKind::BadValue, text));
+            format!("the blocks of the order {shown} must cover the {variables} variables, no more and no fewer");
+        return Err(Error::new(ErrorKind::BadValue, text));
     }
     Ok(match blocks.as_slice() {
         [Block { graded: true, .. }] => Order::GrevLex,

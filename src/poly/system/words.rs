@@ -141,8 +141,10 @@ impl<'a> Words<'a> {
         let start = self.cursor.mark();
         let digits = self.digits();
         let end = self.cursor.mark();
-        if self.cursor.take_if(|c| c == '/') {
-            self.digits();
+        let fraction = self.cursor.take_if(|c| c == '/');
+        if fraction && self.digits().is_empty() {
+            self.cursor.reset(end);
+            return Kind::Number(digits);
         }
         if self.cursor.take_while(continues_name).starts_with(|c: char| c.is_ascii_alphabetic()) {
             return Kind::Word(self.cursor.since(start));
