@@ -87,7 +87,7 @@ impl Question {
 
     fn over<F: Field>(&self, field: F, engine: Engine<F>, watch: &Watch) -> Result<Answer> {
         let ring = self.working.ring(field)?;
-        let generators = self.system.expand(&ring)?;
+        let generators = self.system.expand(&ring, watch)?;
         let options = Options { cofactors: self.certificate, ..Options::default() };
         let found = engine(&ring, &generators, &options, watch)?;
         let certificate = self.certificate.then(|| prove(self, &ring, &generators, &found)).transpose()?;
@@ -176,26 +176,27 @@ impl Answer {
 
     /// The number of standard monomials; `None` when there are more than [`MAX_DEGREE`].
     fn degree(&self) -> Option<usize> {
+        let leads: Vec<&[u32]> = self.leads.iter().map(Vec::as_slice).collect();
         let mut count = 0;
-        let counted = count_standard(&self.leads, &mut vec![0; self.heading.variables.len()], 0, &mut count);
+        let counted = count_standard(&leads, self.heading.variables.len(), &mut count);
         counted.then_some(count)
     }
 }
 
-/// Counts the exponent vectors that agree with `exponents` before `variable` and that no lead divides; `false` when there are too
-/// many. Some lead is a power of each variable.
-fn count_standard(leads: &[Vec<u32>], exponents: &mut Vec<u32>, variable: usize, count: &mut usize) -> bool {
-    let divided = |exponents: &[u32]| leads.iter().any(|lead| lead.iter().zip(exponents).all(|(a, b)| a <= b));
-    if variable == exponents.len() {
-        *count += usize::from(!divided(exponents));
+/// Counts the exponent vectors of so many `variables` that no lead divides; `false` when there are too many. Some lead is a power of each
+/// variable.
+fn count_standard(leads: &[&[u32]], variables: usize, count: &mut usize) -> bool {
+    if leads.iter().any(|lead| lead.iter().all(|&exponent| exponent == 0)) {
+        return true;
+    }
+    if variables == 0 {
+        *count += 1;
         return *count <= MAX_DEGREE;
     }
-    while !divided(exponents) {
-        if !count_standard(leads, exponents, variable + 1, count) {
-            return false;
-        }
-        exponents[variable] += 1;
-    }
-    exponents[variable] = 0;
-    true
+    let powers = leads.iter().filter(|lead| lead[1..].iter().all(|&exponent| exponent == 0));
+    let end = powers.map(|lead| lead[0]).min().unwrap_or(0);
+    (0..end).all(|power| {
+        let rest: Vec<&[u32]> = leads.iter().filter(|lead| lead[0] <= power).map(|lead| &lead[1..]).collect();
+        count_standard(&rest, variables - 1, count)
+    })
 }

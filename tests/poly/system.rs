@@ -1,9 +1,9 @@
 //! Systems in files: what the three readers understand, and that the printers' text is read back.
 
-use groebot::Result;
 use groebot::number::{Field, Rationals, Ring, Style, Zp};
 use groebot::poly::system::{Format, Heading, PolynomialSystem, parse_order};
 use groebot::poly::{Block, Fractions, Order, Polynomial, PolynomialRing};
+use groebot::{Result, Watch};
 use proptest::prelude::*;
 
 use super::sparse::{Sparse, build, quotient, sparse};
@@ -24,7 +24,7 @@ fn read(text: &str) -> (Heading, Vec<String>) {
 
 fn texts<F: Field>(system: &PolynomialSystem, field: F) -> Vec<String> {
     let ring = system.heading.ring(field).unwrap();
-    system.expand(&ring).unwrap().iter().map(|f| ring.format(f, Style::Text)).collect()
+    system.expand(&ring, &Watch::none()).unwrap().iter().map(|f| ring.format(f, Style::Text)).collect()
 }
 
 fn blocks(list: &[(usize, bool)]) -> Order {
@@ -193,7 +193,11 @@ impl Sample {
         }
         assert_eq!(system.heading, heading, "{text}");
         let none = [ring.zero()];
-        assert_eq!(system.expand(ring)?, if polynomials.is_empty() { &none } else { polynomials }, "{text}");
+        assert_eq!(
+            system.expand(ring, &Watch::none())?,
+            if polynomials.is_empty() { &none } else { polynomials },
+            "{text}"
+        );
         if system.heading.order == self.order {
             assert_eq!(system.print(format)?, text);
         }

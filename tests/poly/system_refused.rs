@@ -1,6 +1,7 @@
 //! Bad systems: each is refused with its line and column, and with what is allowed.
 
 use groebot::ErrorKind::{self, BadValue, DuplicateName, MissingKey, Syntax, UnknownKey, UnknownName, Unsupported};
+use groebot::Watch;
 use groebot::number::Rationals;
 use groebot::poly::Fractions;
 use groebot::poly::system::{Format, MAX_SYSTEM_LENGTH, PolynomialSystem};
@@ -158,14 +159,14 @@ fn expansions_without_end() {
     for (text, line, column) in cases {
         let system = PolynomialSystem::read(text, None).unwrap();
         let ring = system.heading.ring(Rationals).unwrap();
-        let error = system.expand(&ring).unwrap_err();
+        let error = system.expand(&ring, &Watch::none()).unwrap_err();
         assert!(error.to_string().starts_with(&format!("line {line}: column {column}: ")), "{error}");
         assert_eq!(error.kind(), BadValue);
     }
     for text in ["x\n 1/(a^60 + 1)^2", "x + a^101", "x + y/(a - a)"] {
         let system = PolynomialSystem::read(&format!("parameters: a\nvariables: x, y\n{text}"), None).unwrap();
         let ring = system.heading.ring(Fractions::new(Rationals, &["a"]).unwrap()).unwrap();
-        assert_eq!(system.expand(&ring).unwrap_err().kind(), BadValue, "{text}");
+        assert_eq!(system.expand(&ring, &Watch::none()).unwrap_err().kind(), BadValue, "{text}");
     }
     let modulo = PolynomialSystem::read("characteristic: 7\nx\nx - 1/14", None).unwrap();
     let error = modulo.print(Format::Plain).unwrap_err();

@@ -4,7 +4,7 @@ use super::words::At;
 use super::{Given, Heading, PolynomialSystem};
 use crate::number::Field;
 use crate::poly::{Expression, Polynomial, PolynomialRing};
-use crate::{ErrorKind, Result};
+use crate::{ErrorKind, Result, Watch};
 
 /// The most terms that the expansion of one polynomial may take.
 pub const MAX_TERMS: f64 = 1e6;
@@ -33,9 +33,10 @@ impl PolynomialSystem {
     ///
     /// # Errors
     /// With line and column: [`ErrorKind::BadValue`] for a division by zero (modulo p) and for an expansion beyond the limits of
-    /// size; [`ErrorKind::UnknownName`] for a name that `ring` lacks.
-    pub fn expand<F: Field>(&self, ring: &PolynomialRing<F>) -> Result<Vec<Polynomial<F::Element>>> {
+    /// size; [`ErrorKind::UnknownName`] for a name that `ring` lacks. What `watch` stops with, which is asked before each polynomial.
+    pub fn expand<F: Field>(&self, ring: &PolynomialRing<F>, watch: &Watch) -> Result<Vec<Polynomial<F::Element>>> {
         let expand = |given: &Given| {
+            watch.check()?;
             self.check_size(given)?;
             given.expression.evaluate(ring).map_err(|error| given.at().place(&error))
         };

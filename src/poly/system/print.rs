@@ -3,7 +3,7 @@
 use super::{Format, Heading, PolynomialSystem};
 use crate::number::{Field, Rationals, Ring, Style, Zp};
 use crate::poly::{Block, Fractions, Order, Polynomial, PolynomialRing};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, Watch};
 
 impl PolynomialSystem {
     /// The system with its polynomials expanded.
@@ -22,7 +22,7 @@ impl PolynomialSystem {
 
     fn print_over<F: Field>(&self, field: F, format: Format) -> Result<String> {
         let ring = self.heading.ring(field)?;
-        self.heading.print(format, &ring, &self.expand(&ring)?)
+        self.heading.print(format, &ring, &self.expand(&ring, &Watch::none())?)
     }
 }
 
