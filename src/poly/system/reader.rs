@@ -11,6 +11,9 @@ use crate::poly::token::{Kind, Token};
 use crate::poly::{Expression, is_identifier};
 use crate::{Error, ErrorKind, Result};
 
+/// Puts what a word means behind the words of a polynomial.
+pub(super) type Resolve<'r, 'a> = dyn FnMut(&mut Reader<'a>, Token<'a>, &mut Vec<Token<'a>>) -> Result<()> + 'r;
+
 /// Reads a text word by word.
 pub(super) struct Reader<'a> {
     words: Words<'a>,
@@ -98,11 +101,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The words up to the next of `ends`, the end of a line or of the text, which stays; names pass through `resolve`.
-    fn words_until(
-        &mut self,
-        ends: &[char],
-        resolve: &mut dyn FnMut(&mut Self, Token<'a>, &mut Vec<Token<'a>>) -> Result<()>,
-    ) -> Result<Vec<Token<'a>>> {
+    fn words_until(&mut self, ends: &[char], resolve: &mut Resolve<'_, 'a>) -> Result<Vec<Token<'a>>> {
         let mut tokens = Vec::new();
         loop {
             let stop = match self.peek() {
@@ -128,21 +127,14 @@ impl<'a> Reader<'a> {
     }
 
     /// The polynomial up to the next of `ends`, which stays.
-    pub(super) fn polynomial(
-        &mut self,
-        ends: &[char],
-        resolve: &mut dyn FnMut(&mut Self, Token<'a>, &mut Vec<Token<'a>>) -> Result<()>,
-    ) -> Result<Given> {
+    pub(super) fn polynomial(&mut self, ends: &[char], resolve: &mut Resolve<'_, 'a>) -> Result<Given> {
         let at = self.at();
         let tokens = self.words_until(ends, resolve)?;
         Ok(given(at, Parser::new(tokens, Dialect::Text).whole()?))
     }
 
     /// The polynomial or equation up to the end of the line.
-    pub(super) fn equation(
-        &mut self,
-        resolve: &mut dyn FnMut(&mut Self, Token<'a>, &mut Vec<Token<'a>>) -> Result<()>,
-    ) -> Result<Given> {
+    pub(super) fn equation(&mut self, resolve: &mut Resolve<'_, 'a>) -> Result<Given> {
         let at = self.at();
         let tokens = self.words_until(&[], resolve)?;
         Ok(given(at, equation_of(tokens)?))
