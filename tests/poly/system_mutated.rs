@@ -88,9 +88,10 @@ fn digest(bytes: &[u8]) -> usize {
 fn print_and_read(system: &PolynomialSystem) {
     for format in FORMATS {
         let Ok(text) = system.print(format) else { continue };
-        // A sum of many numbers, or a power, may print longer than what is read.
-        if let Ok(again) = PolynomialSystem::read(&text, Some(format)) {
-            assert_eq!(again.print(format).unwrap(), text);
+        // A power may print longer than what is read, and msolve's format forgets the order.
+        match PolynomialSystem::read(&text, Some(format)) {
+            Ok(again) if again.heading == system.heading => assert_eq!(again.print(format).unwrap(), text),
+            _ => {}
         }
     }
 }
