@@ -138,6 +138,9 @@ fn complete<F: Field>(
             continue;
         }
         watch.check_terms(elements.iter().map(term_count).sum())?;
+        watch.check_memory(
+            elements.iter().map(term_count).sum::<usize>() * size_of::<crate::poly::Term<F::Element>>(),
+        )?;
         watch.report("Groebner basis", done, pairs.len());
         let element = s_element(ring, &pair, &elements)?;
         let element = reduce(ring, element, &elements, watch)?;

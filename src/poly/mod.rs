@@ -17,6 +17,7 @@ mod parse;
 mod print;
 mod ring;
 mod root;
+pub mod system;
 mod token;
 pub mod univariate;
 mod words;
