@@ -12,6 +12,8 @@ sys.path.insert(0, str(CORPUS))
 import families  # noqa: E402
 import polynomials  # noqa: E402
 
+BLOCKS = pathlib.Path(__file__).resolve().parent / "blocks"
+BLOCK_NAMES = ["nao_leg", "nao_arm", "planar_3r", "puma", "puma_symbolic", "general_3r", "general_3r_symbolic"]
 PRIMES = ["GF(32003)", "GF(2147483647)"]
 
 
@@ -59,13 +61,14 @@ class Problem:
 
 
 def lines():
-    """All lines: numeric systems modulo primes in grevlex and lex, then over Q."""
+    """All lines: numeric systems modulo primes and over Q in grevlex, modulo primes in lex; then the blocks with parameters."""
     graded = family("katsura", 7, 10) + family("cyclic", 6, 8) + family("eco", 10, 12) + family("noon", 6, 8)
     rational = family("katsura", 7, 9) + family("cyclic", 6, 7) + family("noon", 6, 7) + ["eco_10"]
     change = ["katsura_7", "katsura_8", "cyclic_6", "eco_10", "noon_6"]
     yield from (problem(name, prime, "grevlex") for prime in PRIMES for name in graded)
     yield from (problem(name, "Q", "grevlex") for name in rational)
     yield from (problem(name, prime, "lex") for prime in PRIMES for name in change)
+    yield from (block(name, order) for name in BLOCK_NAMES for order in ("grevlex", "lex"))
 
 
 def family(name, first, last):
@@ -82,3 +85,11 @@ def problem(name, field_name, order):
     asked = (field_name, order)
     known = [answer.get("hash") for answer in system.get("answer", []) if (answer["field"], answer["order"]) == asked]
     return Problem(name, *asked, system["variables"], system["generators"], next(iter(known), None))
+
+
+def block(name, order):
+    """The block `name` of the folder `blocks`, a Singular ring with parameters."""
+    text = (BLOCKS / f"{name}.sing").read_text()
+    parameters, variables = re.search(r"ring r = \(0,([^)]*)\),\(([^)]*)\)", text).groups()
+    generators = re.search(r"ideal I =([^;]*);", text).group(1).split(",")
+    return Problem(name, f"Q({parameters})", order, variables.split(","), [g.strip() for g in generators])

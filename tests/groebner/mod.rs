@@ -1,6 +1,7 @@
 //! Tests of `groebot::groebner`.
 
 mod claims;
+mod families;
 mod known;
 mod limits;
 mod random;

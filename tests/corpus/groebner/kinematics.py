@@ -24,13 +24,18 @@ def circle_point(t):
 
 def link(cosine, sine, numbers):
     """The frame of a link: Rz(theta) Tz(d) Tx(a) Rx(alpha)."""
-    (d, a), (k, m) = map(Fraction, numbers[:2]), circle_point(numbers[2])
+    (d, a), (k, m) = map(exact, numbers[:2]), circle_point(numbers[2])
     return [
         [cosine, -sine * k, sine * m, cosine * a],
         [sine, cosine * k, -cosine * m, sine * a],
         [0, m, k, d],
         [0, 0, 0, 1],
     ]
+
+
+def exact(value):
+    """A number or text as a fraction; a polynomial as it is."""
+    return value if isinstance(value, Sum) else Fraction(value)
 
 
 def product(a, b):
