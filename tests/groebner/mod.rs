@@ -5,6 +5,8 @@ mod f4;
 mod fglm;
 mod hilbert;
 mod homogeneous;
+mod families;
 mod known;
 mod limits;
 mod random;
+mod systems;
