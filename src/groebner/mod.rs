@@ -12,15 +12,16 @@ mod hilbert;
 mod homogeneous;
 pub mod ideal;
 mod pairs;
+mod prime_field;
 mod reduced;
 pub mod verify;
 
 pub use division::{Division, divide, normal_form, s_polynomial};
 pub use engine::{Basis, Options, basis};
 pub use f4::{Settings, Trace, f4, f4_with};
-pub use fglm::Quotient;
 pub use fglm::{Quotient, WordQuotient, change_order};
 pub use hilbert::HilbertSeries;
 pub use homogeneous::{System, dehomogenise, hilbert_driven, homogenise};
 pub use pairs::Strategy;
+pub use prime_field::basis_modulo_prime;
 pub use reduced::reduced_basis;

@@ -1,29 +1,32 @@
 //! The engine against the systems of `tests/corpus/groebner/systems`, whose facts come from Singular and from the literature.
 
 use groebot::Watch;
-use groebot::groebner::{Basis, Options, Strategy, basis};
+use groebot::groebner::{Basis, Options, Strategy, basis, basis_modulo_prime};
 use groebot::number::{Field, Rationals, Zp};
-use groebot::poly::{Order, Polynomial, PolynomialRing};
+use groebot::poly::Order;
 
 use crate::corpus::systems::{Answer, Canonical, Facts, System, all, basis_hash, system};
-
-/// The engine under test.
-fn compute<F: Field>(ring: &PolynomialRing<F>, generators: &[Polynomial<F::Element>]) -> Basis<F> {
-    let options = Options { strategy: Strategy::Sugar, cofactors: false };
-    basis(ring, generators, &options, &Watch::none()).expect("a basis")
-}
 
 /// What Buchberger's engine finds in less than a fifth of a second, with the test profile.
 fn is_quick(system: &System, answer: &Answer) -> bool {
     answer.facts.degree <= 16 && system.variables.len() <= 6
 }
 
-fn facts_over<F: Canonical>(field: F, system: &System, order: &Order) -> Facts {
+fn by_buchberger<F: Canonical>(field: F, system: &System, order: &Order) -> Facts {
     let ring = system.ring(field, order);
-    let found = compute(&ring, &system.generators(&ring));
+    let options = Options { strategy: Strategy::Sugar, cofactors: false };
+    facts(&basis(&ring, &system.generators(&ring), &options, &Watch::none()).expect("a basis"))
+}
+
+fn modulo_prime(p: u64, system: &System, order: &Order) -> Facts {
+    let ring = system.ring(Zp::new(p).expect("a prime"), order);
+    facts(&basis_modulo_prime(&ring, &system.generators(&ring), &Watch::none()).expect("a basis"))
+}
+
+fn facts<F: Canonical>(found: &Basis<F>) -> Facts {
     Facts {
         dimension: found.independent_variables().map_or(-1, |free| free.len() as i64),
-        degree: degree(&found),
+        degree: degree(found),
         size: found.polynomials.len(),
         hash: basis_hash(&found.ring, &found.polynomials),
     }
@@ -64,16 +67,20 @@ fn standard_from(leads: &[Vec<u32>], exponents: &mut Vec<u32>, variable: usize) 
     found
 }
 
-fn check(system: &System, answer: &Answer) {
-    let order = &answer.order;
-    let mut found = match answer.field.as_str() {
-        "Q" => facts_over(Rationals, system, order),
-        field => facts_over(Zp::new(modulus(field)).expect("a prime"), system, order),
-    };
-    if *order == Order::Lex && found.dimension > 0 {
-        found.degree = answer.facts.degree; // An order that does not go by degree does not show it.
+/// An order that does not go by degree does not show the degree of a positive-dimensional ideal.
+fn compare(mut found: Facts, system: &System, answer: &Answer) {
+    if answer.order == Order::Lex && found.dimension > 0 {
+        found.degree = answer.facts.degree;
     }
-    assert_eq!(found, answer.facts, "{} over {} in {order:?}", system.name, answer.field);
+    assert_eq!(found, answer.facts, "{} over {} in {:?}", system.name, answer.field, answer.order);
+}
+
+fn check_buchberger(system: &System, answer: &Answer) {
+    let found = match answer.field.as_str() {
+        "Q" => by_buchberger(Rationals, system, &answer.order),
+        field => by_buchberger(Zp::new(modulus(field)).expect("a prime"), system, &answer.order),
+    };
+    compare(found, system, answer);
 }
 
 fn modulus(field: &str) -> u64 {
@@ -81,15 +88,27 @@ fn modulus(field: &str) -> u64 {
     digits.parse().unwrap_or_else(|_| panic!("field {field}"))
 }
 
-fn check_all(select: impl Fn(&System, &Answer) -> bool) -> usize {
+fn check_all(check: impl Fn(&System, &Answer), select: impl Fn(&System, &Answer) -> bool) -> usize {
     let systems = all();
     let answers = systems.iter().flat_map(|system| system.answers.iter().map(move |answer| (system, answer)));
     answers.filter(|(system, answer)| select(system, answer)).inspect(|(system, answer)| check(system, answer)).count()
 }
 
 #[test]
-fn the_engine_finds_the_facts_of_small_systems() {
-    assert!(check_all(is_quick) >= 100);
+fn buchberger_finds_the_facts_of_small_systems() {
+    assert!(check_all(check_buchberger, is_quick) >= 100);
+}
+
+#[test]
+fn f4_finds_the_facts_modulo_primes() {
+    let check = |system: &System, answer: &Answer| {
+        let start = std::time::Instant::now();
+        compare(modulo_prime(modulus(&answer.field), system, &answer.order), system, answer);
+        if start.elapsed().as_secs_f64() > 0.3 {
+            println!("{} {} {:?} {:.2}", system.name, answer.field, answer.order, start.elapsed().as_secs_f64());
+        }
+    };
+    assert!(check_all(check, |_, answer| answer.field != "Q") >= 200);
 }
 
 /// The literature's numbers of solutions, beside Singular's.

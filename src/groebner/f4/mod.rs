@@ -18,6 +18,7 @@ pub use trace::Trace;
 use super::Basis;
 use crate::number::Zp;
 use crate::poly::{Order, Polynomial, PolynomialRing, Term};
+use crate::watch::Matrix;
 use crate::{Error, ErrorKind, Result, Watch};
 use eliminate::{Way, eliminate, normal_forms};
 use lanes::Instructions;
@@ -138,6 +139,8 @@ struct Run<'a, const W: usize> {
     coefficients: Vec<Vec<u32>>,
     table: Table<W>,
     trace: Trace,
+    /// Matrices that were reduced.
+    round: usize,
 }
 
 impl<'a, const W: usize> Run<'a, W> {
@@ -153,6 +156,7 @@ impl<'a, const W: usize> Run<'a, W> {
             coefficients: Vec::new(),
             table: Table::new(),
             trace: Trace::default(),
+            round: 0,
         }
     }
 
@@ -160,13 +164,11 @@ impl<'a, const W: usize> Run<'a, W> {
     /// preprocessing, eliminate, and adjoin the new rows, until no pair is left; reduce the tails.
     fn basis(mut self, generators: &[Polynomial<u64>], watch: &Watch) -> Result<(Basis<Zp>, Trace)> {
         self.begin(generators, watch)?;
-        let mut round = 0;
         loop {
             let selected = self.running.select();
             if selected.is_empty() || self.trace.unit {
                 return self.finish(watch);
             }
-            watch.report("F4", round, self.running.open() + selected.len());
             // In an order by degree the sugar of a round is its degree.
             let sugar = selected[0].sugar;
             let bound = if self.graded { u32::MAX } else { sugar };
@@ -175,7 +177,6 @@ impl<'a, const W: usize> Run<'a, W> {
             builder.close(watch)?;
             let (shape, columns) = builder.finish();
             self.eliminate(shape, &columns, sugar, watch)?;
-            round += 1;
         }
     }
 
@@ -205,7 +206,11 @@ impl<'a, const W: usize> Run<'a, W> {
     /// Reduces a matrix and adjoins its new rows.
     fn eliminate(&mut self, shape: Shape, columns: &Columns<W>, sugar: u32, watch: &Watch) -> Result<()> {
         watch.check_terms(shape.entries.len() + self.coefficients.iter().map(Vec::len).sum::<usize>())?;
+        watch.check_memory(self.bytes() + shape.bytes())?;
+        self.tell(&shape, 0, sugar, watch);
         let echelon = eliminate(&shape, &self.coefficients, self.p, self.way, watch)?;
+        self.tell(&shape, echelon.rows.len(), sugar, watch);
+        self.round += 1;
         if !self.way.combinations {
             self.trace.record(shape, &echelon);
         }
@@ -219,6 +224,19 @@ impl<'a, const W: usize> Run<'a, W> {
             self.coefficients.push(row.coefficients);
         }
         Ok(())
+    }
+
+    /// Reports the matrix; `fresh` of its lower rows are known to be independent.
+    fn tell(&self, shape: &Shape, fresh: usize, degree: u32, watch: &Watch) {
+        let (rows, rank) = (shape.upper.len() + shape.lower.len(), shape.upper.len() + fresh);
+        let matrix = Matrix { degree: degree as usize, rows, columns: shape.columns, rank };
+        watch.report_matrix("F4", self.round, self.running.open(), matrix);
+    }
+
+    /// Bytes of the monomials and the elements.
+    fn bytes(&self) -> usize {
+        let terms: usize = self.coefficients.iter().map(Vec::len).sum();
+        self.table.bytes() + terms * (4 + size_of::<packing::Key<W>>()) + self.trace.bytes()
     }
 
     /// The reduced basis: live elements with their tails reduced, smallest lead first.
