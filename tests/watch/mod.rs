@@ -4,6 +4,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
+use groebot::groebner::{Options, basis};
+use groebot::number::Rationals;
+use groebot::poly::system::PolynomialSystem;
 use groebot::watch::Matrix;
 use groebot::{ErrorKind, Watch};
 
@@ -48,4 +51,14 @@ fn a_raised_flag_and_a_passed_deadline_end_it() {
     assert_eq!(watch.check().unwrap_err().kind(), ErrorKind::Cancelled);
     let watch = Watch::none().with_time(Duration::ZERO);
     assert_eq!(watch.check().unwrap_err().kind(), ErrorKind::Budget);
+}
+
+#[test]
+fn the_engine_keeps_to_the_memory_budget() {
+    let system = PolynomialSystem::read("x*y - 1\ny*z - 2*x\nz*x - 3*y + x^2", None).unwrap();
+    let ring = system.heading.ring(Rationals).unwrap();
+    let generators = system.expand(&ring, &Watch::none()).unwrap();
+    let within = |bytes| basis(&ring, &generators, &Options::default(), &Watch::none().with_memory(bytes));
+    assert!(within(1 << 20).is_ok());
+    assert_eq!(within(64).unwrap_err().kind(), ErrorKind::Budget);
 }
