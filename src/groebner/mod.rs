@@ -10,6 +10,7 @@ mod fglm;
 pub mod ideal;
 mod pairs;
 mod reduced;
+mod univariate_representation;
 pub mod verify;
 
 pub use division::{Division, divide, normal_form, s_polynomial};
@@ -17,3 +18,4 @@ pub use engine::{Basis, Options, basis};
 pub use fglm::Quotient;
 pub use pairs::Strategy;
 pub use reduced::reduced_basis;
+pub use univariate_representation::{UnivariateRepresentation, univariate_representation};
