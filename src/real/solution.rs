@@ -116,14 +116,16 @@ impl RealSolution {
         let mut solution = self.clone();
         let rounded = |solution: &RealSolution, v: usize| solution.rounded(v);
         (0..self.coordinates.len())
-            .map(|v| loop {
-                if let Some(x) = rounded(&solution, v) {
-                    break x;
-                }
-                let precision = 2 * solution.precision.max(32);
-                match solution.refine(precision, &Watch::none()) {
-                    Ok(refined) => solution = refined,
-                    Err(_) => break f64::NAN,
+            .map(|v| {
+                loop {
+                    if let Some(x) = rounded(&solution, v) {
+                        break x;
+                    }
+                    let precision = 2 * solution.precision.max(32);
+                    match solution.refine(precision, &Watch::none()) {
+                        Ok(refined) => solution = refined,
+                        Err(_) => break f64::NAN,
+                    }
                 }
             })
             .collect()

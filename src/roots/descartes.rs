@@ -31,9 +31,10 @@ pub fn real_roots_of(coefficients: &[BigRational], watch: &Watch) -> Result<Vec<
         return Err(Error::new(ErrorKind::BadValue, "every number is a root of the zero polynomial; give another"));
     }
     let parts = square_free_parts(&polynomial);
-    let radical = parts.iter().skip(1).fold(parts.first().map_or(vec![BigInt::one()], |p| p.1.clone()), |f, p| {
-        super::square_free::product(&f, &p.1)
-    });
+    let radical = parts
+        .iter()
+        .skip(1)
+        .fold(parts.first().map_or(vec![BigInt::one()], |p| p.1.clone()), |f, p| super::square_free::product(&f, &p.1));
     let intervals = isolate_square_free(&radical, watch)?;
     let multiplicity = |interval: &Interval| {
         let part = parts.iter().find(|(_, part)| super::refine::has_root(part, interval));

@@ -45,12 +45,7 @@ pub fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
 ///
 /// # Errors
 /// What `watch` stops with.
-pub fn sign_at_root(
-    polynomial: &[BigInt],
-    interval: &Interval,
-    other: &[BigInt],
-    watch: &Watch,
-) -> Result<Ordering> {
+pub fn sign_at_root(polynomial: &[BigInt], interval: &Interval, other: &[BigInt], watch: &Watch) -> Result<Ordering> {
     let zero = BigInt::zero();
     let mut interval = interval.clone();
     for bits in (0..).map(|k| GUARD << k) {
@@ -139,7 +134,8 @@ impl<'a> Refinement<'a> {
         if sign == Sign::NoSign {
             return self.narrow(guess, self.cut, true);
         }
-        let (first, neighbour) = if sign == self.low_sign { (guess.clone(), &guess + 1) } else { (&guess - 1, &guess - 1) };
+        let (first, neighbour) =
+            if sign == self.low_sign { (guess.clone(), &guess + 1) } else { (&guess - 1, &guess - 1) };
         let other = self.sign_of_part(&neighbour);
         if other == Sign::NoSign {
             return self.narrow(neighbour, self.cut, true);

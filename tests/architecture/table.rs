@@ -19,7 +19,10 @@ const TABLE: [(&str, Uses); 19] = [
     ("dynamics", Uses::Only(&["spatial", "kinematics"])),
     ("solver", Uses::Only(&["number", "poly", "roots"])),
     ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "kinematics", "solver"])),
-    ("witness", Uses::Only(&["number", "poly", "groebner", "roots", "real", "spatial", "kinematics", "solver", "derive"])),
+    (
+        "witness",
+        Uses::Only(&["number", "poly", "groebner", "roots", "real", "spatial", "kinematics", "solver", "derive"]),
+    ),
     ("codegen", Uses::Only(&["number", "solver"])),
     ("robots", Uses::Only(&["spatial", "kinematics", "solver"])),
     ("gait", Uses::Only(&["number", "poly", "roots", "spatial", "kinematics", "dynamics", "solver", "robots"])),

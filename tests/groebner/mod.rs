@@ -4,3 +4,4 @@ mod claims;
 mod known;
 mod limits;
 mod random;
+mod univariate_representation;

@@ -79,11 +79,7 @@ fn generators_vanish(
 }
 
 /// Whether every solution of the ideal is a point of the representation.
-fn no_further_point(
-    representation: &UnivariateRepresentation,
-    staircase: &Staircase,
-    watch: &Watch,
-) -> Result<bool> {
+fn no_further_point(representation: &UnivariateRepresentation, staircase: &Staircase, watch: &Watch) -> Result<bool> {
     let border = staircase.border(0..staircase.variables())?;
     let power = representation.multiplicities.iter().map(|(multiplicity, _)| *multiplicity).max().unwrap_or(1);
     let bits = power as u64 * element_bits(representation, staircase, &border) + 2;

@@ -161,11 +161,13 @@ impl Staircase {
     /// A variable that must be added before every border monomial is a lead or a product of known ones.
     fn missing(&self, monomials: &[Monomial], needed: &BTreeSet<usize>) -> Option<usize> {
         let composed = monomials.iter().filter(|m| !self.leads.contains_key(*m));
-        composed.filter_map(|m| {
-            let mut divisors = self.divisors(m).map(|(v, _)| v).peekable();
-            let first = divisors.peek().copied();
-            if divisors.any(|v| needed.contains(&v)) { None } else { first }
-        }).next()
+        composed
+            .filter_map(|m| {
+                let mut divisors = self.divisors(m).map(|(v, _)| v).peekable();
+                let first = divisors.peek().copied();
+                if divisors.any(|v| needed.contains(&v)) { None } else { first }
+            })
+            .next()
     }
 
     fn steps(&self, monomials: &[Monomial], needed: &BTreeSet<usize>) -> Border {
