@@ -53,7 +53,7 @@ pub fn solve(
 /// As [`solve`], given the reduced Groebner basis, in any order, of the ideal of `generators`, which are in the basis' ring.
 ///
 /// # Errors
-/// Those of [`univariate_representation`].
+/// Those of [`univariate_representation()`].
 pub fn solve_basis(
     basis: &Basis<Rationals>,
     generators: &[Polynomial<BigRational>],

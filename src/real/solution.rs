@@ -98,7 +98,7 @@ impl RealSolution {
         polynomial: &Polynomial<BigRational>,
         watch: &Watch,
     ) -> Result<Ordering> {
-        let (value, _) = self.representation.substitute(ring, polynomial)?;
+        let (value, _) = self.representation.substitute(ring, polynomial, watch)?;
         let value = self.sign_at_parameter(&value, watch)?;
         let odd = ring.degree(polynomial) % 2 == 1;
         let slope = self.representation.slope();

@@ -1,7 +1,7 @@
 //! Real roots of univariate polynomials: exactly over Q ([`Sturm`], and [`real_roots_of`] for high degrees), and in `f64`
 //! without allocation ([`real_roots`]).
 //!
-//! The last is the method of generated solvers; the exact ones are the witnesses that it is tested against. [`refine`] narrows an
+//! The last is the method of generated solvers; the exact ones are the witnesses that it is tested against. [`refine()`] narrows an
 //! exact root, [`sign_at_root`] tells the sign of another polynomial there.
 
 mod descartes;

@@ -41,7 +41,7 @@ pub fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
 }
 
 /// How `other` compares with zero at the root of `polynomial` in `interval`, exactly; the polynomial and its interval are as for
-/// [`refine`].
+/// [`refine()`].
 ///
 /// # Errors
 /// What `watch` stops with.
@@ -155,7 +155,7 @@ impl<'a> Refinement<'a> {
         let high = value_at(self.polynomial, &(&self.number + 1), self.exponent, bits);
         let common = low.bits.max(high.bits);
         let (low, high) = (low.value.abs() << (common - low.bits), high.value.abs() << (common - high.bits));
-        let nearest: BigInt = ((&low * parts << 1u32) / (low + high) + 1) >> 1u32;
+        let nearest: BigInt = (((&low * parts) << 1u32) / (low + high) + 1) >> 1u32;
         nearest.max(BigInt::one()).min(parts - 1)
     }
 

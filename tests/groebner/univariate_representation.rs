@@ -207,12 +207,15 @@ fn polynomials_are_evaluated_at_the_points() {
     let (ring, generators) = system(&["x", "y"], &["x^2 - 2", "y - x - 1"]);
     let representation = represent(&ring, &generators).unwrap();
     let h = parse("y^2/3 - 2*x/3").unwrap().evaluate(&ring).unwrap();
-    let (value, factor) = representation.substitute(&ring, &h).unwrap();
+    let (value, factor) = representation.substitute(&ring, &h, &Watch::none()).unwrap();
     let line = UnivariateRing::new(Rationals, "t");
     let [f, value, slope] =
         [&representation.polynomial, &value, &representation.slope()].map(|p| over_rationals(&line, p));
     let expected = line.scale(&line.mul(&slope, &slope), &BigRational::from_integer(factor));
     assert!(line.checked_div(&line.sub(&value, &expected), &f).is_some(), "(x + 1)^2/3 - 2 x/3 = 1 where x^2 = 2");
     let (other, _) = system(&["y", "x"], &[]);
-    assert_eq!(representation.substitute(&other, &other.one()).unwrap_err().kind(), ErrorKind::BadValue);
+    assert_eq!(
+        representation.substitute(&other, &other.one(), &Watch::none()).unwrap_err().kind(),
+        ErrorKind::BadValue
+    );
 }

@@ -15,9 +15,10 @@ use num_traits::{One, Signed, Zero};
 
 use super::lift::residue;
 use super::modular::QuotientModulo;
+use super::residues::trim;
 use super::staircase::{Border, Row, Staircase};
 use super::substitute::Substitution;
-use super::{UnivariateRepresentation, integral, primes, trim};
+use super::{UnivariateRepresentation, integral, primes};
 use crate::groebner::Basis;
 use crate::number::{BigRational, Rationals};
 use crate::poly::Polynomial;
@@ -69,9 +70,8 @@ fn generators_vanish(
     let numerators = representation.numerators.iter().map(|g| g.coefficients.as_slice());
     let mut substitution = Substitution::new(numerators, &slope.coefficients);
     for generator in generators {
-        watch.check()?;
-        let (value, _) = substitution.apply(&basis.ring, generator);
-        if !integral::divides(&f, &value) {
+        let (value, _) = substitution.apply(&basis.ring, generator, watch)?;
+        if !integral::divides(&f, &value, watch)? {
             return Ok(false);
         }
     }

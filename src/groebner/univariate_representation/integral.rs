@@ -4,6 +4,8 @@ use num_bigint::{BigInt, BigUint, Sign};
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
+use crate::{Result, Watch};
+
 /// `a` without trailing zeros.
 pub(super) fn trim(mut a: Vec<BigInt>) -> Vec<BigInt> {
     while a.last().is_some_and(Zero::is_zero) {
@@ -80,19 +82,23 @@ fn unpack(value: &BigInt, words: usize, length: usize) -> Vec<BigInt> {
 }
 
 /// Whether the primitive polynomial `b` divides `a`: by Gauss's lemma the quotient is integral.
-pub(super) fn divides(b: &[BigInt], a: &[BigInt]) -> bool {
+///
+/// # Errors
+/// What `watch` stops with.
+pub(super) fn divides(b: &[BigInt], a: &[BigInt], watch: &Watch) -> Result<bool> {
     let (low, lead) = (&b[..b.len() - 1], &b[b.len() - 1]);
     let mut rest = a.to_vec();
     while rest.len() > low.len() {
+        watch.check()?;
         let Some(top) = rest.pop() else { break };
         let (factor, remainder) = top.div_rem(lead);
         if !remainder.is_zero() {
-            return false;
+            return Ok(false);
         }
         let shift = rest.len() - low.len();
         for (target, c) in rest[shift..].iter_mut().zip(low) {
             *target -= &factor * c;
         }
     }
-    rest.iter().all(Zero::is_zero)
+    Ok(rest.iter().all(Zero::is_zero))
 }

@@ -6,23 +6,33 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
+use super::modular::Modular;
 use super::residues::Residues;
+use super::shape::Shape;
 
 /// A reconstruction must be this many bits shorter than the modulus to be believed; the proof comes later.
 const MARGIN: u64 = 40;
 
-/// Integers modulo a growing product of primes.
+/// The coefficients of a representation modulo a growing product of lucky primes, and what they may be over Q.
 #[derive(Clone, Debug)]
 pub(super) struct Lift {
+    shape: Shape,
     modulus: BigInt,
     values: Vec<BigInt>,
     primes: usize,
     next_attempt: usize,
+    /// Numerators, then their common denominator.
+    candidate: Option<Vec<BigInt>>,
 }
 
 impl Lift {
-    pub(super) fn new(length: usize) -> Self {
-        Lift { modulus: BigInt::one(), values: vec![BigInt::zero(); length], primes: 0, next_attempt: 1 }
+    pub(super) fn new(shape: Shape) -> Self {
+        let values = vec![BigInt::zero(); shape.length()];
+        Lift { shape, modulus: BigInt::one(), values, primes: 0, next_attempt: 1, candidate: None }
+    }
+
+    pub(super) fn shape(&self) -> &Shape {
+        &self.shape
     }
 
     /// The number of primes so far.
@@ -30,9 +40,22 @@ impl Lift {
         self.primes
     }
 
-    /// Takes in the residues modulo a new prime.
-    pub(super) fn add(&mut self, field: &Residues, residues: &[u32]) {
-        let prime = field.prime();
+    /// The coefficients modulo a new prime; `None` when it is unlucky. When the primes so far were, the lift starts afresh.
+    pub(super) fn lucky_residues(&mut self, modular: &Modular) -> Option<Vec<u32>> {
+        if self.shape.is_unlucky(modular) {
+            *self = Lift::new(Shape::of(modular));
+        }
+        (self.shape == Shape::of(modular)).then(|| self.shape.flatten(modular))
+    }
+
+    /// Takes the candidate over Q out; it is lost unless it has these residues modulo a new prime.
+    pub(super) fn confirmed(&mut self, residues: &[u32], prime: u32) -> Option<Vec<BigInt>> {
+        self.candidate.take().filter(|values| agrees(values, residues, prime))
+    }
+
+    /// Takes in the residues modulo a new prime, and looks for a candidate; attempts become rarer as the numbers grow.
+    pub(super) fn add(&mut self, prime: u32, residues: &[u32]) {
+        let field = Residues::new(prime);
         let inverse = field.inverse(residue(&self.modulus, prime));
         for (value, &wanted) in self.values.iter_mut().zip(residues) {
             let digit = field.mul(field.sub(wanted, residue(value, prime)), inverse);
@@ -40,19 +63,14 @@ impl Lift {
         }
         self.modulus *= prime;
         self.primes += 1;
-    }
-
-    /// Whether the next [`Lift::rationals`] may pay; attempts become rarer as the numbers grow.
-    pub(super) fn is_due(&mut self) -> bool {
-        let due = self.primes >= self.next_attempt;
-        if due {
+        if self.primes >= self.next_attempt {
             self.next_attempt = self.primes + 1 + self.primes / 10;
+            self.candidate = self.rationals();
         }
-        due
     }
 
     /// Numerators over one positive common denominator, the last entry; `None` when the modulus is too small yet.
-    pub(super) fn rationals(&self) -> Option<Vec<BigInt>> {
+    fn rationals(&self) -> Option<Vec<BigInt>> {
         let mut denominator = BigInt::one();
         for value in &self.values {
             let numerator = self.symmetric(value * &denominator);
@@ -92,4 +110,13 @@ impl Lift {
 /// `n` modulo a prime, from 0.
 pub(super) fn residue(n: &BigInt, prime: u32) -> u32 {
     n.mod_floor(&BigInt::from(prime)).to_u32().unwrap_or(0)
+}
+
+/// Whether fractions over a common denominator, which stands last, have these residues.
+fn agrees(values: &[BigInt], residues: &[u32], prime: u32) -> bool {
+    let field = Residues::new(prime);
+    let Some((denominator, numerators)) = values.split_last() else { return false };
+    let denominator = residue(denominator, prime);
+    let same = |(n, &r): (&BigInt, &u32)| residue(n, prime) == field.mul(r, denominator);
+    denominator != 0 && numerators.iter().zip(residues).all(same)
 }

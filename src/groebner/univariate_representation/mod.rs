@@ -11,14 +11,15 @@ mod integral;
 mod lift;
 mod modular;
 mod residues;
+mod shape;
 mod staircase;
 mod substitute;
 
 use num_bigint::BigInt;
 
-use self::lift::{Lift, residue};
+use self::lift::Lift;
 use self::modular::{Modular, QuotientModulo};
-use self::residues::{Residues, trim};
+use self::shape::Shape;
 use self::staircase::{Border, Staircase};
 use super::Basis;
 use crate::number::{BigRational, Rationals, Zp};
@@ -54,38 +55,26 @@ pub fn univariate_representation(
     watch: &Watch,
 ) -> Result<UnivariateRepresentation> {
     let staircase = Staircase::new(basis)?;
-    let (form, mut shape) = separating_form(&staircase, watch)?;
+    let (form, shape) = separating_form(&staircase, watch)?;
     let border = staircase.border((0..form.len()).filter(|&v| form[v] != 0))?;
-    let mut lift = Lift::new(shape.length());
-    let mut candidate: Option<Vec<BigInt>> = None;
     let mut refuted = 0;
+    let mut lift = Lift::new(shape);
     for prime in primes() {
         watch.check()?;
         watch.report("univariate representation", lift.primes(), 0);
         let Some(modular) = modulo(&staircase, &border, prime, &form) else { continue };
-        if shape.is_unlucky(&modular) {
-            (shape, lift, candidate) = (Shape::of(&modular), Lift::new(Shape::of(&modular).length()), None);
-        } else if shape != Shape::of(&modular) {
-            continue;
-        }
-        let residues = shape.flatten(&modular);
-        if candidate.take_if(|values| !agrees(values, &residues, prime)).is_none()
-            && let Some(values) = &candidate
-        {
-            let representation = shape.assemble(basis.ring.variables(), &form, values);
+        let Some(residues) = lift.lucky_residues(&modular) else { continue };
+        if let Some(values) = lift.confirmed(&residues, prime) {
+            let representation = lift.shape().assemble(basis.ring.variables(), &form, &values);
             if certify::holds(&representation, basis, generators, &staircase, watch)? {
                 return Ok(representation);
             }
-            candidate = None;
             refuted += 1;
         }
         if refuted == MAX_REFUTED {
             break;
         }
-        lift.add(&Residues::new(prime), &residues);
-        if candidate.is_none() && lift.is_due() {
-            candidate = lift.rationals();
-        }
+        lift.add(prime, &residues);
     }
     Err(foreign_basis())
 }
@@ -143,82 +132,6 @@ fn linear_forms(variables: usize) -> impl Iterator<Item = Vec<i64>> {
     (0..variables).rev().map(unit).chain((0..).map(mixed))
 }
 
-/// The degrees in a representation: equal for all lucky primes.
-#[derive(Clone, Debug, PartialEq)]
-struct Shape {
-    degree: usize,
-    minimal: usize,
-    classes: Vec<(usize, usize)>,
-    variables: usize,
-}
-
-impl Shape {
-    fn of(modular: &Modular) -> Self {
-        let classes = modular.classes.iter().map(|(multiplicity, factor)| (*multiplicity, factor.len() - 1)).collect();
-        Shape {
-            degree: modular.polynomial.len() - 1,
-            minimal: modular.minimal,
-            classes,
-            variables: modular.numerators.len(),
-        }
-    }
-
-    /// Whether the primes before `modular` were unlucky: degrees only drop modulo a prime.
-    fn is_unlucky(&self, modular: &Modular) -> bool {
-        let other = Shape::of(modular);
-        (self.degree, self.minimal) < (other.degree, other.minimal)
-    }
-
-    fn length(&self) -> usize {
-        self.degree * (1 + self.variables) + self.classes.iter().map(|(_, degree)| degree).sum::<usize>()
-    }
-
-    /// All coefficients but the leading ones of monic polynomials.
-    fn flatten(&self, modular: &Modular) -> Vec<u32> {
-        let mut residues = modular.polynomial[..self.degree].to_vec();
-        for (index, numerator) in modular.numerators.iter().enumerate() {
-            residues.extend(numerator);
-            residues.resize(self.degree * (index + 2), 0);
-        }
-        residues.extend(modular.classes.iter().flat_map(|(_, factor)| &factor[..factor.len() - 1]));
-        residues
-    }
-
-    /// The representation of what [`Shape::flatten`] became over Q: numerators, then their common denominator.
-    fn assemble(&self, variables: &[String], form: &[i64], values: &[BigInt]) -> UnivariateRepresentation {
-        let (denominator, values) = values.split_last().expect("a denominator stands last");
-        let (represented, mut rest) = values.split_at(self.degree * (1 + self.variables));
-        let mut parts = represented.chunks(self.degree).map(<[BigInt]>::to_vec);
-        let monic = |low: &[BigInt]| low.iter().chain([denominator]).cloned().collect::<Vec<_>>();
-        let polynomial = univariate(monic(&parts.next().unwrap_or_default()));
-        let mut multiplicities = Vec::new();
-        for &(multiplicity, degree) in &self.classes {
-            let (low, after) = rest.split_at(degree);
-            multiplicities.push((multiplicity, univariate(integral::primitive(&monic(low)))));
-            rest = after;
-        }
-        if multiplicities.is_empty() {
-            multiplicities.push((1, univariate(integral::primitive(&polynomial.coefficients))));
-        }
-        let numerators = parts.map(univariate).collect();
-        let (variables, form) = (variables.to_vec(), form.to_vec());
-        UnivariateRepresentation { variables, form, polynomial, numerators, multiplicities }
-    }
-}
-
-fn univariate(coefficients: Vec<BigInt>) -> Univariate<BigInt> {
-    Univariate { coefficients: integral::trim(coefficients) }
-}
-
-/// Whether fractions over a common denominator, which stands last, have these residues.
-fn agrees(values: &[BigInt], residues: &[u32], prime: u32) -> bool {
-    let field = Residues::new(prime);
-    let Some((denominator, numerators)) = values.split_last() else { return false };
-    let denominator = residue(denominator, prime);
-    let same = |(n, &r): (&BigInt, &u32)| residue(n, prime) == field.mul(r, denominator);
-    denominator != 0 && numerators.iter().zip(residues).all(same)
-}
-
 impl UnivariateRepresentation {
     /// The number of distinct complex solutions.
     pub fn count(&self) -> usize {
@@ -234,11 +147,12 @@ impl UnivariateRepresentation {
     /// returned positive integer; `ring` has the variables of the representation, in its order.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when `ring` has other variables.
+    /// [`ErrorKind::BadValue`] when `ring` has other variables; what `watch` stops with.
     pub fn substitute(
         &self,
         ring: &PolynomialRing<Rationals>,
         h: &Polynomial<BigRational>,
+        watch: &Watch,
     ) -> Result<(Univariate<BigInt>, BigInt)> {
         if ring.variables() != self.variables.as_slice() {
             let text = format!("the polynomial must be in the variables {}, in this order", self.variables.join(", "));
@@ -246,7 +160,12 @@ impl UnivariateRepresentation {
         }
         let slope = self.slope();
         let numerators = self.numerators.iter().map(|g| g.coefficients.as_slice());
-        let (value, denominator) = substitute::Substitution::new(numerators, &slope.coefficients).apply(ring, h);
+        let (value, denominator) =
+            substitute::Substitution::new(numerators, &slope.coefficients).apply(ring, h, watch)?;
         Ok((univariate(value), denominator))
     }
+}
+
+fn univariate(coefficients: Vec<BigInt>) -> Univariate<BigInt> {
+    Univariate { coefficients: integral::trim(coefficients) }
 }

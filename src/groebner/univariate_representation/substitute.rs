@@ -10,6 +10,7 @@ use num_traits::One;
 use super::integral;
 use crate::number::{BigRational, Rationals};
 use crate::poly::{Polynomial, PolynomialRing};
+use crate::{Result, Watch};
 
 /// Products of numerators and of `f'`, each computed once.
 pub(super) struct Substitution<'a> {
@@ -24,21 +25,26 @@ impl<'a> Substitution<'a> {
     }
 
     /// The integer polynomial `P` and the positive integer `c`; `d` is the total degree of `h`.
+    ///
+    /// # Errors
+    /// What `watch` stops with.
     pub(super) fn apply(
         &mut self,
         ring: &PolynomialRing<Rationals>,
         h: &Polynomial<BigRational>,
-    ) -> (Vec<BigInt>, BigInt) {
+        watch: &Watch,
+    ) -> Result<(Vec<BigInt>, BigInt)> {
         let denominator = h.terms().iter().fold(BigInt::one(), |lcm, term| lcm.lcm(term.coefficient.denom()));
         let degree = ring.degree(h);
         let mut sum = Vec::new();
         for term in h.terms() {
+            watch.check()?;
             let mut exponents = ring.layout().exponents(&term.monomial);
             exponents.push(degree - ring.layout().degree(&term.monomial));
             let factor = term.coefficient.numer() * (&denominator / term.coefficient.denom());
             integral::add_scaled(&mut sum, &factor, &self.product(exponents));
         }
-        (integral::trim(sum), denominator)
+        Ok((integral::trim(sum), denominator))
     }
 
     fn product(&mut self, mut exponents: Vec<u32>) -> Rc<Vec<BigInt>> {
