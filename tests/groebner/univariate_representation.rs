@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use groebot::groebner::{Basis, Options, UnivariateRepresentation, basis, univariate_representation};
 use groebot::number::{BigInt, BigRational, Field, Rationals, Ring};
 use groebot::poly::univariate::{Univariate, UnivariateRing};
-use groebot::poly::{Order, Polynomial, PolynomialRing, parse};
+use groebot::poly::{Order, Polynomial, PolynomialRing, Width, parse};
 use groebot::{ErrorKind, Result, Watch};
 use proptest::prelude::*;
 
@@ -147,6 +147,27 @@ fn points_above_each_other_are_told_apart() {
     assert_represents(&representation, &ring, &generators);
     assert_eq!(representation.count(), 4);
     assert!(representation.form.iter().all(|&c| c != 0));
+}
+
+#[test]
+fn a_basis_in_any_order_serves() {
+    let equations = ["x^2 + y^2 + z^2 - 3", "x*y + z - 2", "x^3 - y*z"];
+    let (ring, generators) = system(&["x", "y", "z"], &equations);
+    let graded = represent(&ring, &generators).unwrap();
+    let lex = PolynomialRing::new(Rationals, ring.variables(), Order::Lex).unwrap();
+    let moved: Vec<_> = generators.iter().map(|f| ring.transfer(f, &lex).unwrap()).collect();
+    let representation = represent(&lex, &moved).unwrap();
+    assert_represents(&representation, &lex, &moved);
+    assert_eq!((representation.count(), representation), (graded.count(), graded));
+}
+
+#[test]
+fn degrees_that_outgrow_the_lanes_of_the_basis_are_no_obstacle() {
+    let (ring, generators) = system(&["x", "y"], &["x^127 - 2", "y^2 - x"]);
+    let narrow = basis_of(&ring, &generators).with_width(Width::Bits8).unwrap();
+    let moved: Vec<_> = generators.iter().map(|f| ring.transfer(f, &narrow.ring).unwrap()).collect();
+    let representation = univariate_representation(&narrow, &moved, &Watch::none()).unwrap();
+    assert_eq!((representation.count(), representation.form), (254, vec![0, 1]));
 }
 
 #[test]

@@ -82,7 +82,7 @@ fn generators_vanish(
 fn no_further_point(representation: &UnivariateRepresentation, staircase: &Staircase, watch: &Watch) -> Result<bool> {
     let border = staircase.border(0..staircase.variables())?;
     let power = representation.multiplicities.iter().map(|(multiplicity, _)| *multiplicity).max().unwrap_or(1);
-    let bits = power as u64 * element_bits(representation, staircase, &border) + 2;
+    let bits = power as u64 * element_bits(representation, staircase, &border, watch)? + 2;
     let mut proved = 0;
     for prime in primes() {
         if proved > bits {
@@ -90,7 +90,7 @@ fn no_further_point(representation: &UnivariateRepresentation, staircase: &Stair
         }
         watch.check()?;
         watch.report("no further solution", proved as usize, bits.saturating_sub(proved) as usize);
-        let Some(quotient) = QuotientModulo::new(staircase, &border, prime) else { continue };
+        let Some(quotient) = QuotientModulo::new(staircase, &border, prime, watch)? else { continue };
         let reduce = |f: &[BigInt]| trim(f.iter().map(|c| residue(c, prime)).collect());
         let f = reduce(&representation.polynomial.coefficients);
         let slope = reduce(&representation.slope().coefficients);
@@ -105,19 +105,24 @@ fn no_further_point(representation: &UnivariateRepresentation, staircase: &Stair
 
 /// A bound on the bits of `d^r f(t)` and `d^r (f'(t) x_v - g_v(t))` as integer matrices, in the norm of column sums; `r` is the
 /// degree of `f` and `d` a common denominator of the multiplication matrices.
-fn element_bits(representation: &UnivariateRepresentation, staircase: &Staircase, border: &Border) -> u64 {
-    let largest = multiplication_norm(staircase, border);
+fn element_bits(
+    representation: &UnivariateRepresentation,
+    staircase: &Staircase,
+    border: &Border,
+    watch: &Watch,
+) -> Result<u64> {
+    let largest = multiplication_norm(staircase, border, watch)?;
     let form: u64 = representation.form.iter().map(|c| c.unsigned_abs()).sum();
     let per_degree = (largest * form.max(1)).bits();
     let f = integral::norm(&representation.polynomial.coefficients);
     let numerators = representation.numerators.iter().map(|g| integral::norm(&g.coefficients)).max();
     let slope = integral::norm(&representation.slope().coefficients);
     let coefficients = f.max(slope + numerators.unwrap_or_default());
-    coefficients.bits() + representation.count() as u64 * per_degree
+    Ok(coefficients.bits() + representation.count() as u64 * per_degree)
 }
 
 /// The largest column sum of absolute values in all multiplication matrices of variables, made integral by one denominator.
-fn multiplication_norm(staircase: &Staircase, border: &Border) -> BigInt {
+fn multiplication_norm(staircase: &Staircase, border: &Border, watch: &Watch) -> Result<BigInt> {
     let lead = |row: &Row| {
         let mut form = vec![BigRational::zero(); staircase.dimension()];
         for (place, coefficient) in &row.tail {
@@ -129,10 +134,10 @@ fn multiplication_norm(staircase: &Staircase, border: &Border) -> BigInt {
     let add_scaled = |target: &mut [BigRational], factor: &BigRational, row: &[BigRational]| {
         target.iter_mut().zip(row).for_each(|(sum, entry)| *sum += factor * entry);
     };
-    let forms = border.normal_forms(&leads, [BigRational::zero(), BigRational::one()], add_scaled);
+    let forms = border.normal_forms(&leads, [BigRational::zero(), BigRational::one()], add_scaled, watch)?;
     let denominator = forms.iter().flatten().fold(BigInt::one(), |lcm, entry| lcm.lcm(entry.denom()));
     let norm = |form: &Vec<BigRational>| -> BigInt {
         form.iter().map(|entry| entry.numer().abs() * (&denominator / entry.denom())).sum()
     };
-    forms.iter().map(norm).max().unwrap_or_default().max(denominator.clone())
+    Ok(forms.iter().map(norm).max().unwrap_or_default().max(denominator.clone()))
 }

@@ -62,7 +62,7 @@ pub fn univariate_representation(
     for prime in primes() {
         watch.check()?;
         watch.report("univariate representation", lift.primes(), 0);
-        let Some(modular) = modulo(&staircase, &border, prime, &form) else { continue };
+        let Some(modular) = modulo(&staircase, &border, prime, &form, watch)? else { continue };
         let Some(residues) = lift.lucky_residues(&modular) else { continue };
         if let Some(values) = lift.confirmed(&residues, prime) {
             let representation = lift.shape().assemble(basis.ring.variables(), &form, &values);
@@ -95,26 +95,31 @@ fn primes() -> impl Iterator<Item = u32> {
     (3..1u32 << 31).rev().filter(|&p| Zp::new(u64::from(p)).is_ok())
 }
 
-fn modulo(staircase: &Staircase, border: &Border, prime: u32, form: &[i64]) -> Option<Modular> {
-    QuotientModulo::new(staircase, border, prime)?.representation(form)
+fn modulo(staircase: &Staircase, border: &Border, prime: u32, form: &[i64], watch: &Watch) -> Result<Option<Modular>> {
+    match QuotientModulo::new(staircase, border, prime, watch)? {
+        Some(quotient) => quotient.representation(form, watch),
+        None => Ok(None),
+    }
 }
 
 /// A linear form that separates the solutions modulo some prime, and what its representation looks like there. It proves to
 /// separate those over Q when the representation is certified.
 fn separating_form(staircase: &Staircase, watch: &Watch) -> Result<(Vec<i64>, Shape)> {
     let border = staircase.border(0..staircase.variables())?;
-    let reduced = |prime| QuotientModulo::new(staircase, &border, prime);
+    let reduced = |prime| QuotientModulo::new(staircase, &border, prime, watch).transpose();
     for (attempt, quotient) in primes().filter_map(reduced).take(MAX_SEARCH).enumerate() {
+        let quotient = quotient?;
         let mut points = None;
         for form in linear_forms(staircase.variables()).take(staircase.variables() + 8 * (attempt + 1)) {
-            watch.check()?;
-            let Some(modular) = quotient.representation(&form) else { continue };
+            let Some(modular) = quotient.representation(&form, watch)? else { continue };
             let shape = Shape::of(&modular);
             if shape.degree == staircase.dimension() {
                 return Ok((form, shape));
             }
-            let points = *points.get_or_insert_with(|| quotient.count_points());
-            if Some(shape.degree) == points && quotient.represents(&form, &modular) {
+            if points.is_none() {
+                points = quotient.count_points(watch)?;
+            }
+            if Some(shape.degree) == points && quotient.represents(&form, &modular, watch)? {
                 return Ok((form, shape));
             }
         }

@@ -6,6 +6,7 @@
 use super::residues::{Residues, trim};
 use super::staircase::{Border, Coordinate, Place, Row, Staircase};
 use crate::number::{BigInt, Field, Ring, Zp};
+use crate::{Result, Watch};
 
 /// A representation modulo `p`; polynomials have their constant term first.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,9 +39,12 @@ enum Column<'a> {
 
 impl<'a> QuotientModulo<'a> {
     /// `None` when a leading coefficient of the basis is zero modulo `prime`.
-    pub(super) fn new(staircase: &'a Staircase, border: &'a Border, prime: u32) -> Option<Self> {
+    ///
+    /// # Errors
+    /// What `watch` stops with.
+    pub(super) fn new(staircase: &'a Staircase, border: &'a Border, prime: u32, watch: &Watch) -> Result<Option<Self>> {
         let field = Residues::new(prime);
-        let reduce = Zp::new(u64::from(prime)).ok()?;
+        let reduce = Zp::new(u64::from(prime))?;
         let image = |n: &BigInt| reduce.from_integer(n) as u32;
         let lead = |row: &Row| -> Option<Vec<u32>> {
             let inverse = reduce.inverse(&reduce.from_integer(&row.lead))? as u32;
@@ -50,10 +54,10 @@ impl<'a> QuotientModulo<'a> {
             }
             Some(form)
         };
-        let leads: Vec<Vec<u32>> = staircase.rows.iter().map(lead).collect::<Option<_>>()?;
+        let Some(leads) = staircase.rows.iter().map(lead).collect::<Option<Vec<_>>>() else { return Ok(None) };
         let add_scaled = |target: &mut [u32], factor: &u32, row: &[u32]| field.add_scaled(target, *factor, row);
-        let forms = border.normal_forms(&leads, [0, 1], add_scaled);
-        Some(QuotientModulo { field, staircase, border, leads, forms })
+        let forms = border.normal_forms(&leads, [0, 1], add_scaled, watch)?;
+        Ok(Some(QuotientModulo { field, staircase, border, leads, forms }))
     }
 
     fn dimension(&self) -> usize {
@@ -84,11 +88,14 @@ impl<'a> QuotientModulo<'a> {
     }
 
     /// The representation by the linear form `sum form[v] x_v`; `None` when some point of a root has no numerator.
-    pub(super) fn representation(&self, form: &[i64]) -> Option<Modular> {
+    ///
+    /// # Errors
+    /// What `watch` stops with.
+    pub(super) fn representation(&self, form: &[i64], watch: &Watch) -> Result<Option<Modular>> {
         let field = &self.field;
         let columns = self.columns(form);
-        let sequences = self.sequences(&columns);
-        let (powers, coordinates) = sequences.split_first()?;
+        let sequences = self.sequences(&columns, watch)?;
+        let (powers, coordinates) = sequences.split_first().expect("the powers of the form come first");
         let minimal = field.minimal_polynomial(powers);
         let repeated = field.gcd(&minimal, &field.derivative(&minimal));
         let polynomial = field.div_rem(&minimal, &repeated).0;
@@ -97,22 +104,22 @@ impl<'a> QuotientModulo<'a> {
             let shifted: Vec<u32> = (0..degree).map(|i| field.dot(&repeated, &sequence[i..])).collect();
             polar_numerator(field, &polynomial, &shifted)
         };
-        let slope = field.derivative(&polynomial);
-        let weight = field.inverse_modulo(&residue(powers), &polynomial)?;
-        let weight = field.product_modulo(&weight, &slope, &polynomial);
+        let Some(weight) = field.inverse_modulo(&residue(powers), &polynomial) else { return Ok(None) };
+        let weight = field.product_modulo(&weight, &field.derivative(&polynomial), &polynomial);
         let numerator = |sequence: &Vec<u32>| field.product_modulo(&residue(sequence), &weight, &polynomial);
         let numerators = coordinates.iter().map(numerator).collect();
-        let classes = if degree < self.dimension() { self.classes(&columns) } else { Vec::new() };
-        Some(Modular { minimal: minimal.len() - 1, polynomial, numerators, classes })
+        let classes = if degree < self.dimension() { self.classes(&columns, watch)? } else { Vec::new() };
+        Ok(Some(Modular { minimal: minimal.len() - 1, polynomial, numerators, classes }))
     }
 
     /// `l(t^i)` for `i < 2 D`, then for each variable `l(x_v t^i)` for `i < D`, with a fixed random linear form `l`.
-    fn sequences(&self, columns: &[Column<'_>]) -> Vec<Vec<u32>> {
+    fn sequences(&self, columns: &[Column<'_>], watch: &Watch) -> Result<Vec<Vec<u32>>> {
         let size = self.dimension();
         let coordinates = self.staircase.coordinates();
         let mut sequences = vec![Vec::new(); coordinates.len() + 1];
         let mut functional = random_vector(&self.field, size);
         for step in 0..2 * size {
+            watch.check()?;
             sequences[0].push(functional[0]);
             if step < size {
                 for (sequence, coordinate) in sequences[1..].iter_mut().zip(&coordinates) {
@@ -124,28 +131,33 @@ impl<'a> QuotientModulo<'a> {
             }
             functional = columns.iter().map(|column| column.dot(&functional, &self.field)).collect();
         }
-        sequences
+        Ok(sequences)
     }
 
     /// The number of distinct solutions modulo the prime, as a random linear form tells them apart.
-    pub(super) fn count_points(&self) -> Option<usize> {
+    ///
+    /// # Errors
+    /// What `watch` stops with.
+    pub(super) fn count_points(&self, watch: &Watch) -> Result<Option<usize>> {
         let random = random_vector(&self.field, self.staircase.variables() + 1);
         let form: Vec<i64> = random[1..].iter().map(|&c| i64::from(c)).collect();
-        Some(self.representation(&form)?.polynomial.len() - 1)
+        Ok(self.representation(&form, watch)?.map(|modular| modular.polynomial.len() - 1))
     }
 
     /// Whether `x_v = g_v(t) / f'(t)` at all points, for a form that separates them: `(mu/f)(t)`, which is zero in no local
     /// ring, times `f'(t) x_v - g_v(t)` is zero.
-    pub(super) fn represents(&self, form: &[i64], modular: &Modular) -> bool {
+    ///
+    /// # Errors
+    /// What `watch` stops with.
+    pub(super) fn represents(&self, form: &[i64], modular: &Modular, watch: &Watch) -> Result<bool> {
         let columns = self.columns(form);
         let field = &self.field;
-        let Some(powers) = self.sequences(&columns).into_iter().next() else { return false };
-        let minimal = field.minimal_polynomial(&powers);
+        let minimal = field.minimal_polynomial(&self.sequences(&columns, watch)?[0]);
         let repeated = field.div_rem(&minimal, &modular.polynomial).0;
         let element = self.evaluate(&repeated, &columns, &self.one());
         let slope = field.derivative(&modular.polynomial);
         let vanishes = |(v, g): (usize, &Vec<u32>)| is_zero(&self.excess(v, &columns, &slope, g, &element));
-        modular.numerators.iter().enumerate().all(vanishes)
+        Ok(modular.numerators.iter().enumerate().all(vanishes))
     }
 
     /// Whether the `power`-th powers of `f(t)` and of `f'(t) x_v - g_v(t)` are zero in the quotient ring.
@@ -202,14 +214,14 @@ impl<'a> QuotientModulo<'a> {
     }
 
     /// The characteristic polynomial of multiplication by the separating form, split by multiplicity.
-    fn classes(&self, columns: &[Column<'_>]) -> Vec<(usize, Vec<u32>)> {
+    fn classes(&self, columns: &[Column<'_>], watch: &Watch) -> Result<Vec<(usize, Vec<u32>)>> {
         let dense = |column: &Column<'_>| {
             let mut sum = vec![0; self.dimension()];
             column.add_to(&mut sum, 1, &self.field);
             sum
         };
-        let characteristic = self.field.characteristic_polynomial(columns.iter().map(dense).collect());
-        self.field.square_free_parts(&characteristic)
+        let characteristic = self.field.characteristic_polynomial(columns.iter().map(dense).collect(), watch)?;
+        Ok(self.field.square_free_parts(&characteristic))
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! A polynomial is its coefficients, constant term first, without trailing zeros.
 
+use crate::{Result, Watch};
+
 /// Arithmetic modulo `p`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Residues {
@@ -188,10 +190,14 @@ impl Residues {
 
     /// The monic characteristic polynomial of a square matrix, given by its columns, through Hessenberg's form
     /// (Cohen, A Course in Computational Algebraic Number Theory, algorithm 2.2.9).
-    pub(super) fn characteristic_polynomial(&self, columns: Vec<Vec<u32>>) -> Vec<u32> {
-        let h = self.hessenberg(columns);
+    ///
+    /// # Errors
+    /// What `watch` stops with.
+    pub(super) fn characteristic_polynomial(&self, columns: Vec<Vec<u32>>, watch: &Watch) -> Result<Vec<u32>> {
+        let h = self.hessenberg(columns, watch)?;
         let mut minors: Vec<Vec<u32>> = vec![vec![1]];
         for m in 0..h.len() {
+            watch.check()?;
             let mut next = self.product(&minors[m], &[self.neg(h[m][m]), 1]);
             let mut below = 1;
             for i in (0..m).rev() {
@@ -201,13 +207,14 @@ impl Residues {
             }
             minors.push(next);
         }
-        minors.pop().unwrap_or_default()
+        Ok(minors.pop().unwrap_or_default())
     }
 
     /// A similar matrix, by columns, that is zero below its first subdiagonal.
-    fn hessenberg(&self, mut h: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+    fn hessenberg(&self, mut h: Vec<Vec<u32>>, watch: &Watch) -> Result<Vec<Vec<u32>>> {
         let size = h.len();
         for m in 1..size.saturating_sub(1) {
+            watch.check()?;
             let Some(pivot) = (m..size).find(|&i| h[m - 1][i] != 0) else { continue };
             h.iter_mut().for_each(|column| column.swap(pivot, m));
             h.swap(pivot, m);
@@ -224,7 +231,7 @@ impl Residues {
                 self.add_scaled(&mut left[m], factor, &right[0]);
             }
         }
-        h
+        Ok(h)
     }
 
     /// The square-free, pairwise coprime parts of a monic polynomial with their multiplicities, constant parts left out

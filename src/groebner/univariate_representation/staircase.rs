@@ -5,8 +5,8 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::groebner::Basis;
 use crate::number::{BigInt, Rationals};
-use crate::poly::{Monomial, PolynomialRing};
-use crate::{Error, ErrorKind, Result};
+use crate::poly::{Monomial, PolynomialRing, Width};
+use crate::{Error, ErrorKind, Result, Watch};
 use num_integer::Integer;
 use num_traits::One;
 
@@ -66,6 +66,7 @@ impl Staircase {
     /// Those of [`Basis::require_zero_dimensional`]; [`ErrorKind::Overflow`].
     pub(super) fn new(basis: &Basis<Rationals>) -> Result<Self> {
         basis.require_zero_dimensional()?;
+        let basis = basis.clone().with_width(Width::Bits32)?;
         let Some(standard) = basis.quotient_basis() else {
             return Err(Error::new(ErrorKind::Overflow, "a standard monomial does not fit the ring; give a wider one"));
         };
@@ -194,14 +195,19 @@ impl Staircase {
 impl Border {
     /// The normal forms of the border monomials, from those of the leading monomials. `add_scaled(target, factor, row)` adds
     /// `factor row` to the front of `target`.
+    ///
+    /// # Errors
+    /// What `watch` stops with.
     pub(super) fn normal_forms<E: Clone + PartialEq>(
         &self,
         leads: &[Vec<E>],
         [zero, one]: [E; 2],
         add_scaled: impl Fn(&mut [E], &E, &[E]),
-    ) -> Vec<Vec<E>> {
+        watch: &Watch,
+    ) -> Result<Vec<Vec<E>>> {
         let mut forms: Vec<Vec<E>> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
+            watch.check()?;
             let form = match *step {
                 Step::Lead(row) => leads[row].clone(),
                 Step::Product(variable, factor) => {
@@ -218,6 +224,6 @@ impl Border {
             };
             forms.push(form);
         }
-        forms
+        Ok(forms)
     }
 }
