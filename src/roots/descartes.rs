@@ -7,8 +7,9 @@
 use num_bigint::Sign;
 use num_traits::{One, Zero};
 
-use super::isolate::{Coefficients, Interval, integral};
-use super::square_free::square_free_parts;
+use super::isolate::{Coefficients, Interval, derivative, integral, primitive};
+use super::refine::has_root;
+use super::square_free::{gcd, product, square_free_parts};
 use crate::number::{BigInt, BigRational};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -31,13 +32,10 @@ pub fn real_roots_of(coefficients: &[BigRational], watch: &Watch) -> Result<Vec<
         return Err(Error::new(ErrorKind::BadValue, "every number is a root of the zero polynomial; give another"));
     }
     let parts = square_free_parts(&polynomial);
-    let radical = parts
-        .iter()
-        .skip(1)
-        .fold(parts.first().map_or(vec![BigInt::one()], |p| p.1.clone()), |f, p| super::square_free::product(&f, &p.1));
-    let intervals = isolate_square_free(&radical, watch)?;
+    let radical = parts.iter().fold(vec![BigInt::one()], |f, (_, part)| product(&f, part));
+    let intervals = isolate(&radical, watch)?;
     let multiplicity = |interval: &Interval| {
-        let part = parts.iter().find(|(_, part)| super::refine::has_root(part, interval));
+        let part = parts.iter().find(|(_, part)| has_root(part, interval));
         part.map_or(1, |(multiplicity, _)| *multiplicity)
     };
     Ok(intervals.into_iter().map(|i| RealRoot { multiplicity: multiplicity(&i), interval: i }).collect())
@@ -46,8 +44,17 @@ pub fn real_roots_of(coefficients: &[BigRational], watch: &Watch) -> Result<Vec<
 /// The isolating intervals of the real roots of a square-free integer polynomial, ascending and disjoint.
 ///
 /// # Errors
-/// What `watch` stops with.
+/// [`ErrorKind::BadValue`] when the polynomial is zero or has a multiple root; what `watch` stops with.
 pub fn isolate_square_free(polynomial: &[BigInt], watch: &Watch) -> Result<Vec<Interval>> {
+    let polynomial = primitive(polynomial.to_vec());
+    if polynomial.is_empty() || gcd(&polynomial, &derivative(&polynomial)).len() > 1 {
+        let text = "the polynomial is not square-free; give its square-free parts";
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    isolate(&polynomial, watch)
+}
+
+fn isolate(polynomial: &[BigInt], watch: &Watch) -> Result<Vec<Interval>> {
     let mut roots: Vec<Interval> = positive_roots(&mirrored(polynomial), watch)?;
     roots.reverse();
     roots.iter_mut().for_each(|interval| *interval = interval.mirrored());

@@ -12,7 +12,7 @@ use num_traits::{One, Signed, Zero};
 use super::isolate::{Interval, sign_at};
 use super::square_free::gcd;
 use crate::number::{BigInt, BigRational};
-use crate::{Result, Watch};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// Bits that a fixed-point value keeps below what is asked for.
 const GUARD: u64 = 64;
@@ -21,12 +21,12 @@ const GUARD: u64 = 64;
 /// integer coefficients, constant term first, and has exactly one root in `interval`, an isolating interval of it.
 ///
 /// # Errors
-/// What `watch` stops with.
+/// [`ErrorKind::BadValue`] when the polynomial does not change its sign over the interval; what `watch` stops with.
 pub fn refine(polynomial: &[BigInt], interval: &Interval, bits: u64, watch: &Watch) -> Result<Interval> {
-    let mut state = match Refinement::new(polynomial, interval) {
-        Some(state) => state,
-        None => return Ok(interval.clone()),
-    };
+    if interval.is_point() {
+        return Ok(interval.clone());
+    }
+    let mut state = Refinement::new(polynomial, interval)?;
     while !state.is_point && -state.exponent < bits as i64 {
         watch.check()?;
         state.step(bits as i64);
@@ -44,7 +44,7 @@ pub fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
 /// [`refine()`].
 ///
 /// # Errors
-/// What `watch` stops with.
+/// Those of [`refine()`].
 pub fn sign_at_root(polynomial: &[BigInt], interval: &Interval, other: &[BigInt], watch: &Watch) -> Result<Ordering> {
     let zero = BigInt::zero();
     let mut interval = interval.clone();
@@ -101,16 +101,17 @@ struct Refinement<'a> {
 }
 
 impl<'a> Refinement<'a> {
-    /// `None` when the root is known exactly.
-    fn new(polynomial: &'a [BigInt], interval: &Interval) -> Option<Self> {
+    fn new(polynomial: &'a [BigInt], interval: &Interval) -> Result<Self> {
         let width = interval.width();
-        if interval.is_point() {
-            return None;
-        }
         let number = (interval.low() / &width).to_integer();
         let exponent = width.numer().bits() as i64 - width.denom().bits() as i64;
-        let low_sign = value_at(polynomial, &number, exponent, GUARD).value.sign();
-        Some(Refinement { polynomial, number, exponent, cut: 2, low_sign, is_point: false })
+        let sign = |number: &BigInt| value_at(polynomial, number, exponent, GUARD).value.sign();
+        let low_sign = sign(&number);
+        if low_sign == Sign::NoSign || low_sign != -sign(&(&number + 1)) {
+            let text = "the interval does not isolate a root of the polynomial; give one that was isolated for it";
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        Ok(Refinement { polynomial, number, exponent, cut: 2, low_sign, is_point: false })
     }
 
     fn interval(&self) -> Interval {

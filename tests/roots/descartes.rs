@@ -212,3 +212,14 @@ fn constants_have_no_roots_and_zero_is_refused() {
         assert_eq!(real_roots_of(zero, &Watch::none()).unwrap_err().kind(), ErrorKind::BadValue);
     }
 }
+
+#[test]
+fn multiple_roots_and_foreign_intervals_are_refused() {
+    for p in [&[9, -6, 1][..], &[0, 0, 1], &[0], &[]] {
+        assert_eq!(isolate_square_free(&whole(&integers(p)), &Watch::none()).unwrap_err().kind(), ErrorKind::BadValue);
+    }
+    assert_eq!(isolate_square_free(&whole(&integers(&[-3, 1, 0, 0])), &Watch::none()).unwrap().len(), 1);
+    let [p, other] = [[-2, 0, 1], [2, 0, 1]].map(|c| whole(&integers(&c)));
+    let intervals = isolate_square_free(&p, &Watch::none()).unwrap();
+    assert_eq!(refine(&other, &intervals[0], 99, &Watch::none()).unwrap_err().kind(), ErrorKind::BadValue);
+}
