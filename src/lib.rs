@@ -62,6 +62,8 @@ pub mod poly;
 pub mod groebner;
 pub mod roots;
 
+pub mod real;
+
 pub mod document;
 
 pub mod spatial;

@@ -13,6 +13,7 @@ mod groebner;
 mod kinematics;
 mod number;
 mod poly;
+mod real;
 mod robots;
 mod roots;
 mod spatial;

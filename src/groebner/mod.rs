@@ -14,6 +14,7 @@ pub mod ideal;
 mod pairs;
 mod prime_field;
 mod reduced;
+mod univariate_representation;
 pub mod verify;
 
 pub use division::{Division, divide, normal_form, s_polynomial};
@@ -25,3 +26,4 @@ pub use homogeneous::{System, dehomogenise, hilbert_driven, homogenise};
 pub use pairs::Strategy;
 pub use prime_field::basis_modulo_prime;
 pub use reduced::reduced_basis;
+pub use univariate_representation::{UnivariateRepresentation, univariate_representation};

@@ -41,8 +41,17 @@ impl Interval {
         self.low == self.high
     }
 
-    fn point(x: BigRational) -> Self {
+    pub(super) fn point(x: BigRational) -> Self {
         Interval { low: x.clone(), high: x }
+    }
+
+    pub(super) fn between(low: BigRational, high: BigRational) -> Self {
+        Interval { low, high }
+    }
+
+    /// The interval of `-x`.
+    pub(super) fn mirrored(&self) -> Self {
+        Interval { low: -&self.high, high: -&self.low }
     }
 
     fn middle(&self) -> BigRational {
@@ -51,7 +60,7 @@ impl Interval {
 }
 
 /// Integer coefficients, constant term first, the last not zero.
-type Coefficients = Vec<BigInt>;
+pub(super) type Coefficients = Vec<BigInt>;
 
 /// The Sturm sequence of the square-free part of a polynomial over Q, in primitive integer polynomials.
 ///
@@ -233,13 +242,13 @@ fn leading(p: &[BigInt]) -> &BigInt {
 }
 
 /// The positive multiple of a rational polynomial that is integral and primitive; empty for zero.
-fn integral(coefficients: &[BigRational]) -> Coefficients {
+pub(super) fn integral(coefficients: &[BigRational]) -> Coefficients {
     let denominator = coefficients.iter().fold(BigInt::one(), |lcm, c| lcm.lcm(c.denom()));
     primitive(coefficients.iter().map(|c| c.numer() * (&denominator / c.denom())).collect())
 }
 
 /// `p` without trailing zeros, divided by the positive gcd of its coefficients.
-fn primitive(mut p: Coefficients) -> Coefficients {
+pub(super) fn primitive(mut p: Coefficients) -> Coefficients {
     while p.last().is_some_and(Zero::is_zero) {
         p.pop();
     }
@@ -250,7 +259,7 @@ fn primitive(mut p: Coefficients) -> Coefficients {
     p
 }
 
-fn derivative(p: &[BigInt]) -> Coefficients {
+pub(super) fn derivative(p: &[BigInt]) -> Coefficients {
     p.iter().enumerate().skip(1).map(|(i, c)| c * BigInt::from(i)).collect()
 }
 
@@ -289,7 +298,7 @@ fn exact_quotient(mut rest: Coefficients, b: &[BigInt]) -> Coefficients {
 }
 
 /// The sign of `p(n / d)`, from `d^deg(p) p(n / d)` by Horner's rule in integers.
-fn sign_at(p: &[BigInt], x: &BigRational) -> Sign {
+pub(super) fn sign_at(p: &[BigInt], x: &BigRational) -> Sign {
     let mut power = BigInt::one();
     let mut value = BigInt::zero();
     for c in p.iter().rev() {
@@ -313,6 +322,6 @@ fn root_bound(p: &[BigInt]) -> BigRational {
 }
 
 /// The `f64` nearest to `x`.
-fn nearest(x: &BigRational) -> f64 {
+pub(super) fn nearest(x: &BigRational) -> f64 {
     x.to_f64().unwrap_or(f64::NAN)
 }

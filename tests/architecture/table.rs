@@ -7,18 +7,22 @@ const ROOT: [&str; 3] = ["error", "watch", "files"];
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 18] = [
+const TABLE: [(&str, Uses); 19] = [
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
     ("poly", Uses::Only(&["number"])),
     ("groebner", Uses::Only(&["number", "poly"])),
     ("roots", Uses::Only(&["number", "poly"])),
+    ("real", Uses::Only(&["number", "poly", "groebner", "roots"])),
     ("spatial", Uses::Only(&[])),
     ("kinematics", Uses::Only(&["spatial", "number", "roots"])),
     ("dynamics", Uses::Only(&["spatial", "kinematics"])),
     ("solver", Uses::Only(&["number", "poly", "roots"])),
     ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "kinematics", "solver"])),
-    ("witness", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "kinematics", "solver", "derive"])),
+    (
+        "witness",
+        Uses::Only(&["number", "poly", "groebner", "roots", "real", "spatial", "kinematics", "solver", "derive"]),
+    ),
     ("codegen", Uses::Only(&["number", "solver"])),
     ("robots", Uses::Only(&["spatial", "kinematics", "solver"])),
     ("gait", Uses::Only(&["number", "poly", "roots", "spatial", "kinematics", "dynamics", "solver", "robots"])),

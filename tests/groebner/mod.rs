@@ -10,3 +10,4 @@ mod known;
 mod limits;
 mod random;
 mod systems;
+mod univariate_representation;

@@ -1,5 +1,6 @@
 //! Real roots: exact isolation against known roots, the numeric method against exact isolation.
 
+mod descartes;
 mod isolate;
 mod numeric;
 

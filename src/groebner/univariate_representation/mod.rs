@@ -1,0 +1,176 @@
+//! The rational univariate representation of a zero-dimensional ideal over Q: [`UnivariateRepresentation`].
+//!
+//! F. Rouillier, "Solving zero-dimensional systems through the rational univariate representation", AAECC 9 (1999);
+//! A. Bostan, B. Salvy, E. Schost, "Fast algorithms for zero-dimensional polynomial systems using duality", AAECC 14 (2003).
+//!
+//! Computed modulo primes, lifted, then proved over Q ([`certify`]): nothing probable is left, given that the dimension of the
+//! quotient ring by the basis is right (and, for ideals with multiple points, the basis itself).
+
+mod certify;
+mod integral;
+mod lift;
+mod modular;
+mod residues;
+mod shape;
+mod staircase;
+mod substitute;
+
+use num_bigint::BigInt;
+
+use self::lift::Lift;
+use self::modular::{Modular, QuotientModulo};
+use self::shape::Shape;
+use self::staircase::{Border, Staircase};
+use super::Basis;
+use crate::number::{BigRational, Rationals, Zp};
+use crate::poly::univariate::Univariate;
+use crate::poly::{Polynomial, PolynomialRing};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The distinct complex solutions of a zero-dimensional system as `x_v = g_v(t) / f'(t)` for the roots `t` of `f`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnivariateRepresentation {
+    /// The names of the unknowns.
+    pub variables: Vec<String>,
+    /// The separating linear form: `t = sum form[v] x_v` takes another value at each solution.
+    pub form: Vec<i64>,
+    /// `f`, square-free, of degree the number of distinct complex solutions.
+    pub polynomial: Univariate<BigInt>,
+    /// `g_v`, one a variable, of degree below that of `f`.
+    pub numerators: Vec<Univariate<BigInt>>,
+    /// Primitive polynomials whose product is `f` up to a constant, each with the multiplicity of the solutions at its roots.
+    pub multiplicities: Vec<(usize, Univariate<BigInt>)>,
+}
+
+/// The representation of the solutions of `generators`, of whose ideal `basis` is the reduced Groebner basis in any order.
+///
+/// Proved over Q: the generators vanish at `g / f'` modulo `f`, the points are distinct, and there is no further one.
+///
+/// # Errors
+/// [`ErrorKind::Inconsistent`] for the unit ideal, [`ErrorKind::PositiveDimensional`]; [`ErrorKind::BadValue`] when the basis
+/// is not that of the generators; [`ErrorKind::Overflow`]; what `watch` stops with.
+pub fn univariate_representation(
+    basis: &Basis<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<UnivariateRepresentation> {
+    let staircase = Staircase::new(basis)?;
+    let (form, shape) = separating_form(&staircase, watch)?;
+    let border = staircase.border((0..form.len()).filter(|&v| form[v] != 0))?;
+    let mut refuted = 0;
+    let mut lift = Lift::new(shape);
+    for prime in primes() {
+        watch.check()?;
+        watch.report("univariate representation", lift.primes(), 0);
+        let Some(modular) = modulo(&staircase, &border, prime, &form, watch)? else { continue };
+        let Some(residues) = lift.lucky_residues(&modular) else { continue };
+        if let Some(values) = lift.confirmed(&residues, prime) {
+            let representation = lift.shape().assemble(basis.ring.variables(), &form, &values);
+            if certify::holds(&representation, basis, generators, &staircase, watch)? {
+                return Ok(representation);
+            }
+            refuted += 1;
+        }
+        if refuted == MAX_REFUTED {
+            break;
+        }
+        lift.add(prime, &residues);
+    }
+    Err(foreign_basis())
+}
+
+/// So many candidates that agree with a fresh prime are not wrong by chance.
+const MAX_REFUTED: usize = 3;
+
+/// So many primes without a separating form mean that the multiplications do not commute.
+const MAX_SEARCH: usize = 16;
+
+fn foreign_basis() -> Error {
+    let text = "the basis is not a Groebner basis of the ideal of the generators; give the reduced one";
+    Error::new(ErrorKind::BadValue, text)
+}
+
+/// The primes below `2^31`, greatest first.
+fn primes() -> impl Iterator<Item = u32> {
+    (3..1u32 << 31).rev().filter(|&p| Zp::new(u64::from(p)).is_ok())
+}
+
+fn modulo(staircase: &Staircase, border: &Border, prime: u32, form: &[i64], watch: &Watch) -> Result<Option<Modular>> {
+    match QuotientModulo::new(staircase, border, prime, watch)? {
+        Some(quotient) => quotient.representation(form, watch),
+        None => Ok(None),
+    }
+}
+
+/// A linear form that separates the solutions modulo some prime, and what its representation looks like there. It proves to
+/// separate those over Q when the representation is certified.
+fn separating_form(staircase: &Staircase, watch: &Watch) -> Result<(Vec<i64>, Shape)> {
+    let border = staircase.border(0..staircase.variables())?;
+    let reduced = |prime| QuotientModulo::new(staircase, &border, prime, watch).transpose();
+    for (attempt, quotient) in primes().filter_map(reduced).take(MAX_SEARCH).enumerate() {
+        let quotient = quotient?;
+        let mut points = None;
+        for form in linear_forms(staircase.variables()).take(staircase.variables() + 8 * (attempt + 1)) {
+            let Some(modular) = quotient.representation(&form, watch)? else { continue };
+            let shape = Shape::of(&modular);
+            if shape.degree == staircase.dimension() {
+                return Ok((form, shape));
+            }
+            if points.is_none() {
+                points = quotient.count_points(watch)?;
+            }
+            if Some(shape.degree) == points && quotient.represents(&form, &modular, watch)? {
+                return Ok((form, shape));
+            }
+        }
+    }
+    Err(foreign_basis())
+}
+
+/// Single variables, the last one first, then small coefficients that grow slowly.
+fn linear_forms(variables: usize) -> impl Iterator<Item = Vec<i64>> {
+    let unit = move |v: usize| (0..variables).map(|w| i64::from(v == w)).collect();
+    let mixed = move |k: usize| {
+        let bound = 2 + k / 3;
+        (0..variables).map(|v| ((7 * v * v + 5 * k * v + 3 * k) % (2 * bound + 1)) as i64 - bound as i64).collect()
+    };
+    (0..variables).rev().map(unit).chain((0..).map(mixed))
+}
+
+impl UnivariateRepresentation {
+    /// The number of distinct complex solutions.
+    pub fn count(&self) -> usize {
+        self.polynomial.degree().unwrap_or(0)
+    }
+
+    /// `f'`, the common denominator of the coordinates.
+    pub fn slope(&self) -> Univariate<BigInt> {
+        univariate(integral::derivative(&self.polynomial.coefficients))
+    }
+
+    /// The integer polynomial `P` with `h = P(t) / (c f'(t)^d)` at the solutions, `d` the total degree of `h` and `c` the
+    /// returned positive integer; `ring` has the variables of the representation, in its order.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when `ring` has other variables; what `watch` stops with.
+    pub fn substitute(
+        &self,
+        ring: &PolynomialRing<Rationals>,
+        h: &Polynomial<BigRational>,
+        watch: &Watch,
+    ) -> Result<(Univariate<BigInt>, BigInt)> {
+        if ring.variables() != self.variables.as_slice() {
+            let text = format!("the polynomial must be in the variables {}, in this order", self.variables.join(", "));
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let slope = self.slope();
+        let numerators = self.numerators.iter().map(|g| g.coefficients.as_slice());
+        let (value, denominator) =
+            substitute::Substitution::new(numerators, &slope.coefficients).apply(ring, h, watch)?;
+        Ok((univariate(value), denominator))
+    }
+}
+
+fn univariate(coefficients: Vec<BigInt>) -> Univariate<BigInt> {
+    Univariate { coefficients: integral::trim(coefficients) }
+}

@@ -1,0 +1,86 @@
+//! All real solutions of a zero-dimensional polynomial system, isolated exactly: [`solve`] gives one [`RealSolution`] each.
+//!
+//! The rational univariate representation turns the solutions into the roots of one polynomial (Rouillier 1999); these are isolated
+//! by Descartes' rule of signs, refined, and carried back into boxes.
+
+mod solution;
+
+use std::sync::Arc;
+
+pub use self::solution::{Enclosure, RealSolution};
+use crate::groebner::{self, Basis, univariate_representation};
+use crate::number::{BigRational, Rationals};
+use crate::poly::{Order, Polynomial, PolynomialRing};
+use crate::roots::isolate_square_free;
+use crate::{Result, Watch};
+
+/// How precisely to solve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Every coordinate is enclosed in an interval of width at most `2^-precision`.
+    pub precision: u64,
+}
+
+impl Default for Options {
+    /// 64 bits.
+    fn default() -> Self {
+        Options { precision: 64 }
+    }
+}
+
+/// All real solutions of the system in which each of `generators`, polynomials of `ring` in any order, is zero.
+///
+/// The boxes are disjoint, and each holds exactly one real solution. They stand in the order of the separating linear form.
+///
+/// # Errors
+/// [`crate::ErrorKind::Inconsistent`] when there is no solution at all, complex ones included;
+/// [`crate::ErrorKind::PositiveDimensional`] when there are infinitely many; [`crate::ErrorKind::Overflow`]; what `watch` stops
+/// with.
+pub fn solve(
+    ring: &PolynomialRing<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    options: &Options,
+    watch: &Watch,
+) -> Result<Vec<RealSolution>> {
+    let graded = PolynomialRing::new(Rationals, ring.variables(), Order::GrevLex)?;
+    let graded = graded.with_width(ring.layout().width());
+    let generators: Vec<_> = generators.iter().map(|f| ring.transfer(f, &graded)).collect::<Result<_>>()?;
+    let basis = groebner::basis(&graded, &generators, &groebner::Options::default(), watch)?;
+    let generators: Vec<_> = generators.iter().map(|f| graded.transfer(f, &basis.ring)).collect::<Result<_>>()?;
+    solve_basis(&basis, &generators, options, watch)
+}
+
+/// As [`solve`], given the reduced Groebner basis, in any order, of the ideal of `generators`, which are in the basis' ring.
+///
+/// # Errors
+/// Those of [`univariate_representation()`].
+pub fn solve_basis(
+    basis: &Basis<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    options: &Options,
+    watch: &Watch,
+) -> Result<Vec<RealSolution>> {
+    let representation = Arc::new(univariate_representation(basis, generators, watch)?);
+    let roots = isolate_square_free(&representation.polynomial.coefficients, watch)?;
+    let mut solutions = Vec::with_capacity(roots.len());
+    for (done, root) in roots.iter().enumerate() {
+        watch.report("real solutions", done, roots.len() - done);
+        solutions.push(RealSolution::new(representation.clone(), root.clone(), options.precision, watch)?);
+    }
+    separate(&mut solutions, watch)?;
+    Ok(solutions)
+}
+
+/// Refines solutions until no two boxes meet.
+fn separate(solutions: &mut [RealSolution], watch: &Watch) -> Result<()> {
+    for i in 1..solutions.len() {
+        for j in 0..i {
+            while solutions[i].meets(&solutions[j]) {
+                for k in [i, j] {
+                    solutions[k] = solutions[k].refine(2 * solutions[k].precision(), watch)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
