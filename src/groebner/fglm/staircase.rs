@@ -73,19 +73,7 @@ impl Staircase {
         below: &HashMap<Monomial, usize>,
     ) -> Result<HashMap<Monomial, usize>> {
         let steps = variables(ring);
-        let mut reached: Vec<(Monomial, usize)> = Vec::new();
-        let mut indices: HashMap<Monomial, usize> = HashMap::new();
-        let mut places = Vec::with_capacity(layer.len() * steps.len());
-        for monomial in &self.standard[layer] {
-            for step in &steps {
-                let place = *indices.entry(product_of(ring, step, monomial)?).or_insert_with_key(|product| {
-                    reached.push((product.clone(), 0));
-                    reached.len() - 1
-                });
-                reached[place].1 += 1;
-                places.push(place);
-            }
-        }
+        let (reached, places) = reach(ring, &steps, &self.standard[layer])?;
         let mut border = HashMap::new();
         let sorted: Vec<Product> = reached
             .into_iter()
@@ -128,6 +116,25 @@ impl Staircase {
         self.origins.push(origin);
         Product::Border(self.border.len() - 1)
     }
+}
+
+/// Distinct products with the number of times that each comes, and the place of every product among them.
+type Reached = (Vec<(Monomial, usize)>, Vec<usize>);
+
+/// The products of `monomials` and `steps`, monomial by monomial.
+fn reach<F: Field>(ring: &PolynomialRing<F>, steps: &[Monomial], monomials: &[Monomial]) -> Result<Reached> {
+    let mut reached: Vec<(Monomial, usize)> = Vec::new();
+    let mut indices: HashMap<Monomial, usize> = HashMap::new();
+    let mut places = Vec::with_capacity(monomials.len() * steps.len());
+    for (monomial, step) in monomials.iter().flat_map(|monomial| steps.iter().map(move |step| (monomial, step))) {
+        let place = *indices.entry(product_of(ring, step, monomial)?).or_insert_with_key(|product| {
+            reached.push((product.clone(), 0));
+            reached.len() - 1
+        });
+        reached[place].1 += 1;
+        places.push(place);
+    }
+    Ok((reached, places))
 }
 
 /// The variables as monomials.

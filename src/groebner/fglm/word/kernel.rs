@@ -136,7 +136,7 @@ impl Montgomery {
     /// `t / R mod p` for `t < R p`.
     #[inline(always)]
     fn divide(self, t: u64) -> u64 {
-        let multiple = (t & LOW) * self.factor & LOW;
+        let multiple = ((t & LOW) * self.factor) & LOW;
         let quotient = (t + multiple * self.p) >> 32;
         quotient.min(quotient.wrapping_sub(self.p))
     }
@@ -172,7 +172,7 @@ impl Modulus {
 
     /// The residue of `hi * 2^32 + lo` for `lo < 2^63`.
     pub fn reduce(self, lo: u64, hi: u64) -> u32 {
-        (((hi % self.p << 32) + lo % self.p) % self.p) as u32
+        ((((hi % self.p) << 32) + lo % self.p) % self.p) as u32
     }
 
     /// The residue of a word.

@@ -17,7 +17,7 @@ use self::table::{Matrix, Table};
 use super::staircase::{Walk, variables};
 use super::{Quotient, relation, require_member, sources};
 use crate::groebner::Basis;
-use crate::number::Zp;
+use crate::number::{Ring, Zp};
 use crate::poly::univariate::Univariate;
 use crate::poly::{Monomial, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -125,17 +125,28 @@ fn shape_basis(
     if sequence.length() < dimension {
         return Ok(None);
     }
-    let negated = |c: u32| u64::from(table.modulus.neg(c));
+    read_shape(target, &powers, &sequence, &values, watch).map(Some)
+}
+
+/// The basis in shape position from the projected powers of the last variable and from the projected multiples of the others.
+fn read_shape(
+    target: &PolynomialRing<Zp>,
+    powers: &[Monomial],
+    sequence: &Recurrence,
+    values: &[Vec<u32>],
+    watch: &Watch,
+) -> Result<Vec<Polynomial<u64>>> {
+    let field = target.field();
+    let (hankel, dimension) = (sequence.hankel(), powers.len() - 1);
     let polynomial = sequence.polynomial().into_iter().map(u64::from).enumerate().take(dimension);
-    let mut polynomials = vec![relation(target, &powers, powers[dimension].clone(), polynomial)];
-    let hankel = sequence.hankel();
-    for (lead, values) in variables(target).into_iter().zip(values).rev() {
+    let mut polynomials = vec![relation(target, powers, powers[dimension].clone(), polynomial)];
+    for (lead, values) in variables(target).into_iter().zip(values) {
         watch.check()?;
-        let tail = hankel.solve(&values).into_iter().map(negated).enumerate();
-        polynomials.push(relation(target, &powers, lead, tail));
+        let tail = hankel.solve(values).into_iter().map(|c| field.neg(&u64::from(c))).enumerate();
+        polynomials.push(relation(target, powers, lead, tail));
     }
     polynomials.sort_by(|f, g| target.layout().compare(&f.terms()[0].monomial, &g.terms()[0].monomial));
-    Ok(Some(polynomials))
+    Ok(polynomials)
 }
 
 /// The powers of the last variable up to the one of degree `top`; `None` when they do not fit, or are not all below the other
