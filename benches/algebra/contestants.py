@@ -48,8 +48,8 @@ class Contestant:
 
     def run(self, problem, with_answer=False):
         own, outcome, basis = self.once(problem, with_answer)
-        if not outcome.finished or own is None:
-            return Result(None, outcome.memory_kb, "failed" if outcome.cpu < 0.9 * self.limit else f">{self.limit:.0f}")
+        if outcome.stopped or own is None:
+            return Result(None, outcome.memory_kb, outcome.stopped or "failed")
         return Result(self.refined(own, outcome, problem), outcome.memory_kb, basis=basis)
 
     def refined(self, own, _outcome, _problem):
@@ -112,15 +112,21 @@ class Giac(Contestant):
         return not problem.parameters and problem.characteristic <= 1073741789
 
     def once(self, problem, with_answer=False):
-        p = problem.characteristic
-        texts = ",".join(f"({text})%{p}" if p else text for text in problem.reduced())
+        p, names = problem.characteristic, [f"v{i}" for i in range(len(problem.variables))]
+        texts = ",".join(f"({text})%{p}" if p else text for text in problem.reduced(names))
         order = {"grevlex": "revlex", "lex": "plex"}[problem.order]
         after = 'for(k:=0;k<size(B);k++){print("element "+string(B[k]));}' if with_answer else "size(B)"
-        call = f"gbasis([{texts}],[{','.join(problem.variables)}],{order})"
+        call = f"gbasis([{texts}],[{','.join(names)}],{order})"
         outcome = self.process([self.program], f'T:=time(B:={call}):;\nprint("clock "+string(T));\n{after};\n')
         found = re.search(r"clock \[([\d.e-]+),([\d.e-]+)\]", outcome.messages + outcome.output)
         basis = [line.split(" ", 1)[1] for line in outcome.messages.splitlines() if line.startswith("element ")]
-        return min(map(float, found.groups())) if found else None, outcome, [re.sub(r"[()]|%\d+", "", text) for text in basis] or None
+        seconds = min(map(float, found.groups())) if found else None
+        return seconds, outcome, [plain(text, problem.variables) for text in basis] or None
+
+
+def plain(text, variables):
+    """giac's text without residue marks, in the names of the problem: `e` and `i` are constants for giac."""
+    return re.sub(r"v(\d+)", lambda found: variables[int(found[1])], re.sub(r"[()]|%\d+", "", text))
 
 
 class Singular(Contestant):
@@ -156,7 +162,7 @@ class Singular(Contestant):
         outcome = self.process([self.program, "-q", "--no-rc", "--no-tty"], script(method, problem, with_answer))
         found = re.search(r"@time (\d+) (\d+)", outcome.output)
         if not found or "? " in outcome.output:
-            return Result(None, outcome.memory_kb, "failed" if outcome.cpu < 0.9 * self.limit else f">{self.limit:.0f}")
+            return Result(None, outcome.memory_kb, outcome.stopped or "failed")
         milliseconds, repetitions = map(int, found.groups())
         basis = outcome.output.partition("@basis\n")[2].replace("\n", "").split(",") if with_answer else None
         return Result(milliseconds / 1e3 / repetitions, outcome.memory_kb, method, basis)
