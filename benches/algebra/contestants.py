@@ -11,6 +11,8 @@ from problems import Problem
 
 WHEELS = "/opt/peers/lib/python3.11/site-packages/sage_wheels/bin"
 TRIVIAL = ["x-1", "y-1"]
+# How msolve's answer begins when there are infinitely many solutions and therefore no parametrisation.
+INFINITE = "[1,"
 
 
 @dataclass
@@ -89,11 +91,12 @@ class Msolve(Contestant):
             file.write(problem.msolve_text())
             file.flush()
             outcome = self.process([self.program, *task, "-t", "1", "-v", "1", "-f", file.name, "-o", out.name])
-            printed = out.read() if with_answer and problem.order == "grevlex" else None
+            printed = out.read()
         only_f4 = problem.order == "grevlex" and problem.characteristic
         clock = r"overall\(cpu\)\s+([\d.]+)" if only_f4 else r"msolve overall time.*?([\d.]+) sec \(cpu\)"
         found = re.findall(clock, outcome.output + outcome.messages)
-        return float(found[-1]) if found else None, outcome, printed and elements(printed)
+        seconds = float(found[-1]) if found and not printed.startswith(INFINITE) else None
+        return seconds, outcome, elements(printed) if with_answer and problem.order == "grevlex" else None
 
     def refined(self, own, outcome, problem):
         return max(1e-4, min(max(outcome.cpu - self.startup(problem), own - 0.005), own + 0.005))

@@ -73,7 +73,7 @@ def lines():
 def corpus_lines():
     """Every answer of the corpus."""
     for path in sorted((CORPUS / "systems").glob("*.toml")):
-        for answer in tomllib.loads(path.read_text())["answer"]:
+        for answer in tomllib.loads(path.read_text()).get("answer", []):
             yield problem(path.stem, answer["field"], answer["order"])
 
 
