@@ -66,15 +66,32 @@ def general_3r_symbolic():
     return position([(0, a1, "1/2"), (d2, a2, "1/3"), (d3, a3, "0")], (0, 0, 0), ["a1", "a2", "a3", "d2", "d3"])
 
 
-BLOCKS = [nao_leg, nao_arm, planar_3r, puma, puma_symbolic, general_3r, general_3r_symbolic]
+# Each block in the orders and with the order of unknowns that suit Singular best (None: as above).
+BLOCKS = [
+    (nao_leg, "lp", None),
+    (nao_arm, "lp", None),
+    (planar_3r, "dp", None),
+    (planar_3r, "lp", None),
+    (puma, "dp", "s3 c3 s1 c1 s2 c2"),
+    (puma, "lp", "c1 s1 c2 s2 c3 s3"),
+    (puma_symbolic, "dp", "c3 s3 c2 s2 c1 s1"),
+    (puma_symbolic, "lp", "c1 s1 c2 s2 c3 s3"),
+    (general_3r, "dp", None),
+    (general_3r, "lp", None),
+    (general_3r_symbolic, "dp", None),
+    (general_3r_symbolic, "lp", None),
+]
 
 
-def text(names, parameters, equations):
+def text(block, order, unknown_order):
     """The block as a Singular ring and ideal."""
+    names, parameters, equations = block()
+    names = unknown_order.split() if unknown_order else names
     _, generators = system(names + parameters, equations)
-    return f"ring r = (0,{','.join(parameters)}),({','.join(names)}),dp;\nideal I =\n  " + ",\n  ".join(generators) + ";\n"
+    ring = f"ring r = (0,{','.join(parameters)}),({','.join(names)}),{order};"
+    return f"{ring}\nideal I =\n  " + ",\n  ".join(generators) + ";\n"
 
 
 if __name__ == "__main__":
-    for block in BLOCKS:
-        (FOLDER / f"{block.__name__}.sing").write_text(text(*block()))
+    for block, order, unknown_order in BLOCKS:
+        (FOLDER / f"{block.__name__}-{order}.sing").write_text(text(block, order, unknown_order))

@@ -3,6 +3,7 @@
 
     contest.py                                           all lines, all peers
     contest.py --only katsura-9,noon-8 --peers msolve,crate --field 'GF(32003)' --order grevlex
+    contest.py --corpus --without-ours --peers msolve,giac,crate --rounds 1 --limit 10       who agrees with the corpus
     contest.py --output ../record/2026-11-21-groebner.csv
 """
 
@@ -19,14 +20,16 @@ import problems
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BINARIES = ROOT / "target" / "release"
 PEERS = ["msolve", "giac", "singular", "crate"]
-COLUMNS = ["system", "field", "order", "ours_s", *(f"{name}_s" for name in PEERS), "best_peer", "ratio", "ours_mb", "best_peer_mb", "notes"]
+TIMES = ["ours_s", *(f"{name}_s" for name in PEERS)]
+COLUMNS = ["system", "field", "order", *TIMES, "best_peer", "ratio", "ours_mb", "best_peer_mb", "notes"]
 
 
 def main():
     arguments = options()
     players = contestants.roster(arguments)
     names = ["ours"] * (not arguments.without_ours) + arguments.peers
-    chosen = [problem for problem in problems.lines() if matches(problem, arguments)]
+    lines = problems.corpus_lines() if arguments.corpus else problems.lines()
+    chosen = [problem for problem in lines if matches(problem, arguments)]
     if not chosen:
         sys.exit("no line of the contest has these --only, --field and --order")
     rows = []
@@ -41,6 +44,7 @@ def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     listed = lambda text: [word.replace("-", "_") for word in text.split(",")]
     parser.add_argument("--only", type=listed, help="systems, such as katsura-9,noon-8")
+    parser.add_argument("--corpus", action="store_true", help="every answer of the corpus instead of the lines of the contest")
     parser.add_argument("--field", help="Q, 'GF(32003)' or 'GF(2147483647)'")
     parser.add_argument("--order", help="grevlex or lex")
     parser.add_argument("--peers", type=lambda text: text.split(","), default=PEERS, help="default: " + ",".join(PEERS))
@@ -59,7 +63,7 @@ def options():
 
 def matches(problem, arguments):
     wanted = [(arguments.field, problem.field), (arguments.order, problem.order)]
-    named = not arguments.only or problem.system in arguments.only
+    named = not arguments.only or problem.system.replace("-", "_") in arguments.only
     return named and all(asked in (None, value) for asked, value in wanted)
 
 
@@ -89,8 +93,8 @@ def row(problem, results):
     best = min(peers, key=peers.get) if peers else ""
     memory = lambda name: text(max(r.memory_kb for r in results[name]) / 1024) if name in results else ""
     ratio = text(medians["ours"] / peers[best]) if best and medians.get("ours") else ""
-    made = {"system": problem.system, "field": problem.field, "order": problem.order, **times}
-    made |= {"best_peer": best, "ratio": ratio, "ours_mb": memory("ours"), "best_peer_mb": memory(best), "notes": notes(problem, results)}
+    made = {"system": problem.system, "field": problem.field, "order": problem.order, "notes": notes(results), **times}
+    made |= {"best_peer": best, "ratio": ratio, "ours_mb": memory("ours"), "best_peer_mb": memory(best)}
     return {column: made.get(column, "") for column in COLUMNS}
 
 
@@ -100,7 +104,7 @@ def median(found):
     return None if None in seconds else statistics.median(seconds)
 
 
-def notes(problem, results):
+def notes(results):
     """Singular's method, and whose answers are those of the corpus."""
     method = [f"singular: {found[-1].note}" for name, found in results.items() if name == "singular" and found[-1].seconds]
     agree = [name for name, found in results.items() if found[0].basis is not None]

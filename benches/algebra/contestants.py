@@ -11,6 +11,8 @@ from problems import Problem
 
 WHEELS = "/opt/peers/lib/python3.11/site-packages/sage_wheels/bin"
 TRIVIAL = ["x-1", "y-1"]
+# How msolve's answer begins when there are infinitely many solutions and therefore no parametrisation.
+INFINITE = "[1,"
 
 
 @dataclass
@@ -48,8 +50,8 @@ class Contestant:
 
     def run(self, problem, with_answer=False):
         own, outcome, basis = self.once(problem, with_answer)
-        if not outcome.finished or own is None:
-            return Result(None, outcome.memory_kb, "failed" if outcome.cpu < 0.9 * self.limit else f">{self.limit:.0f}")
+        if outcome.stopped or own is None:
+            return Result(None, outcome.memory_kb, outcome.stopped or "failed")
         return Result(self.refined(own, outcome, problem), outcome.memory_kb, basis=basis)
 
     def refined(self, own, _outcome, _problem):
@@ -89,11 +91,12 @@ class Msolve(Contestant):
             file.write(problem.msolve_text())
             file.flush()
             outcome = self.process([self.program, *task, "-t", "1", "-v", "1", "-f", file.name, "-o", out.name])
-            printed = out.read() if with_answer and problem.order == "grevlex" else None
+            printed = out.read()
         only_f4 = problem.order == "grevlex" and problem.characteristic
         clock = r"overall\(cpu\)\s+([\d.]+)" if only_f4 else r"msolve overall time.*?([\d.]+) sec \(cpu\)"
         found = re.findall(clock, outcome.output + outcome.messages)
-        return float(found[-1]) if found else None, outcome, printed and elements(printed)
+        seconds = float(found[-1]) if found and not printed.startswith(INFINITE) else None
+        return seconds, outcome, elements(printed) if with_answer and problem.order == "grevlex" else None
 
     def refined(self, own, outcome, problem):
         return max(1e-4, min(max(outcome.cpu - self.startup(problem), own - 0.005), own + 0.005))
@@ -112,15 +115,21 @@ class Giac(Contestant):
         return not problem.parameters and problem.characteristic <= 1073741789
 
     def once(self, problem, with_answer=False):
-        p = problem.characteristic
-        texts = ",".join(f"({text})%{p}" if p else text for text in problem.reduced())
+        p, names = problem.characteristic, [f"v{i}" for i in range(len(problem.variables))]
+        texts = ",".join(f"({text})%{p}" if p else text for text in problem.reduced(names))
         order = {"grevlex": "revlex", "lex": "plex"}[problem.order]
         after = 'for(k:=0;k<size(B);k++){print("element "+string(B[k]));}' if with_answer else "size(B)"
-        call = f"gbasis([{texts}],[{','.join(problem.variables)}],{order})"
+        call = f"gbasis([{texts}],[{','.join(names)}],{order})"
         outcome = self.process([self.program], f'T:=time(B:={call}):;\nprint("clock "+string(T));\n{after};\n')
         found = re.search(r"clock \[([\d.e-]+),([\d.e-]+)\]", outcome.messages + outcome.output)
         basis = [line.split(" ", 1)[1] for line in outcome.messages.splitlines() if line.startswith("element ")]
-        return min(map(float, found.groups())) if found else None, outcome, [re.sub(r"[()]|%\d+", "", text) for text in basis] or None
+        seconds = min(map(float, found.groups())) if found else None
+        return seconds, outcome, [plain(text, problem.variables) for text in basis] or None
+
+
+def plain(text, variables):
+    """giac's text without residue marks, in the names of the problem: `e` and `i` are constants for giac."""
+    return re.sub(r"v(\d+)", lambda found: variables[int(found[1])], re.sub(r"[()]|%\d+", "", text))
 
 
 class Singular(Contestant):
@@ -156,7 +165,7 @@ class Singular(Contestant):
         outcome = self.process([self.program, "-q", "--no-rc", "--no-tty"], script(method, problem, with_answer))
         found = re.search(r"@time (\d+) (\d+)", outcome.output)
         if not found or "? " in outcome.output:
-            return Result(None, outcome.memory_kb, "failed" if outcome.cpu < 0.9 * self.limit else f">{self.limit:.0f}")
+            return Result(None, outcome.memory_kb, outcome.stopped or "failed")
         milliseconds, repetitions = map(int, found.groups())
         basis = outcome.output.partition("@basis\n")[2].replace("\n", "").split(",") if with_answer else None
         return Result(milliseconds / 1e3 / repetitions, outcome.memory_kb, method, basis)

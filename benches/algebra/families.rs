@@ -87,7 +87,7 @@ pub fn noon(n: usize) -> Texts {
 /// 2 (x(1)^k - x(2)^k + ...) = 1 for k = 2..n+1.
 pub fn reimer(n: usize) -> Texts {
     let x = names('x', 1..n + 1);
-    let signed = |i: usize, k: usize| format!("{} 2*{}^{k}", if i % 2 == 0 { "+" } else { "-" }, x[i]);
+    let signed = |i: usize, k: usize| format!("{} 2*{}^{k}", if i.is_multiple_of(2) { "+" } else { "-" }, x[i]);
     let equation = |k: usize| format!("0 {} - 1", (0..n).map(|i| signed(i, k)).collect::<Vec<_>>().join(" "));
     let equations = (2..n + 2).map(equation).collect();
     (x, equations)

@@ -13,7 +13,6 @@ import families  # noqa: E402
 import polynomials  # noqa: E402
 
 BLOCKS = pathlib.Path(__file__).resolve().parent / "blocks"
-BLOCK_NAMES = ["nao_leg", "nao_arm", "planar_3r", "puma", "puma_symbolic", "general_3r", "general_3r_symbolic"]
 PRIMES = ["GF(32003)", "GF(2147483647)"]
 
 
@@ -42,12 +41,12 @@ class Problem:
     def label(self):
         return f"{self.system} {self.field} {self.order}"
 
-    def reduced(self):
-        """The generators as texts without blanks; coefficients modulo the characteristic."""
+    def reduced(self, names=None):
+        """The generators as texts without blanks, in these names; coefficients modulo the characteristic."""
         if self.parameters:
             return [text.replace(" ", "") for text in self.generators]
         read = [polynomials.read(text, self.variables, self.characteristic) for text in self.generators]
-        return [polynomials.show(f, self.variables).replace(" ", "") for f in read]
+        return [polynomials.show(f, names or self.variables).replace(" ", "") for f in read]
 
     def msolve_text(self):
         """The system in msolve's format; parameters follow the characteristic (msolve itself has none)."""
@@ -68,7 +67,14 @@ def lines():
     yield from (problem(name, prime, "grevlex") for prime in PRIMES for name in graded)
     yield from (problem(name, "Q", "grevlex") for name in rational)
     yield from (problem(name, prime, "lex") for prime in PRIMES for name in change)
-    yield from (block(name, order) for name in BLOCK_NAMES for order in ("grevlex", "lex"))
+    yield from (block(path) for path in sorted(BLOCKS.glob("*.sing")))
+
+
+def corpus_lines():
+    """Every answer of the corpus."""
+    for path in sorted((CORPUS / "systems").glob("*.toml")):
+        for answer in tomllib.loads(path.read_text()).get("answer", []):
+            yield problem(path.stem, answer["field"], answer["order"])
 
 
 def family(name, first, last):
@@ -87,9 +93,10 @@ def problem(name, field_name, order):
     return Problem(name, *asked, system["variables"], system["generators"], next(iter(known), None))
 
 
-def block(name, order):
-    """The block `name` of the folder `blocks`, a Singular ring with parameters."""
-    text = (BLOCKS / f"{name}.sing").read_text()
-    parameters, variables = re.search(r"ring r = \(0,([^)]*)\),\(([^)]*)\)", text).groups()
+def block(path):
+    """A file of the folder `blocks`: a Singular ring with parameters, and an ideal."""
+    text = path.read_text()
+    parameters, variables, order = re.search(r"ring r = \(0,([^)]*)\),\(([^)]*)\),(\w+);", text).groups()
     generators = re.search(r"ideal I =([^;]*);", text).group(1).split(",")
+    name, order = path.stem.rpartition("-")[0], {"dp": "grevlex", "lp": "lex"}[order]
     return Problem(name, f"Q({parameters})", order, variables.split(","), [g.strip() for g in generators])

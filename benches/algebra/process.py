@@ -12,9 +12,9 @@ MEMORY_KB = 4 << 20
 
 @dataclass
 class Outcome:
-    """What a process left: processor time [s], peak of its resident memory [kB], its output."""
+    """What a process left: why it has no result (empty if it has one), processor time [s], peak of resident memory [kB], output."""
 
-    finished: bool
+    stopped: str
     cpu: float
     memory_kb: int
     output: str
@@ -28,25 +28,26 @@ def run(command, core, limit, text=""):
         given.seek(0)
         environment = os.environ | {"OMP_NUM_THREADS": "1", "RAYON_NUM_THREADS": "1"}
         pinned = ["taskset", "-c", str(core), *map(str, command)]
-        child = subprocess.Popen(pinned, stdin=given, stdout=out, stderr=err, env=environment, start_new_session=True)
-        memory, status, usage = watch(child, limit)
+        child = subprocess.Popen(pinned, stdin=given, stdout=out, stderr=err, env=environment)
+        stopped, memory, usage = watch(child, limit)
         out.seek(0)
         err.seek(0)
         texts = [file.read().decode(errors="replace") for file in (out, err)]
-        return Outcome(status == 0, usage.ru_utime + usage.ru_stime, memory, *texts)
+        return Outcome(stopped, usage.ru_utime + usage.ru_stime, memory, *texts)
 
 
 def watch(child, limit):
     """Waits for the end; the kernel's own maximum would count the memory of this interpreter before the start."""
-    start, memory = time.monotonic(), 0
+    start, memory, stopped = time.monotonic(), 0, ""
     while True:
         memory = max(memory, resident_peak(child.pid))
         done, status, usage = os.wait4(child.pid, os.WNOHANG)
         if done:
             child.returncode = os.waitstatus_to_exitcode(status)
-            return memory, status, usage
+            return stopped or ("failed" if status else ""), memory, usage
         age = time.monotonic() - start
-        if age > limit or memory > MEMORY_KB:
+        if not stopped and (age > limit or memory > MEMORY_KB):
+            stopped = f">{limit:.0f}" if age > limit else f">{MEMORY_KB >> 20}GB"
             child.kill()
         time.sleep(0.0005 if age < 0.1 else 0.005)
 

@@ -6,8 +6,8 @@
     answers.py --check [NAME]      the same without writing: fails if a file differs
     ... --field Q --order lex      only these answers
 
-What Singular does not finish in LIMIT seconds of processor time and MEMORY bytes is listed in `input/absent.toml`, so that another machine gives the same files: those
-answers are not tried again. README.md explains the format.
+What goes over LIMIT seconds of processor time or MEMORY bytes is listed in `input/absent.toml`, so that another machine gives the
+same files: those answers are not tried again. README.md explains the format.
 """
 
 import argparse
@@ -82,7 +82,7 @@ def members(entry):
     """The systems of one family."""
     for index, size in enumerate(entry["sizes"]):
         made = families.expand({"family": entry["family"], "size": size})
-        made |= {"name": f"{entry['family']}_{size}", "source": entry["source"]} | {key: entry[key] for key in ["method"] if key in entry}
+        made |= {"name": f"{entry['family']}_{size}"} | {key: entry[key] for key in ("source", "method") if key in entry}
         if "degrees" in entry:
             dimension = entry["dimensions"][index] if "dimensions" in entry else 0
             made["known"] = {"dimension": dimension, "degree": entry["degrees"][index], "source": entry["fact"]}
@@ -157,7 +157,7 @@ def confirm(system, field, found):
 
 
 def script(variables, generators, p, order, method):
-    """Dimension and degree by the basis in grevlex; in lex by FGLM if there are finitely many solutions, else from the generators."""
+    """Dimension and degree by the basis in grevlex; from there to lex, by FGLM if there are finitely many solutions."""
     return f"""option(redSB);
 ring r = {p},({','.join(variables)}),dp; short = 0;
 ideal I = {','.join(generators)};

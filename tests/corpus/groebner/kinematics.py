@@ -129,8 +129,8 @@ def six_split():
 
 
 def raghavan_roth():
-    """The fourteen equations of M. Raghavan and B. Roth (J. Mechanical Design 115 (1993) 502-508) without joint 6: with the axis l and
-    the origin p of T3 T4 T5 = T2^-1 T1^-1 G T6^-1 on both sides, p, l, p.p, p.l, p x l and (p.p) l - 2 (p.l) p."""
+    """The fourteen equations of M. Raghavan and B. Roth (J. Mechanical Design 115 (1993) 502-508) without joint 6: p, l, p.p, p.l,
+    p x l and (p.p) l - 2 (p.l) p of the axis l and the origin p on both sides of T3 T4 T5 = T2^-1 T1^-1 G T6^-1."""
     names, pairs, circles = angle_unknowns(1, 5)
     left = invariants(chain(GENERAL[2:5], pairs[2:]))
     right = invariants(product(inverse(chain(GENERAL[:2], pairs[:2])), without_last_joint()))
@@ -279,7 +279,8 @@ def three_rpr():
     names = ["c", "s", "x", "y"]
     unknown, known = unknowns(names), [*circle_point("1/3"), Fraction(2), Fraction(3)]
     legs = [((0, 0), (0, 0)), ((7, 1), (3, 0)), ((3, 8), (1, 2))]
-    return system(names, [planar_leg(unknown, *ends) - planar_leg(known, *ends) for ends in legs] + [unknown[0] ** 2 + unknown[1] ** 2 - 1])
+    equations = [planar_leg(unknown, *ends) - planar_leg(known, *ends) for ends in legs]
+    return system(names, [*equations, unknown[0] ** 2 + unknown[1] ** 2 - 1])
 
 
 def planar_leg(pose, base, point):
