@@ -1,0 +1,141 @@
+//! An independent proof that a cover is one: small, slow, and without the steps by which it was made.
+//!
+//! Emptiness of a region is decided by one ideal (Rabinowitsch's trick, one new variable for each polynomial of an exclusion).
+
+use super::ideals::groebner;
+use super::proof::{Claims, prove_basis};
+use super::{Cover, Region, Stratum};
+use crate::number::{Field, Ring};
+use crate::poly::{Fractions, Order, Polynomial, PolynomialRing};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// What [`check`] has proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Checked {
+    /// Strata whose bases are bases at each of their points.
+    pub strata: usize,
+    /// Pairs of strata that share no point.
+    pub disjoint_pairs: usize,
+    /// S-polynomials that reduce to zero on a whole stratum.
+    pub s_polynomials: usize,
+}
+
+/// Proves that the strata of `cover` are disjoint, that they make its whole space, and that each basis is, at every point of
+/// its stratum over every extension field, a Groebner basis of what `generators` become there.
+///
+/// # Errors
+/// [`ErrorKind::Certificate`] that says what does not hold; [`ErrorKind::Overflow`]; what `watch` stops with.
+pub fn check<F: Field>(
+    cover: &Cover<F>,
+    generators: &[Polynomial<<Fractions<F> as Ring>::Element>],
+    watch: &Watch,
+) -> Result<Checked> {
+    let regions = Regions { ring: cover.ring.field().ring(), watch };
+    regions.nothing_is_left(cover)?;
+    let mut checked = Checked { strata: 0, disjoint_pairs: 0, s_polynomials: 0 };
+    for (index, stratum) in cover.strata.iter().enumerate() {
+        for (other, second) in cover.strata[..index].iter().enumerate() {
+            if !regions.is_empty(&both(&stratum.region, &second.region))? {
+                return Err(refused(format!("strata {} and {} share points", other + 1, index + 1)));
+            }
+            checked.disjoint_pairs += 1;
+        }
+        regions.leads_stay(cover, stratum).map_err(|error| error.with_context(format!("stratum {}", index + 1)))?;
+        let claims = Claims { ring: &cover.ring, generators, stratum, watch };
+        checked.s_polynomials +=
+            prove_basis(&claims).map_err(|error| error.with_context(format!("stratum {}", index + 1)))?;
+        checked.strata += 1;
+    }
+    Ok(checked)
+}
+
+pub(super) fn refused(text: impl Into<String>) -> Error {
+    Error::new(ErrorKind::Certificate, text)
+}
+
+fn both<E: Clone>(a: &Region<E>, b: &Region<E>) -> Region<E> {
+    Region {
+        equations: [a.equations.as_slice(), &b.equations].concat(),
+        exclusions: [a.exclusions.as_slice(), &b.exclusions].concat(),
+    }
+}
+
+struct Regions<'a, F: Field> {
+    ring: &'a PolynomialRing<F>,
+    watch: &'a Watch,
+}
+
+impl<F: Field> Regions<'_, F> {
+    /// Whether `region` has no point over any extension field: no values of new variables `t` make a combination of each
+    /// exclusion's polynomials one where the equations hold.
+    fn is_empty(&self, region: &Region<F::Element>) -> Result<bool> {
+        let count: usize = region.exclusions.iter().map(Vec::len).sum();
+        let taken = |name: &String| self.ring.generator(name).is_some();
+        let fresh = (0..).map(|k| format!("t{k}")).filter(|name| !taken(name)).take(count);
+        let names: Vec<String> = fresh.chain(self.ring.variables().iter().cloned()).collect();
+        let ring = PolynomialRing::new(self.ring.field().clone(), &names, Order::GrevLex)?;
+        let mut system: Vec<_> =
+            region.equations.iter().map(|f| self.ring.transfer(f, &ring)).collect::<Result<_>>()?;
+        let mut next = 0;
+        for exclusion in &region.exclusions {
+            let mut sum = ring.neg(&ring.one());
+            for f in exclusion {
+                sum = ring.add(&sum, &ring.checked_mul(&ring.variable(next), &self.ring.transfer(f, &ring)?)?);
+                next += 1;
+            }
+            system.push(sum);
+        }
+        let found = groebner(&ring, &system, self.watch)?;
+        Ok(found.iter().any(|f| ring.as_constant(f).is_some()))
+    }
+
+    /// Takes one stratum after the other out of the space.
+    fn nothing_is_left(&self, cover: &Cover<F>) -> Result<()> {
+        let exclusions = cover.space.nonzero.iter().map(|f| vec![f.clone()]).collect();
+        let mut rest = vec![Region { equations: cover.space.equations.clone(), exclusions }];
+        for stratum in &cover.strata {
+            let mut left = Vec::new();
+            for part in &rest {
+                for piece in difference(part, &stratum.region) {
+                    if !self.is_empty(&piece)? {
+                        left.push(piece);
+                    }
+                }
+            }
+            rest = left;
+        }
+        match rest.first() {
+            Some(region) => Err(refused(format!("no stratum contains the points {}", cover.place(region)))),
+            None => Ok(()),
+        }
+    }
+
+    /// At each point of the stratum some representative of each element keeps its leading coefficient.
+    fn leads_stay(&self, cover: &Cover<F>, stratum: &Stratum<F>) -> Result<()> {
+        for element in &stratum.basis {
+            let leads = element.representatives.iter().filter_map(|f| f.leading());
+            if leads.clone().any(|lead| lead.monomial != element.leading) {
+                return Err(refused("a representative has another leading monomial than its element"));
+            }
+            let mut failure = stratum.region.clone();
+            failure.equations.extend(leads.map(|lead| lead.coefficient.numerator().clone()));
+            if !self.is_empty(&failure)? {
+                return Err(refused(format!("leading coefficients vanish {}", cover.place(&failure))));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The points of `a` that are not in `b`: off the zeros of `b`, or on one of its exclusions.
+fn difference<E: Clone>(a: &Region<E>, b: &Region<E>) -> Vec<Region<E>> {
+    let mut off = a.clone();
+    off.exclusions.push(b.equations.clone());
+    let on = |exclusion: &Vec<_>| {
+        let mut part = a.clone();
+        part.equations.extend_from_slice(&b.equations);
+        part.equations.extend_from_slice(exclusion);
+        part
+    };
+    b.exclusions.iter().map(on).chain([off]).collect()
+}
