@@ -1,10 +1,11 @@
 //! An independent proof that a cover is one: small, slow, and without the steps by which it was made.
 //!
-//! Emptiness of a region is decided by one ideal (Rabinowitsch's trick, one new variable for each polynomial of an exclusion).
+//! Emptiness of a region is decided by Rabinowitsch's trick, with one new variable for each exclusion.
 
 use super::ideals::groebner;
 use super::proof::{Claims, prove_basis};
 use super::{Cover, Region, Stratum};
+use crate::groebner::normal_form;
 use crate::number::{Field, Ring};
 use crate::poly::{Fractions, Order, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -60,33 +61,45 @@ fn both<E: Clone>(a: &Region<E>, b: &Region<E>) -> Region<E> {
     }
 }
 
-struct Regions<'a, F: Field> {
-    ring: &'a PolynomialRing<F>,
-    watch: &'a Watch,
+/// Questions about regions of the parameters of `ring`.
+pub(super) struct Regions<'a, F: Field> {
+    pub ring: &'a PolynomialRing<F>,
+    pub watch: &'a Watch,
 }
 
 impl<F: Field> Regions<'_, F> {
-    /// Whether `region` has no point over any extension field: no values of new variables `t` make a combination of each
-    /// exclusion's polynomials one where the equations hold.
-    fn is_empty(&self, region: &Region<F::Element>) -> Result<bool> {
-        let count: usize = region.exclusions.iter().map(Vec::len).sum();
+    /// Whether `region` has no point over any extension field: whichever polynomial of each exclusion is chosen, the equations
+    /// contradict that they all have inverses.
+    pub fn is_empty(&self, region: &Region<F::Element>) -> Result<bool> {
         let taken = |name: &String| self.ring.generator(name).is_some();
-        let fresh = (0..).map(|k| format!("t{k}")).filter(|name| !taken(name)).take(count);
+        let fresh = (0..).map(|k| format!("t{k}")).filter(|name| !taken(name)).take(region.exclusions.len());
         let names: Vec<String> = fresh.chain(self.ring.variables().iter().cloned()).collect();
         let ring = PolynomialRing::new(self.ring.field().clone(), &names, Order::GrevLex)?;
-        let mut system: Vec<_> =
-            region.equations.iter().map(|f| self.ring.transfer(f, &ring)).collect::<Result<_>>()?;
-        let mut next = 0;
-        for exclusion in &region.exclusions {
-            let mut sum = ring.neg(&ring.one());
-            for f in exclusion {
-                sum = ring.add(&sum, &ring.checked_mul(&ring.variable(next), &self.ring.transfer(f, &ring)?)?);
-                next += 1;
+        let moved = |list: &[Polynomial<F::Element>]| -> Result<Vec<_>> {
+            list.iter().map(|f| self.ring.transfer(f, &ring)).collect()
+        };
+        let exclusions = region.exclusions.iter().map(|exclusion| moved(exclusion)).collect::<Result<Vec<_>>>()?;
+        self.contradicts(&ring, &moved(&region.equations)?, &exclusions)
+    }
+
+    fn contradicts(
+        &self,
+        ring: &PolynomialRing<F>,
+        equations: &[Polynomial<F::Element>],
+        exclusions: &[Vec<Polynomial<F::Element>>],
+    ) -> Result<bool> {
+        let basis = groebner(ring, equations, self.watch)?;
+        let unit = basis.iter().any(|f| ring.as_constant(f).is_some());
+        let Some((first, rest)) = exclusions.split_first() else { return Ok(unit) };
+        for f in if unit { &[] } else { first.as_slice() } {
+            let f = normal_form(ring, f, &basis)?;
+            let inverse = ring.checked_mul(&ring.variable(rest.len()), &f)?;
+            let step = ring.sub(&inverse, &ring.one());
+            if !self.contradicts(ring, &[basis.as_slice(), &[step]].concat(), rest)? {
+                return Ok(false);
             }
-            system.push(sum);
         }
-        let found = groebner(&ring, &system, self.watch)?;
-        Ok(found.iter().any(|f| ring.as_constant(f).is_some()))
+        Ok(true)
     }
 
     /// Takes one stratum after the other out of the space.

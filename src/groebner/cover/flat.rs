@@ -102,10 +102,43 @@ impl<F: Field> Flat<F> {
         Ok(parts)
     }
 
-    /// Whether `f` lies in the ideal of the equations and the `conditions`.
-    pub fn contains(&self, conditions: &[Poly<F>], f: &Parametric<F>, watch: &Watch) -> Result<bool> {
-        let basis = groebner(&self.ring, &self.system(conditions)?, watch)?;
-        Ok(normal_form(&self.ring, &self.flattened(f)?, &basis)?.is_zero())
+    /// Polynomials of the parameters that multiply `f` into the ideal of the equations and the `conditions`: where one of them is
+    /// not zero, `f` lies in that ideal.
+    pub fn multipliers(&self, conditions: &[Poly<F>], f: &Parametric<F>, watch: &Watch) -> Result<Ideal<F::Element>> {
+        let f = self.flattened(f)?;
+        let ideal = groebner(&self.ring, &self.system(conditions)?, watch)?;
+        if normal_form(&self.ring, &f, &ideal)?.is_zero() {
+            return Ok(vec![self.parameters().one()]);
+        }
+        let quotient = groebner(&self.ring, &self.quotient(&ideal, &f, watch)?, watch)?;
+        let mut multipliers = Vec::new();
+        for g in quotient {
+            if self.unknowns.layout().degree(&self.leading_monomial(&g)?) == 0 {
+                multipliers.push(self.ring.transfer(&g, self.parameters())?);
+            }
+        }
+        Ok(multipliers)
+    }
+
+    /// Generators of the ideal quotient by `f`: the members of `t ideal + (1 - t) f` without `t`, divided by `f`.
+    fn quotient(&self, ideal: &[Poly<F>], f: &Poly<F>, watch: &Watch) -> Result<Vec<Poly<F>>> {
+        if self.ring.as_constant(f).is_some() {
+            return Ok(ideal.to_vec());
+        }
+        let fresh = (0..).map(|k| format!("t{k}")).find(|name| self.ring.generator(name).is_none());
+        let mut names = vec![fresh.expect("there are infinitely many names")];
+        names.extend_from_slice(self.ring.variables());
+        let order = Order::elimination(1, names.len());
+        let ring = PolynomialRing::new(self.ring.field().clone(), &names, order)?;
+        let t = ring.variable(0);
+        let mut system = vec![ring.checked_mul(&ring.sub(&ring.one(), &t), &self.ring.transfer(f, &ring)?)?];
+        for g in ideal {
+            system.push(ring.checked_mul(&t, &self.ring.transfer(g, &ring)?)?);
+        }
+        let shared = groebner(&ring, &system, watch)?;
+        let shared = shared.iter().filter(|g| ring.degree_in(g, 0) == 0);
+        let divided = |g| Ok(self.ring.exact_div(&ring.transfer(g, &self.ring)?, f).expect("a common multiple"));
+        shared.map(divided).collect()
     }
 
     fn system(&self, conditions: &[Poly<F>]) -> Result<Vec<Poly<F>>> {

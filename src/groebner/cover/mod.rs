@@ -9,6 +9,7 @@ mod flat;
 mod ideals;
 mod merge;
 mod proof;
+mod pseudo;
 mod real;
 mod region;
 mod sample;

@@ -4,13 +4,13 @@
 //! combination of the generators modulo the stratum's equations, and that generators and S-polynomials reduce to zero when
 //! they are multiplied by leading coefficients on the way (Buchberger's criterion at every point at once).
 
-use super::check::refused;
+use super::check::{Regions, refused};
 use super::flat::Flat;
 use super::ideals::Ideals;
+use super::pseudo::{cancelled, lead, modulo};
 use super::{Region, Stratum};
-use crate::groebner::normal_form;
 use crate::number::{Field, Ring};
-use crate::poly::{Fractions, Monomial, Polynomial, PolynomialRing, Term};
+use crate::poly::{Fractions, Monomial, Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 
 type Parametric<F> = Polynomial<<Fractions<F> as Ring>::Element>;
@@ -25,34 +25,36 @@ pub(super) struct Claims<'a, F: Field> {
 
 /// Proves the claims; the number of S-polynomials that were reduced.
 pub(super) fn prove_basis<F: Field>(claims: &Claims<'_, F>) -> Result<usize> {
-    let Claims { ring, stratum, watch, .. } = claims;
+    claims.representatives_belong()?;
+    let Claims { ring, generators, stratum, watch } = claims;
     let ideals = Ideals::new(ring.field().ring(), watch)?;
-    for f in stratum.basis.iter().flat_map(|element| &element.representatives) {
-        claims.is_combination(f)?;
-    }
     let mut count = 0;
     for basis in choices(stratum) {
-        let leads = basis.iter().filter_map(|f| f.leading()).map(|lead| vec![lead.coefficient.numerator().clone()]);
+        let leads = basis.iter().map(|f| vec![lead(f).coefficient.numerator().clone()]);
         let region = Region {
-            equations: ideals.ideal(&stratum.region.equations)?,
+            equations: stratum.region.equations.clone(),
             exclusions: stratum.region.exclusions.iter().cloned().chain(leads).collect(),
         };
         let Some(closure) = ideals.closure_of(&region, &[])? else { continue };
-        let reduction = Reduction { ring, closure, basis };
-        count += reduction.prove(claims.generators, watch)?;
+        count += Reduction { ring, closure, basis }.prove(generators, watch)?;
     }
     Ok(count)
 }
 
 impl<F: Field> Claims<'_, F> {
-    /// Whether `f` lies in the ideal of generators and equations of the stratum.
-    fn is_combination(&self, f: &Parametric<F>) -> Result<()> {
+    /// At each point of the stratum each representative lies in the ideal: a multiplier puts it there that is not zero.
+    fn representatives_belong(&self) -> Result<()> {
         let flat = Flat::new(self.ring, self.generators)?;
-        if flat.contains(&self.stratum.region.equations, f, self.watch)? {
-            return Ok(());
+        let regions = Regions { ring: self.ring.field().ring(), watch: self.watch };
+        for f in self.stratum.basis.iter().flat_map(|element| &element.representatives) {
+            let mut failure = self.stratum.region.clone();
+            failure.equations.extend(flat.multipliers(&self.stratum.region.equations, f, self.watch)?);
+            if !regions.is_empty(&failure)? {
+                let text = self.ring.format(f, crate::number::Style::Text);
+                return Err(refused(format!("{text} is not everywhere in the ideal")));
+            }
         }
-        let text = self.ring.format(f, crate::number::Style::Text);
-        Err(refused(format!("{text} is no combination of the generators on the stratum")))
+        Ok(())
     }
 }
 
@@ -94,39 +96,22 @@ impl<F: Field> Reduction<'_, F> {
     }
 
     fn reduces_to_zero(&self, f: &Parametric<F>, watch: &Watch) -> Result<bool> {
-        let mut rest = self.modulo_equations(f)?;
-        while let Some(lead) = rest.leading() {
+        let mut rest = modulo(self.ring, f, &self.closure)?;
+        while let Some(top) = rest.leading().cloned() {
             watch.check()?;
             watch.check_terms(rest.terms().len())?;
-            let divisor = self.basis.iter().find_map(|g| {
-                let top = g.leading()?;
-                Some((g, self.ring.layout().checked_div(&lead.monomial, &top.monomial)?))
-            });
-            let Some((g, factor)) = divisor else { return Ok(false) };
-            rest = self.modulo_equations(&self.cancelled(&rest, &self.ring.layout().one(), g, &factor)?)?;
+            let factor = |g: &Parametric<F>| self.ring.layout().checked_div(&top.monomial, &lead(g).monomial);
+            let Some((g, factor)) = self.basis.iter().find_map(|g| Some((g, factor(g)?))) else { return Ok(false) };
+            rest = modulo(self.ring, &cancelled(self.ring, &rest, &top, g, &factor)?, &self.closure)?;
         }
         Ok(true)
     }
 
     fn s_polynomial(&self, f: &Parametric<F>, g: &Parametric<F>) -> Result<Parametric<F>> {
-        let (a, b) = (lead(f), lead(g));
-        let lcm = self.ring.lcm(&a.monomial, &b.monomial)?;
+        let (a, b) = (&lead(f).monomial, &lead(g).monomial);
+        let lcm = self.ring.lcm(a, b)?;
         let lift = |m: &Monomial| self.ring.layout().checked_div(&lcm, m).expect("a common multiple is divisible");
-        self.cancelled(f, &lift(&a.monomial), g, &lift(&b.monomial))
+        let first = self.ring.mul_term(f, &lead(g).coefficient, &lift(a))?;
+        self.ring.sub_mul_term(&first, &lead(f).coefficient, &lift(b), g)
     }
-
-    /// `b m f - a n g`, where `a` and `b` are the leading coefficients of `f` and `g`.
-    fn cancelled(&self, f: &Parametric<F>, m: &Monomial, g: &Parametric<F>, n: &Monomial) -> Result<Parametric<F>> {
-        let first = self.ring.mul_term(f, &lead(g).coefficient, m)?;
-        self.ring.sub_mul_term(&first, &lead(f).coefficient, n, g)
-    }
-
-    fn modulo_equations(&self, f: &Parametric<F>) -> Result<Parametric<F>> {
-        let field = self.ring.field();
-        self.ring.map_into(f, self.ring, |c| Ok(field.embed(&normal_form(field.ring(), c.numerator(), &self.closure)?)))
-    }
-}
-
-fn lead<E>(f: &Polynomial<E>) -> &Term<E> {
-    f.leading().expect("a basis element is not zero")
 }
