@@ -118,7 +118,7 @@ impl<F: Field> Regions<'_, F> {
             rest = left;
         }
         match rest.first() {
-            Some(region) => Err(refused(format!("no stratum contains the points {}", cover.place(region)))),
+            Some(region) => Err(refused(format!("no stratum contains the points {}", cover.tell_region(region)))),
             None => Ok(()),
         }
     }
@@ -133,7 +133,7 @@ impl<F: Field> Regions<'_, F> {
             let mut failure = stratum.region.clone();
             failure.equations.extend(leads.map(|lead| lead.coefficient.numerator().clone()));
             if !self.is_empty(&failure)? {
-                return Err(refused(format!("leading coefficients vanish {}", cover.place(&failure))));
+                return Err(refused(format!("leading coefficients vanish {}", cover.tell_region(&failure))));
             }
         }
         Ok(())

@@ -5,7 +5,7 @@
 use super::ideals::{Ideal, groebner};
 use crate::groebner::normal_form;
 use crate::number::{Field, Ring};
-use crate::poly::{Block, Fractions, Monomial, Order, Polynomial, PolynomialRing, Term, gcd};
+use crate::poly::{Block, Fractions, Monomial, Order, Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result, Watch};
 
 type Unknowns<F> = PolynomialRing<Fractions<F>>;
@@ -194,14 +194,6 @@ impl<F: Field> Flat<F> {
             .unknowns
             .collect(parts.into_iter().map(|(monomial, terms)| Term { coefficient: coefficient(terms), monomial })))
     }
-}
-
-/// The common factor of the coefficients of `f`.
-pub(super) fn content<F: Field>(ring: &Unknowns<F>, f: &Parametric<F>) -> Poly<F> {
-    let ground = ring.field().ring();
-    let mut coefficients: Vec<_> = f.terms().iter().map(|term| term.coefficient.numerator()).collect();
-    coefficients.sort_by_key(|coefficient| coefficient.terms().len());
-    coefficients.iter().fold(ground.zero(), |common, coefficient| gcd(ground, &common, coefficient))
 }
 
 /// The blocks of the unknowns' order, then the parameters.

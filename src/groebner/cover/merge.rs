@@ -4,16 +4,15 @@
 //! a segment is locally closed, and an element of its basis may need several polynomials, each good on an open part;
 //! Brunat and Montes, "Computing the canonical representation of constructible sets", Math. Comput. Sci. 10 (2016).
 
-use super::flat::{Flat, Head, content};
+use super::flat::{Flat, Head};
 use super::ideals::{Ideal, Ideals};
 use super::region::Region;
 use super::split::{Piece, sufficient};
+use super::tidy::tidy;
 use super::{Element, Kind, RealPoints, Stratum};
 use crate::Result;
-use crate::number::{Field, Ring};
-use crate::poly::{Fractions, Monomial, Polynomial};
-
-type Parametric<F> = Polynomial<<Fractions<F> as Ring>::Element>;
+use crate::number::Field;
+use crate::poly::Monomial;
 
 /// What the merging works on.
 struct Merging<'a, F: Field> {
@@ -95,12 +94,15 @@ impl<F: Field> Merging<'_, F> {
         let kind = Kind::of(self.flat.unknowns(), &leads);
         let mut basis = Vec::new();
         for lead in leads {
-            match self.element(members, &region, lead, &heads)? {
+            match self.element(members, lead, &heads)? {
                 Some(element) => basis.push(element),
                 None => return Ok(None),
             }
         }
-        Ok(Some(Stratum { region, basis, kind, real: RealPoints::Unknown }))
+        let basis = tidy(self.ideals, self.flat.unknowns(), &region, basis)?;
+        let region = self.ideals.simplified(region)?;
+        let parts = self.ideals.components(std::slice::from_ref(&region.equations))?;
+        Ok(Some(Stratum { region, parts, basis, kind, real: RealPoints::Unknown }))
     }
 
     /// The union of `members` as closure and holes, unless it is not locally closed (a hole's closure meets it).
@@ -128,14 +130,8 @@ impl<F: Field> Merging<'_, F> {
         Ok(Some(Region { equations: closure, exclusions: holes }))
     }
 
-    /// The basis element that leads with `lead` on `region`, if the polynomials of `heads` give it everywhere.
-    fn element(
-        &self,
-        members: &[usize],
-        region: &Region<F::Element>,
-        lead: &Monomial,
-        heads: &[Head<F::Element>],
-    ) -> Result<Option<Element<F>>> {
+    /// The basis element that leads with `lead` on `members`, if the polynomials of `heads` give it everywhere.
+    fn element(&self, members: &[usize], lead: &Monomial, heads: &[Head<F::Element>]) -> Result<Option<Element<F>>> {
         let one = self.flat.unknowns().layout().one();
         if *lead == one {
             let unit = self.flat.lift(&self.flat.one())?;
@@ -144,20 +140,7 @@ impl<F: Field> Merging<'_, F> {
         let Some(head) = heads.iter().find(|head| head.monomial == *lead) else { return Ok(None) };
         let regions: Vec<_> = members.iter().map(|&i| &self.pieces[i].region).collect();
         let Some(chosen) = sufficient(self.ideals, self.flat, head, &regions)? else { return Ok(None) };
-        let lifted = chosen.iter().map(|f| self.simplified(f, region)).collect::<Result<_>>()?;
-        Ok(Some(Element { leading: lead.clone(), representatives: lifted }))
-    }
-
-    /// `f` with its content divided out where that is zero nowhere.
-    fn simplified(&self, f: &Polynomial<F::Element>, region: &Region<F::Element>) -> Result<Parametric<F>> {
-        let unknowns = self.flat.unknowns();
-        let f = self.flat.lift(f)?;
-        let content = content(unknowns, &f);
-        let constant = self.ideals.ring.as_constant(&content).is_some();
-        if constant || !self.ideals.misses(region, std::slice::from_ref(&content))? {
-            return Ok(f);
-        }
-        let divisor = unknowns.constant(unknowns.field().embed(&content));
-        Ok(unknowns.exact_div(&f, &divisor).expect("a content divides"))
+        let representatives = chosen.iter().map(|f| self.flat.lift(f)).collect::<Result<_>>()?;
+        Ok(Some(Element { leading: lead.clone(), representatives }))
     }
 }

@@ -17,6 +17,7 @@ mod signs;
 mod space;
 mod split;
 mod stratum;
+mod tidy;
 mod words;
 
 pub use check::{Checked, check};

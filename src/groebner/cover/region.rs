@@ -1,6 +1,6 @@
 //! Locally closed sets of parameters: [`Region`] is where equations hold and exclusions do not.
 
-use super::ideals::{Ideal, Ideals};
+use super::ideals::{Ideal, Ideals, factors};
 use crate::Result;
 use crate::number::Field;
 use crate::poly::Polynomial;
@@ -10,7 +10,7 @@ use crate::poly::Polynomial;
 pub struct Region<E> {
     /// The reduced basis of the equations; empty where nothing is required.
     pub equations: Vec<Polynomial<E>>,
-    /// Each is the reduced basis of an ideal that contains the equations: some polynomial of it is not zero.
+    /// Of each list, not all polynomials are zero.
     pub exclusions: Vec<Vec<Polynomial<E>>>,
 }
 
@@ -34,6 +34,24 @@ impl<F: Field> Ideals<'_, F> {
         Ok(Some(Region { equations: closure, exclusions }))
     }
 
+    /// Ideals whose zero sets make those of `ideals`, as small as factors split them, none inside another.
+    pub fn components(&self, ideals: &[Ideal<F::Element>]) -> Result<Vec<Ideal<F::Element>>> {
+        let mut open = ideals.to_vec();
+        let mut done = Vec::new();
+        while let Some(ideal) = open.pop() {
+            self.watch.check()?;
+            let parts = ideal.iter().map(|f| factors(&self.ring, f)).find(|parts| parts.len() > 1);
+            let Some(parts) = parts else {
+                done.push(ideal);
+                continue;
+            };
+            for part in parts {
+                open.push(self.sum(&ideal, &[part])?);
+            }
+        }
+        self.largest(done)
+    }
+
     /// The ideals whose zero sets are not empty and lie in no other's.
     pub fn largest(&self, ideals: Vec<Ideal<F::Element>>) -> Result<Vec<Ideal<F::Element>>> {
         let mut kept: Vec<Ideal<F::Element>> = Vec::new();
@@ -51,6 +69,34 @@ impl<F: Field> Ideals<'_, F> {
                 }
                 kept = outside;
                 kept.push(ideal);
+            }
+        }
+        Ok(kept)
+    }
+
+    /// The same region with exclusions as simple as factors and the equations make them.
+    pub fn simplified(&self, region: Region<F::Element>) -> Result<Region<F::Element>> {
+        let mut exclusions = Vec::new();
+        for component in self.components(&region.exclusions)? {
+            exclusions.push(self.generators_beside(&region.equations, component)?);
+        }
+        Ok(Region { exclusions, ..region })
+    }
+
+    /// The polynomials of `ideal` that give it together with `equations`, the most complicated left out where that goes.
+    fn generators_beside(
+        &self,
+        equations: &[Polynomial<F::Element>],
+        ideal: Ideal<F::Element>,
+    ) -> Result<Ideal<F::Element>> {
+        let mut kept = ideal;
+        kept.sort_by_key(|f| (self.ring.degree(f), f.terms().len()));
+        for index in (0..kept.len()).rev() {
+            let mut others = kept.clone();
+            let dropped = others.remove(index);
+            let rest = self.sum(equations, &others)?;
+            if self.contains(&rest, &dropped)? {
+                kept = others;
             }
         }
         Ok(kept)

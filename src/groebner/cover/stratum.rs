@@ -11,6 +11,8 @@ use crate::{Error, ErrorKind, Result, Watch};
 pub struct Stratum<F: Field> {
     /// Where it is.
     pub region: Region<F::Element>,
+    /// Equations of parts that together make the closure of the region, as far as factors split it; mostly one.
+    pub parts: Vec<Vec<Polynomial<F::Element>>>,
     /// The basis, one element a leading monomial; empty where the equations say nothing.
     pub basis: Vec<Element<F>>,
     /// What the equations amount to there.

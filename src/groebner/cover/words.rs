@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{Cover, Element, Kind, RealPoints, Region, Stratum};
-use crate::number::{Field, Ring, Style};
+use crate::number::{Field, Rationals, Ring, Style};
 use crate::poly::Polynomial;
 
 impl<F: Field> fmt::Display for Cover<F> {
@@ -22,8 +22,8 @@ impl<F: Field> fmt::Display for Cover<F> {
 impl<F: Field> Cover<F> {
     /// `stratum`, one of this cover's, in words: a line that says where it is and what happens there, its basis below.
     pub fn tell(&self, stratum: &Stratum<F>) -> String {
-        let place = self.place(&stratum.region);
-        let mut text = format!("{place}: {}{}\n", self.kind(stratum), real(&stratum.real));
+        let place = self.place(&stratum.parts, &stratum.region);
+        let mut text = format!("{place}: {}{}\n", self.kind(stratum), self.real(&stratum.real));
         if stratum.kind != Kind::Inconsistent {
             for element in &stratum.basis {
                 text.push_str(&format!("     {}\n", self.element(element)));
@@ -32,21 +32,33 @@ impl<F: Field> Cover<F> {
         text
     }
 
-    /// A region in words: `where pz = 0 and px != 0`.
-    pub fn place(&self, region: &Region<F::Element>) -> String {
-        let zeros = region.equations.iter().map(|f| format!("{} = 0", self.parameter_text(f)));
-        let exclusions = region.exclusions.iter().map(|exclusion| self.exclusion(region, exclusion));
-        let conditions: Vec<String> = zeros.chain(exclusions).collect();
+    /// `where pz = 0 and px != 0`; a closed set of several parts is told part by part.
+    fn place(&self, parts: &[Vec<Polynomial<F::Element>>], region: &Region<F::Element>) -> String {
+        let all: Vec<String> = parts.iter().map(|part| self.zeros(part)).filter(|text| !text.is_empty()).collect();
+        let zeros = match all.as_slice() {
+            [] => None,
+            [single] => Some(single.clone()),
+            _ => Some(format!("({})", all.join(" or "))),
+        };
+        let exclusions = region.exclusions.iter().map(|exclusion| self.exclusion(exclusion));
+        let conditions: Vec<String> = zeros.into_iter().chain(exclusions).collect();
         if conditions.is_empty() { "everywhere".to_owned() } else { format!("where {}", conditions.join(" and ")) }
     }
 
-    /// What an exclusion adds to the equations of its region.
-    fn exclusion(&self, region: &Region<F::Element>, exclusion: &[Polynomial<F::Element>]) -> String {
-        let new = exclusion.iter().filter(|f| !region.equations.contains(f));
-        let texts: Vec<String> = new.map(|f| self.parameter_text(f)).collect();
-        match texts.as_slice() {
-            [single] => format!("{single} != 0"),
-            _ => format!("({} are not all 0)", texts.join(", ")),
+    /// A region in words: `where pz = 0 and px != 0`.
+    pub fn tell_region(&self, region: &Region<F::Element>) -> String {
+        self.place(std::slice::from_ref(&region.equations), region)
+    }
+
+    fn zeros(&self, equations: &[Polynomial<F::Element>]) -> String {
+        let zeros: Vec<_> = equations.iter().map(|f| format!("{} = 0", self.parameter_text(f))).collect();
+        zeros.join(" and ")
+    }
+
+    fn exclusion(&self, exclusion: &[Polynomial<F::Element>]) -> String {
+        match exclusion {
+            [single] => format!("{} != 0", self.parameter_text(single)),
+            _ => format!("not ({})", self.zeros(exclusion)),
         }
     }
 
@@ -65,15 +77,22 @@ impl<F: Field> Cover<F> {
         texts.join("   or, where its leading coefficient is zero,   ")
     }
 
+    fn real(&self, verdict: &RealPoints) -> String {
+        match verdict {
+            RealPoints::None(reason) => format!("; no real point: {reason}"),
+            RealPoints::At(point) => {
+                let names = self.ring.field().ring().variables();
+                let values =
+                    names.iter().zip(point).map(|(name, q)| format!("{name} = {}", Rationals.format(q, Style::Text)));
+                format!("; for instance at {}", values.collect::<Vec<_>>().join(", "))
+            }
+            RealPoints::Some(reason) => format!("; real points: {reason}"),
+            RealPoints::Unknown => String::new(),
+        }
+    }
+
     fn parameter_text(&self, f: &Polynomial<F::Element>) -> String {
         self.ring.field().ring().format(f, Style::Decimal)
-    }
-}
-
-fn real(verdict: &RealPoints) -> String {
-    match verdict {
-        RealPoints::None(reason) => format!("; no real point: {reason}"),
-        _ => String::new(),
     }
 }
 
