@@ -3,7 +3,7 @@
 use super::ideals::{Ideal, Ideals, factors};
 use crate::Result;
 use crate::number::Field;
-use crate::poly::Polynomial;
+use crate::poly::{Polynomial, PolynomialRing};
 
 /// The zero set of `equations` without the zero sets of all `exclusions`. Plain data over the ring of the parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +12,21 @@ pub struct Region<E> {
     pub equations: Vec<Polynomial<E>>,
     /// Of each list, not all polynomials are zero.
     pub exclusions: Vec<Vec<Polynomial<E>>>,
+}
+
+impl<E> Region<E> {
+    /// Whether `point`, one value a parameter of `ring`, lies in the region; `embed` takes the numbers of the region to the
+    /// field of the point.
+    pub fn contains<F: Field<Element = E>, G: Field>(
+        &self,
+        ring: &PolynomialRing<F>,
+        field: &G,
+        point: &[G::Element],
+        embed: &impl Fn(&E) -> G::Element,
+    ) -> bool {
+        let vanishes = |f: &Polynomial<E>| field.is_zero(&ring.substitute(f, field, point, embed));
+        self.equations.iter().all(vanishes) && !self.exclusions.iter().any(|list| list.iter().all(vanishes))
+    }
 }
 
 impl<F: Field> Ideals<'_, F> {

@@ -1,6 +1,6 @@
 //! One stratum: a region of parameters, and the basis that holds there.
 
-use super::{RealPoints, Region};
+use super::{Cover, RealPoints, Region};
 use crate::groebner::{Basis, reduced_basis};
 use crate::number::Field;
 use crate::poly::{Fraction, Fractions, Monomial, Polynomial, PolynomialRing};
@@ -53,6 +53,20 @@ impl Kind {
             (Some(_), Some(count)) => Kind::Finite(count),
             (Some(free), None) => Kind::Family(free.len()),
         }
+    }
+}
+
+impl<F: Field> Cover<F> {
+    /// The stratum of `point`, one value a parameter; `None` when the point lies outside of the cover's space. `embed` takes the
+    /// numbers of the cover to the field of the point.
+    pub fn at<G: Field>(
+        &self,
+        field: &G,
+        point: &[G::Element],
+        embed: &impl Fn(&F::Element) -> G::Element,
+    ) -> Option<&Stratum<F>> {
+        let parameters = self.ring.field().ring();
+        self.strata.iter().find(|stratum| stratum.region.contains(parameters, field, point, embed))
     }
 }
 
