@@ -33,21 +33,15 @@ pub fn check<F: Field>(
 ) -> Result<Checked> {
     let regions = Regions { ring: cover.ring.field().ring(), watch };
     regions.nothing_is_left(cover)?;
-    let mut checked = Checked { strata: 0, disjoint_pairs: 0, s_polynomials: 0 };
+    let disjoint_pairs = regions.strata_are_disjoint(cover)?;
+    let mut s_polynomials = 0;
     for (index, stratum) in cover.strata.iter().enumerate() {
-        for (other, second) in cover.strata[..index].iter().enumerate() {
-            if !regions.is_empty(&both(&stratum.region, &second.region))? {
-                return Err(refused(format!("strata {} and {} share points", other + 1, index + 1)));
-            }
-            checked.disjoint_pairs += 1;
-        }
-        regions.leads_stay(cover, stratum).map_err(|error| error.with_context(format!("stratum {}", index + 1)))?;
+        watch.report("check of a cover", index, cover.strata.len() - index);
         let claims = Claims { ring: &cover.ring, generators, stratum, watch };
-        checked.s_polynomials +=
-            prove_basis(&claims).map_err(|error| error.with_context(format!("stratum {}", index + 1)))?;
-        checked.strata += 1;
+        let proved = regions.leads_stay(cover, stratum).and_then(|()| prove_basis(&claims));
+        s_polynomials += proved.map_err(|error| error.with_context(format!("stratum {}", index + 1)))?;
     }
-    Ok(checked)
+    Ok(Checked { strata: cover.strata.len(), disjoint_pairs, s_polynomials })
 }
 
 pub(super) fn refused(text: impl Into<String>) -> Error {
@@ -105,7 +99,8 @@ impl<F: Field> Regions<'_, F> {
     /// Takes one stratum after the other out of the space.
     fn nothing_is_left(&self, cover: &Cover<F>) -> Result<()> {
         let exclusions = cover.space.nonzero.iter().map(|f| vec![f.clone()]).collect();
-        let mut rest = vec![Region { equations: cover.space.equations.clone(), exclusions }];
+        let space = Region { equations: cover.space.equations.clone(), exclusions };
+        let mut rest = if self.is_empty(&space)? { Vec::new() } else { vec![space] };
         for stratum in &cover.strata {
             let mut left = Vec::new();
             for part in &rest {
@@ -121,6 +116,20 @@ impl<F: Field> Regions<'_, F> {
             Some(region) => Err(refused(format!("no stratum contains the points {}", cover.tell_region(region)))),
             None => Ok(()),
         }
+    }
+
+    /// The number of pairs of strata, none of which shares a point.
+    fn strata_are_disjoint(&self, cover: &Cover<F>) -> Result<usize> {
+        let mut pairs = 0;
+        for (index, second) in cover.strata.iter().enumerate() {
+            for (other, first) in cover.strata[..index].iter().enumerate() {
+                if !self.is_empty(&both(&first.region, &second.region))? {
+                    return Err(refused(format!("strata {} and {} share points", other + 1, index + 1)));
+                }
+                pairs += 1;
+            }
+        }
+        Ok(pairs)
     }
 
     /// At each point of the stratum some representative of each element keeps its leading coefficient.
