@@ -2,7 +2,7 @@
 
 use groebot::ErrorKind;
 use groebot::Watch;
-use groebot::groebner::cover::{Cover, Region, Space, check, cover, rational_roots, sample};
+use groebot::groebner::cover::{Candidates, Cover, Region, Space, check, cover, rational_roots, sample};
 use groebot::groebner::{Options, Strategy as Selection, basis};
 use groebot::number::{BigInt, BigRational, Extension, Field, Rationals, Ring, Zp};
 use groebot::poly::univariate::{Univariate, UnivariateRing};
@@ -52,11 +52,7 @@ impl<F: Field, G: Field, Embed: Fn(&F::Element) -> G::Element> Setting<'_, F, G,
     }
 
     /// Points found on the strata, `tries` on each.
-    fn points(
-        &self,
-        tries: usize,
-        candidates: &mut dyn FnMut(Option<&Univariate<G::Element>>) -> Vec<G::Element>,
-    ) -> Vec<Vec<G::Element>> {
+    fn points(&self, tries: usize, candidates: &mut Candidates<'_, G::Element>) -> Vec<Vec<G::Element>> {
         let parameters = self.cover.ring.field().ring();
         let ring = PolynomialRing::new(self.field.clone(), parameters.variables(), Order::GrevLex).unwrap();
         let image = |f: &Polynomial<F::Element>| parameters.map_into(f, &ring, |c| Ok((self.embed)(c))).unwrap();

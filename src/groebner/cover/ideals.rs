@@ -22,15 +22,6 @@ pub(super) fn groebner<F: Field>(
     Ok(found.with_width(ring.layout().width())?.polynomials)
 }
 
-/// Distinct monic factors with the same zeros as `f`, as irreducible as the ring's factorisation makes them.
-pub(super) fn factors<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) -> Vec<Polynomial<F::Element>> {
-    let characteristic = ring.field().characteristic();
-    if characteristic > 0 && characteristic <= u64::from(ring.degree(f)) {
-        return if ring.as_constant(f).is_some() { Vec::new() } else { vec![ring.monic(f)] };
-    }
-    square_free_factors(ring, f)
-}
-
 /// The ring of the parameters with one more variable, which eliminations add and remove.
 #[derive(Clone)]
 pub(super) struct Ideals<'a, F: Field> {
@@ -49,6 +40,19 @@ impl<'a, F: Field> Ideals<'a, F> {
         let order = Order::elimination(1, names.len());
         let extended = PolynomialRing::new(ring.field().clone(), &names, order)?;
         Ok(Ideals { ring: ring.clone(), extended, watch })
+    }
+
+    /// Distinct monic factors with the same zeros as `f`, as irreducible as the factorisation of `poly` makes them: the one place
+    /// where the cover asks for factors.
+    pub fn factors(&self, f: &Polynomial<F::Element>) -> Result<Vec<Polynomial<F::Element>>> {
+        self.watch.check()?;
+        let characteristic = self.ring.field().characteristic();
+        let separable = characteristic == 0 || characteristic > u64::from(self.ring.degree(f));
+        Ok(match self.ring.as_constant(f) {
+            Some(_) => Vec::new(),
+            None if separable => square_free_factors(&self.ring, f),
+            None => vec![self.ring.monic(f)],
+        })
     }
 
     /// Whether the ideal is the whole ring: its zero set is empty.
@@ -77,23 +81,27 @@ impl<'a, F: Field> Ideals<'a, F> {
 
     /// An ideal between that of `generators` and its radical: repeated factors are dropped until none shows.
     pub fn ideal(&self, generators: &[Polynomial<F::Element>]) -> Result<Ideal<F::Element>> {
-        let mut ideal = self.square_free(generators);
+        let mut ideal = self.square_free(generators)?;
         loop {
             let reduced = groebner(&self.ring, &ideal, self.watch)?;
-            ideal = self.square_free(&reduced);
+            ideal = self.square_free(&reduced)?;
             if ideal == reduced {
                 return Ok(ideal);
             }
         }
     }
 
-    fn square_free(&self, generators: &[Polynomial<F::Element>]) -> Vec<Polynomial<F::Element>> {
+    fn square_free(&self, generators: &[Polynomial<F::Element>]) -> Result<Vec<Polynomial<F::Element>>> {
         let reduced = |f: &Polynomial<F::Element>| {
-            let factors = factors(&self.ring, f);
-            let product = factors.iter().fold(self.ring.one(), |product, factor| self.ring.mul(&product, factor));
-            if self.ring.degree(&product) < self.ring.degree(f) { product } else { self.ring.monic(f) }
+            let product = self.product(&self.factors(f)?);
+            Ok(if self.ring.degree(&product) < self.ring.degree(f) { product } else { self.ring.monic(f) })
         };
         generators.iter().filter(|f| !f.is_zero()).map(reduced).collect()
+    }
+
+    /// The product of `factors`.
+    pub fn product(&self, factors: &[Polynomial<F::Element>]) -> Polynomial<F::Element> {
+        factors.iter().fold(self.ring.one(), |product, factor| self.ring.mul(&product, factor))
     }
 
     /// The sum of two ideals: the zeros that they share.

@@ -23,7 +23,7 @@ mod words;
 pub use check::{Checked, check};
 pub use real::{RealPoints, rational_roots};
 pub use region::Region;
-pub use sample::sample;
+pub use sample::{Candidates, sample};
 pub use space::Space;
 pub use stratum::{Element, Kind, Stratum};
 

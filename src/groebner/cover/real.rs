@@ -1,13 +1,13 @@
 //! Whether a stratum has real points: proofs that it has, proofs that it has not, and silence otherwise.
 
-use super::ideals::{Ideal, Ideals, factors};
+use super::ideals::{Ideal, Ideals};
 use super::region::Region;
 use super::sample::sample;
 use super::signs::{Sign, changes_sign, forced_zeros};
 use super::{Cover, Stratum};
 use crate::number::{BigInt, BigRational, Rationals, Ring, Style};
 use crate::poly::univariate::Univariate;
-use crate::poly::{Polynomial, rational_root};
+use crate::poly::{Polynomial, PolynomialRing, rational_root};
 use crate::{Result, Watch};
 
 type Poly = Polynomial<BigRational>;
@@ -47,7 +47,11 @@ fn real_points(ideals: &Ideals<'_, Rationals>, stratum: &Stratum<Rationals>) -> 
     if let Some(point) = sample(&ideals.ring, region, &mut rational_candidates, ideals.watch)? {
         return Ok(RealPoints::At(point));
     }
-    Ok(hypersurface(ideals, &region.equations).map_or(RealPoints::Unknown, RealPoints::Some))
+    let Some(f) = hypersurface(&ideals.ring, &region.equations) else { return Ok(RealPoints::Unknown) };
+    let square_free = ideals.product(&ideals.factors(&f)?);
+    let proved = ideals.ring.degree(&square_free) == ideals.ring.degree(&f) && changes_sign(&ideals.ring, &f);
+    let reason = format!("{} changes its sign", ideals.ring.format(&f, Style::Decimal));
+    Ok(if proved { RealPoints::Some(reason) } else { RealPoints::Unknown })
 }
 
 /// Why `region` has no real point, if that shows: on each of its parts some equation is a sum of squares that cannot vanish, or
@@ -65,8 +69,7 @@ fn no_real_point(ideals: &Ideals<'_, Rationals>, region: &Region<BigRational>) -
             open.extend(narrowed(ideals, region, &equations, &zeros)?);
             continue;
         }
-        let parts = equations.iter().map(|f| factors(&ideals.ring, f)).find(|parts| parts.len() > 1);
-        let Some(parts) = parts else { return Ok(None) };
+        let Some(parts) = ideals.reducible(&equations)? else { return Ok(None) };
         for part in parts {
             open.extend(narrowed(ideals, region, &equations, &[part])?);
         }
@@ -120,27 +123,25 @@ pub fn rational_roots(f: &Univariate<BigRational>) -> Vec<BigRational> {
     }
 }
 
-/// Why the zeros of `equations` contain real points densely: after solving for parameters that occur linearly, one equation
-/// without repeated factors is left, and it changes its sign (Bochnak, Coste and Roy, Real Algebraic Geometry, 4.5.1).
-/// The closed set of a stratum has no part inside an exclusion, so that not all of these points are excluded.
-fn hypersurface(ideals: &Ideals<'_, Rationals>, equations: &[Poly]) -> Option<String> {
-    let ring = &ideals.ring;
+/// The one equation that is left after solving for parameters that occur linearly.
+///
+/// Where it has no repeated factors and changes its sign, real points are dense in the zeros of one of its factors (Bochnak, Coste
+/// and Roy, Real Algebraic Geometry, 4.5.1). No part of a stratum's closure lies inside an exclusion: some are on the stratum.
+fn hypersurface(ring: &PolynomialRing<Rationals>, equations: &[Poly]) -> Option<Poly> {
+    let count = ring.variables().len();
     let mut rest: Vec<Poly> = equations.to_vec();
     while rest.len() > 1 {
         let linear = |f: &Poly, v: usize| {
             ring.degree_in(f, v) == 1 && ring.as_constant(&ring.coefficients_in(f, v)[1]).is_some()
         };
-        let pairs = (0..rest.len()).flat_map(|i| (0..ring.variables().len()).map(move |v| (i, v)));
-        let (index, v) = pairs.into_iter().find(|&(i, v)| linear(&rest[i], v))?;
+        let mut places = (0..rest.len()).flat_map(|i| (0..count).map(move |v| (i, v)));
+        let (index, v) = places.find(|&(i, v)| linear(&rest[i], v))?;
         let solved = rest.swap_remove(index);
         let parts = ring.coefficients_in(&solved, v);
-        let mut values: Vec<Poly> = (0..ring.variables().len()).map(|w| ring.variable(w)).collect();
+        let mut values: Vec<Poly> = (0..count).map(|w| ring.variable(w)).collect();
         values[v] = ring.exact_div(&ring.neg(&parts[0]), &parts[1])?;
         rest = rest.iter().map(|f| ring.substitute(f, ring, &values, |c| ring.constant(c.clone()))).collect();
         rest.retain(|f| !f.is_zero());
     }
-    let f = rest.first()?;
-    let square_free = factors(ring, f).iter().fold(ring.one(), |product, factor| ring.mul(&product, factor));
-    (ring.degree(&square_free) == ring.degree(f) && changes_sign(ring, f))
-        .then(|| format!("{} changes its sign", ring.format(f, Style::Decimal)))
+    rest.pop()
 }

@@ -1,6 +1,6 @@
 //! Locally closed sets of parameters: [`Region`] is where equations hold and exclusions do not.
 
-use super::ideals::{Ideal, Ideals, factors};
+use super::ideals::{Ideal, Ideals};
 use crate::Result;
 use crate::number::Field;
 use crate::poly::{Polynomial, PolynomialRing};
@@ -55,8 +55,7 @@ impl<F: Field> Ideals<'_, F> {
         let mut done = Vec::new();
         while let Some(ideal) = open.pop() {
             self.watch.check()?;
-            let parts = ideal.iter().map(|f| factors(&self.ring, f)).find(|parts| parts.len() > 1);
-            let Some(parts) = parts else {
+            let Some(parts) = self.reducible(&ideal)? else {
                 done.push(ideal);
                 continue;
             };
@@ -65,6 +64,17 @@ impl<F: Field> Ideals<'_, F> {
             }
         }
         self.largest(done)
+    }
+
+    /// The factors of some polynomial of the list that has several.
+    pub fn reducible(&self, list: &[Polynomial<F::Element>]) -> Result<Option<Vec<Polynomial<F::Element>>>> {
+        for f in list {
+            let factors = self.factors(f)?;
+            if factors.len() > 1 {
+                return Ok(Some(factors));
+            }
+        }
+        Ok(None)
     }
 
     /// The ideals whose zero sets are not empty and lie in no other's.

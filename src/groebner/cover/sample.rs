@@ -2,8 +2,7 @@
 
 use super::ideals::groebner;
 use super::region::Region;
-use crate::number::Field;
-use crate::number::Ring;
+use crate::number::{Field, Ring};
 use crate::poly::univariate::{Univariate, UnivariateRing};
 use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::{Result, Watch};
@@ -11,9 +10,11 @@ use crate::{Result, Watch};
 /// How many values are tried before the search gives up.
 const ATTEMPTS: usize = 300;
 
+/// Gives the values to try for a parameter: the roots of a polynomial where it must satisfy one, else any.
+pub type Candidates<'a, E> = dyn FnMut(Option<&Univariate<E>>) -> Vec<E> + 'a;
+
 /// A point of `region` (one value a parameter of `ring`) with coordinates in the field of `ring`, if one is found.
 ///
-/// `candidates` gives the values to try for a parameter: the roots of a polynomial where there is one to satisfy, else any.
 /// Not finding a point proves nothing.
 ///
 /// # Errors
@@ -21,7 +22,7 @@ const ATTEMPTS: usize = 300;
 pub fn sample<F: Field>(
     ring: &PolynomialRing<F>,
     region: &Region<F::Element>,
-    candidates: &mut dyn FnMut(Option<&Univariate<F::Element>>) -> Vec<F::Element>,
+    candidates: &mut Candidates<'_, F::Element>,
     watch: &Watch,
 ) -> Result<Option<Vec<F::Element>>> {
     let lex = PolynomialRing::new(ring.field().clone(), ring.variables(), Order::Lex)?;
@@ -32,8 +33,6 @@ pub fn sample<F: Field>(
     let mut search = Search { ring: lex, exclusions, candidates, attempts: ATTEMPTS, watch };
     search.extend(equations, Vec::new())
 }
-
-type Candidates<'a, E> = dyn FnMut(Option<&Univariate<E>>) -> Vec<E> + 'a;
 
 struct Search<'a, 'b, F: Field> {
     ring: PolynomialRing<F>,

@@ -4,7 +4,7 @@
 //! together, so that a piece ends only where all their leading coefficients vanish.
 
 use super::flat::{Flat, Head};
-use super::ideals::{Ideal, Ideals, factors};
+use super::ideals::{Ideal, Ideals};
 use super::region::Region;
 use crate::Result;
 use crate::number::Field;
@@ -62,7 +62,7 @@ fn failures<F: Field>(
         let coefficients = flat.leading_coefficients(head)?;
         let ideal = ideals.ideal(&coefficients)?;
         let parts: Vec<Ideal<F::Element>> = match ideal.as_slice() {
-            [single] => factors(&ideals.ring, single).into_iter().map(|factor| vec![factor]).collect(),
+            [single] => ideals.factors(single)?.into_iter().map(|factor| vec![factor]).collect(),
             _ => vec![ideal],
         };
         for part in parts {
