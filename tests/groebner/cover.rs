@@ -246,3 +246,11 @@ fn exhibited_points_lie_on_their_strata() {
     }
     assert!(exhibited >= 60, "{exhibited}");
 }
+
+/// The solution 1/a jumps to 0 at a = 0: both strata lead with x, but no polynomial has the right value on both.
+#[test]
+fn strata_without_a_common_basis_stay_apart() {
+    let (found, _) = covered(&system("jump"), &Space::all());
+    let kinds: Vec<_> = found.strata.iter().map(|stratum| stratum.kind).collect();
+    assert_eq!(kinds, [Kind::Finite(1), Kind::Finite(1)]);
+}
