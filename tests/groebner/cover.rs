@@ -222,10 +222,12 @@ fn real_points_of_zero_sets() {
     {
         assert!(matches!(verdict(none), RealPoints::None(_)), "{none}: {:?}", verdict(none));
     }
-    for rational in ["a^2 + b^2", "a*b", "a^2 + b^2 - 1", "a^2 + 2*a*b + b^2", "a^2*b^2 + a^2 + b^2"] {
+    for rational in
+        ["a^2 + b^2", "a*b", "a*b + 1", "a + b^2 + 1", "a^2 + b^2 - 1", "a^2 + 2*a*b + b^2", "a^2*b^2 + a^2 + b^2"]
+    {
         assert!(matches!(verdict(rational), RealPoints::At(_)), "{rational}: {:?}", verdict(rational));
     }
-    for irrational in ["a^2 - 2", "a^3 - 2", "a^2 + b^2 - 3", "a^4 - 2*b^4 - 7"] {
+    for irrational in ["a^2 - 2", "a^3 - 2", "a^3 + 2", "a^2 + b^2 - 3", "a^4 - 2*b^4 - 7"] {
         assert!(matches!(verdict(irrational), RealPoints::Some(_)), "{irrational}: {:?}", verdict(irrational));
     }
 }
