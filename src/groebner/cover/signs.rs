@@ -90,8 +90,8 @@ fn has_no_real_root(f: &Univariate<BigRational>) -> bool {
 
 /// Whether `f` is seen to take both signs at points with small coordinates.
 pub(super) fn changes_sign(ring: &Ground, f: &Poly) -> bool {
-    const VALUES: [i64; 7] = [0, 1, -1, 2, 10, 100, 1000];
-    const POINTS: usize = 2500;
+    const VALUES: [i64; 8] = [0, 1, -1, 2, 10, -10, 1000, -1000];
+    const POINTS: usize = 4096;
     let count = ring.variables().len();
     let total = VALUES.len().saturating_pow(count as u32).min(POINTS);
     let value = |index: usize| {
