@@ -4,6 +4,7 @@
 //! a basis; [`verify`] proves one without trusting the engine.
 
 pub mod buchberger;
+pub mod cover;
 mod division;
 mod engine;
 pub mod f4;

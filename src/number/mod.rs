@@ -4,11 +4,13 @@
 //! rational functions (in [`crate::poly`]) stand on them too. [`laws`] holds the axioms as functions.
 
 mod decimal;
+mod extension;
 pub mod laws;
 mod rational;
 mod zp;
 
 pub use decimal::parse_rational;
+pub use extension::Extension;
 pub use num_bigint::BigInt;
 pub use num_rational::BigRational;
 pub use rational::Rationals;

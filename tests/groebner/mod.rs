@@ -6,6 +6,8 @@ mod families;
 mod fglm;
 mod hilbert;
 mod homogeneous;
+mod cover;
+mod cover_points;
 mod known;
 mod limits;
 mod random;

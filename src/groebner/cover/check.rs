@@ -1,0 +1,163 @@
+//! An independent proof that a cover is one: small, slow, and without the steps by which it was made.
+//!
+//! Emptiness of a region is decided by Rabinowitsch's trick, with one new variable for each exclusion.
+
+use super::ideals::groebner;
+use super::proof::{Claims, prove_basis};
+use super::{Cover, Region, Stratum};
+use crate::groebner::normal_form;
+use crate::number::{Field, Ring};
+use crate::poly::{Fractions, Order, Polynomial, PolynomialRing};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// What [`check`] has proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Checked {
+    /// Strata whose bases are bases at each of their points.
+    pub strata: usize,
+    /// Pairs of strata that share no point.
+    pub disjoint_pairs: usize,
+    /// S-polynomials that reduce to zero on a whole stratum.
+    pub s_polynomials: usize,
+}
+
+/// Proves that the strata of `cover` are disjoint, that they make its whole space, and that each basis is, at every point of
+/// its stratum over every extension field, a Groebner basis of what `generators` become there.
+///
+/// # Errors
+/// [`ErrorKind::Certificate`] that says what does not hold; [`ErrorKind::Overflow`]; what `watch` stops with.
+pub fn check<F: Field>(
+    cover: &Cover<F>,
+    generators: &[Polynomial<<Fractions<F> as Ring>::Element>],
+    watch: &Watch,
+) -> Result<Checked> {
+    let regions = Regions { ring: cover.ring.field().ring(), watch };
+    regions.nothing_is_left(cover)?;
+    let disjoint_pairs = regions.strata_are_disjoint(cover)?;
+    let mut s_polynomials = 0;
+    for (index, stratum) in cover.strata.iter().enumerate() {
+        watch.report("check of a cover", index, cover.strata.len() - index);
+        let claims = Claims { ring: &cover.ring, generators, stratum, watch };
+        let proved = regions.leads_stay(cover, stratum).and_then(|()| prove_basis(&claims));
+        s_polynomials += proved.map_err(|error| error.with_context(format!("stratum {}", index + 1)))?;
+    }
+    Ok(Checked { strata: cover.strata.len(), disjoint_pairs, s_polynomials })
+}
+
+pub(super) fn refused(text: impl Into<String>) -> Error {
+    Error::new(ErrorKind::Certificate, text)
+}
+
+fn both<E: Clone>(a: &Region<E>, b: &Region<E>) -> Region<E> {
+    Region {
+        equations: [a.equations.as_slice(), &b.equations].concat(),
+        exclusions: [a.exclusions.as_slice(), &b.exclusions].concat(),
+    }
+}
+
+/// Questions about regions of the parameters of `ring`.
+pub(super) struct Regions<'a, F: Field> {
+    pub ring: &'a PolynomialRing<F>,
+    pub watch: &'a Watch,
+}
+
+impl<F: Field> Regions<'_, F> {
+    /// Whether `region` has no point over any extension field: whichever polynomial of each exclusion is chosen, the equations
+    /// contradict that they all have inverses.
+    pub fn is_empty(&self, region: &Region<F::Element>) -> Result<bool> {
+        let taken = |name: &String| self.ring.generator(name).is_some();
+        let fresh = (0..).map(|k| format!("t{k}")).filter(|name| !taken(name)).take(region.exclusions.len());
+        let names: Vec<String> = fresh.chain(self.ring.variables().iter().cloned()).collect();
+        let ring = PolynomialRing::new(self.ring.field().clone(), &names, Order::GrevLex)?;
+        let moved = |list: &[Polynomial<F::Element>]| -> Result<Vec<_>> {
+            list.iter().map(|f| self.ring.transfer(f, &ring)).collect()
+        };
+        let exclusions = region.exclusions.iter().map(|exclusion| moved(exclusion)).collect::<Result<Vec<_>>>()?;
+        self.contradicts(&ring, &moved(&region.equations)?, &exclusions)
+    }
+
+    fn contradicts(
+        &self,
+        ring: &PolynomialRing<F>,
+        equations: &[Polynomial<F::Element>],
+        exclusions: &[Vec<Polynomial<F::Element>>],
+    ) -> Result<bool> {
+        let basis = groebner(ring, equations, self.watch)?;
+        let unit = basis.iter().any(|f| ring.as_constant(f).is_some());
+        let Some((first, rest)) = exclusions.split_first() else { return Ok(unit) };
+        for f in if unit { &[] } else { first.as_slice() } {
+            let f = normal_form(ring, f, &basis)?;
+            let inverse = ring.checked_mul(&ring.variable(rest.len()), &f)?;
+            let step = ring.sub(&inverse, &ring.one());
+            if !self.contradicts(ring, &[basis.as_slice(), &[step]].concat(), rest)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Takes one stratum after the other out of the space.
+    fn nothing_is_left(&self, cover: &Cover<F>) -> Result<()> {
+        let exclusions = cover.space.nonzero.iter().map(|f| vec![f.clone()]).collect();
+        let space = Region { equations: cover.space.equations.clone(), exclusions };
+        let mut rest = if self.is_empty(&space)? { Vec::new() } else { vec![space] };
+        for stratum in &cover.strata {
+            let mut left = Vec::new();
+            for part in &rest {
+                for piece in difference(part, &stratum.region) {
+                    if !self.is_empty(&piece)? {
+                        left.push(piece);
+                    }
+                }
+            }
+            rest = left;
+        }
+        match rest.first() {
+            Some(region) => Err(refused(format!("no stratum contains the points {}", cover.tell_region(region)))),
+            None => Ok(()),
+        }
+    }
+
+    /// The number of pairs of strata, none of which shares a point.
+    fn strata_are_disjoint(&self, cover: &Cover<F>) -> Result<usize> {
+        let mut pairs = 0;
+        for (index, second) in cover.strata.iter().enumerate() {
+            for (other, first) in cover.strata[..index].iter().enumerate() {
+                if !self.is_empty(&both(&first.region, &second.region))? {
+                    return Err(refused(format!("strata {} and {} share points", other + 1, index + 1)));
+                }
+                pairs += 1;
+            }
+        }
+        Ok(pairs)
+    }
+
+    /// At each point of the stratum some representative of each element keeps its leading coefficient.
+    fn leads_stay(&self, cover: &Cover<F>, stratum: &Stratum<F>) -> Result<()> {
+        for element in &stratum.basis {
+            let leads = element.representatives.iter().filter_map(|f| f.leading());
+            if leads.clone().any(|lead| lead.monomial != element.leading) {
+                return Err(refused("a representative has another leading monomial than its element"));
+            }
+            let mut failure = stratum.region.clone();
+            failure.equations.extend(leads.map(|lead| lead.coefficient.numerator().clone()));
+            if !self.is_empty(&failure)? {
+                return Err(refused(format!("leading coefficients vanish {}", cover.tell_region(&failure))));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The points of `a` that are not in `b`: off the zeros of `b`, or on one of its exclusions.
+fn difference<E: Clone>(a: &Region<E>, b: &Region<E>) -> Vec<Region<E>> {
+    let mut off = a.clone();
+    off.exclusions.push(b.equations.clone());
+    let on = |exclusion: &Vec<_>| {
+        let mut part = a.clone();
+        part.equations.extend_from_slice(&b.equations);
+        part.equations.extend_from_slice(exclusion);
+        part
+    };
+    b.exclusions.iter().map(on).chain([off]).collect()
+}
