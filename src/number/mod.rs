@@ -3,15 +3,23 @@
 //! [`Ring`] and [`Field`] are the only two rungs of the ladder; polynomial rings and fields of
 //! rational functions (in [`crate::poly`]) stand on them too. [`laws`] holds the axioms as functions.
 
+mod chinese;
 mod decimal;
 pub mod laws;
+mod limbs;
+mod primes;
 mod rational;
+mod reconstruct;
 mod zp;
 
+pub use chinese::Chinese;
 pub use decimal::parse_rational;
+pub use limbs::residue;
 pub use num_bigint::BigInt;
 pub use num_rational::BigRational;
+pub use primes::primes_below;
 pub use rational::Rationals;
+pub use reconstruct::reconstruct;
 pub use zp::Zp;
 
 use std::fmt::Debug;

@@ -1,5 +1,7 @@
 //! The fields obey their axioms, and decimals are read exactly.
 
+mod modular;
+
 use groebot::ErrorKind;
 use groebot::number::{BigInt, BigRational, Field, Rationals, Ring, Zp, laws, parse_rational};
 use proptest::prelude::*;
