@@ -9,6 +9,7 @@ mod engine;
 pub mod f4;
 mod fglm;
 pub mod ideal;
+pub mod modular;
 mod pairs;
 mod reduced;
 pub mod verify;

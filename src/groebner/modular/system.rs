@@ -1,0 +1,87 @@
+//! The generators with integer coefficients, and their images modulo primes.
+
+use num_integer::Integer;
+use num_traits::{One, Zero};
+
+use crate::number::{BigInt, BigRational, Rationals, Zp, primes_below, residue};
+use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
+use crate::{Error, ErrorKind, Result};
+
+/// The generators that are not zero, as primitive polynomials over the integers.
+pub(super) struct System<'a> {
+    pub ring: &'a PolynomialRing<Rationals>,
+    pub generators: Vec<Integral>,
+    /// The number of generators given, zeros included.
+    pub given: usize,
+}
+
+/// A polynomial with integer coefficients and its place in a list.
+pub(super) struct Integral {
+    /// The index of the polynomial that it is a multiple of.
+    pub index: usize,
+    /// What that one was multiplied by.
+    pub factor: BigRational,
+    /// Greatest first.
+    pub terms: Vec<(Monomial, BigInt)>,
+}
+
+impl Integral {
+    /// The primitive multiple of a polynomial that is not zero.
+    pub(super) fn new(index: usize, f: &Polynomial<BigRational>) -> Self {
+        let denominator = f.terms().iter().fold(BigInt::one(), |lcm, term| lcm.lcm(term.coefficient.denom()));
+        let whole = |term: &Term<BigRational>| term.coefficient.numer() * (&denominator / term.coefficient.denom());
+        let mut terms: Vec<_> = f.terms().iter().map(|term| (term.monomial.clone(), whole(term))).collect();
+        let content = terms.iter().fold(BigInt::zero(), |gcd, (_, c)| if gcd.is_one() { gcd } else { gcd.gcd(c) });
+        terms.iter_mut().for_each(|(_, c)| *c /= &content);
+        Integral { index, factor: BigRational::new(denominator, content), terms }
+    }
+
+    /// The image modulo a prime.
+    pub(super) fn image(&self, ring: &PolynomialRing<Zp>) -> Polynomial<u64> {
+        let p = ring.field().modulus() as u32;
+        let term = |(monomial, c): &(Monomial, BigInt)| Term {
+            coefficient: u64::from(residue(c, p)),
+            monomial: monomial.clone(),
+        };
+        ring.collect(self.terms.iter().map(term))
+    }
+}
+
+impl<'a> System<'a> {
+    pub(super) fn new(ring: &'a PolynomialRing<Rationals>, generators: &[Polynomial<BigRational>]) -> Self {
+        let nonzero = generators.iter().enumerate().filter(|(_, f)| !f.is_zero());
+        let integral = nonzero.map(|(index, f)| Integral::new(index, f)).collect();
+        System { ring, generators: integral, given: generators.len() }
+    }
+
+    /// The primes below 2^31 that divide no coefficient, in descending order.
+    pub(super) fn primes(&self) -> impl Iterator<Item = u32> {
+        let good = |p: &u32| self.generators.iter().flat_map(|f| &f.terms).all(|(_, c)| residue(c, *p) != 0);
+        primes_below(1 << 31).map(|p| p as u32).filter(good)
+    }
+
+    /// The ring and the generators modulo a prime.
+    pub(super) fn image(&self, p: u32) -> Result<(PolynomialRing<Zp>, Vec<Polynomial<u64>>)> {
+        let ring = modulo(self.ring, p)?;
+        let images = self.generators.iter().map(|f| f.image(&ring)).collect();
+        Ok((ring, images))
+    }
+
+    /// The coefficients of the generators in `N` lanes, one a prime.
+    pub(super) fn lanes<const N: usize>(&self, primes: [u32; N]) -> Vec<Vec<[u32; N]>> {
+        let lanes = |(_, c): &(Monomial, BigInt)| primes.map(|p| residue(c, p));
+        self.generators.iter().map(|f| f.terms.iter().map(lanes).collect()).collect()
+    }
+}
+
+/// The same ring modulo a prime.
+pub(super) fn modulo(ring: &PolynomialRing<Rationals>, p: u32) -> Result<PolynomialRing<Zp>> {
+    let layout = ring.layout();
+    let image = PolynomialRing::new(Zp::new(u64::from(p))?, ring.variables(), layout.order().clone())?;
+    Ok(image.with_width(layout.width()))
+}
+
+/// The refusal of a claim.
+pub(super) fn refuse(text: impl Into<String>) -> Error {
+    Error::new(ErrorKind::Certificate, text)
+}
