@@ -5,7 +5,7 @@ use super::learned::{Image, LANES, Learned, Shape};
 use super::next;
 use super::system::System;
 use super::vectors::{Tables, Vector};
-use crate::number::{BigInt, BigRational, Rationals, Ring};
+use crate::number::{BigRational, Rationals, Ring};
 use crate::poly::{Polynomial, PolynomialRing, Term, Width};
 use crate::{Result, Watch};
 

@@ -114,12 +114,20 @@ impl Vector {
     /// The entries in lowest terms. One greatest common divisor tells which primes of the denominator divide any numerator.
     pub(super) fn entries(&self) -> Vec<BigRational> {
         let part = self.common_part();
+        let short = u128::try_from(&part).ok();
         let entry = |n: &BigInt| {
             if n.is_zero() || part.is_one() {
-                return fraction(n, &self.denominator);
+                return fraction(n.clone(), self.denominator.clone());
             }
-            let divisor = part.gcd(&(n % &part));
-            if divisor.is_one() { fraction(n, &self.denominator) } else { fraction(&(n / &divisor), &(&self.denominator / &divisor)) }
+            let rest = n % &part;
+            let divisor = match (short, u128::try_from(rest.magnitude())) {
+                (Some(part), Ok(rest)) => BigInt::from(part.gcd(&rest)),
+                _ => part.gcd(&rest),
+            };
+            if divisor.is_one() {
+                return fraction(n.clone(), self.denominator.clone());
+            }
+            fraction(n / &divisor, &self.denominator / &divisor)
         };
         self.numerators.iter().map(entry).collect()
     }
@@ -139,8 +147,8 @@ impl Vector {
     }
 }
 
-/// A fraction already in lowest terms; zero has denominator one.
-fn fraction(numerator: &BigInt, denominator: &BigInt) -> BigRational {
-    let denominator = if numerator.is_zero() { BigInt::one() } else { denominator.clone() };
-    BigRational::new_raw(numerator.clone(), denominator)
+/// A fraction already in lowest terms; zero gets the denominator one.
+fn fraction(numerator: BigInt, denominator: BigInt) -> BigRational {
+    let denominator = if numerator.is_zero() { BigInt::one() } else { denominator };
+    BigRational::new_raw(numerator, denominator)
 }
