@@ -5,10 +5,16 @@
 //! computing Groebner bases", J. Symbolic Computation 35 (2003)). [`basis`] gives a [`Modular`], whose [`Status`] says
 //! whether the result is only probable; [`prove`] settles that.
 
+mod arnold;
 mod candidate;
+mod homogeneous;
 mod learned;
+mod matrix;
 mod system;
+mod vanish;
 mod vectors;
+
+pub use arnold::prove;
 
 use super::verify::{Claim, verify};
 use super::{Basis, Options};

@@ -1,7 +1,9 @@
 //! The generators with integer coefficients, and their images modulo primes.
 
+use std::collections::HashMap;
+
 use num_integer::Integer;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 use crate::number::{BigInt, BigRational, Rationals, Zp, primes_below, residue};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
@@ -34,6 +36,26 @@ impl Integral {
         let content = terms.iter().fold(BigInt::zero(), |gcd, (_, c)| if gcd.is_one() { gcd } else { gcd.gcd(c) });
         terms.iter_mut().for_each(|(_, c)| *c /= &content);
         Integral { index, factor: BigRational::new(denominator, content), terms }
+    }
+
+    /// The leading monomial.
+    pub(super) fn lead(&self) -> &Monomial {
+        &self.terms[0].0
+    }
+
+    /// The leading coefficient.
+    pub(super) fn leading_coefficient(&self) -> &BigInt {
+        &self.terms[0].1
+    }
+
+    /// The total degree.
+    pub(super) fn degree(&self, ring: &PolynomialRing<Rationals>) -> u32 {
+        self.terms.iter().map(|(monomial, _)| ring.layout().degree(monomial)).max().unwrap_or(0)
+    }
+
+    /// The greatest magnitude of a coefficient.
+    pub(super) fn height(&self) -> BigInt {
+        self.terms.iter().map(|(_, c)| c.abs()).max().unwrap_or_default()
     }
 
     /// The image modulo a prime.
@@ -72,6 +94,25 @@ impl<'a> System<'a> {
         let lanes = |(_, c): &(Monomial, BigInt)| primes.map(|p| residue(c, p));
         self.generators.iter().map(|f| f.terms.iter().map(lanes).collect()).collect()
     }
+}
+
+/// The sum of products of a polynomial, an integer and a monomial; it may be zero.
+pub(super) fn combination(
+    ring: &PolynomialRing<Rationals>,
+    parts: &[(&Integral, BigInt, Monomial)],
+) -> Result<Integral> {
+    let layout = ring.layout();
+    let mut sums: HashMap<Monomial, BigInt> = HashMap::new();
+    for (f, factor, shift) in parts {
+        for (monomial, c) in &f.terms {
+            let limit = || Error::new(ErrorKind::Overflow, "an S-pair's degree exceeds the limit of the ring");
+            let product = layout.checked_mul(monomial, shift).ok_or_else(limit)?;
+            *sums.entry(product).or_default() += c * factor;
+        }
+    }
+    let mut terms: Vec<_> = sums.into_iter().filter(|(_, c)| !c.is_zero()).collect();
+    terms.sort_by(|(a, _), (b, _)| layout.compare(b, a));
+    Ok(Integral { index: 0, factor: BigRational::one(), terms })
 }
 
 /// The same ring modulo a prime.

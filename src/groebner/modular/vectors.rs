@@ -40,6 +40,16 @@ impl<'a> Tables<'a> {
         Ok(Tables { primes, full: Chinese::new(primes)?, short: None })
     }
 
+    /// The product of the primes.
+    pub(super) fn modulus(&self) -> &BigInt {
+        self.full.modulus()
+    }
+
+    /// Whether `vector` has the residues `rows[l]` modulo `primes[l]`, for all primes.
+    pub(super) fn agree(&self, vector: &Vector, rows: &[&[u32]]) -> bool {
+        rows.iter().zip(self.primes).all(|(row, &p)| vector.modulo(p).is_some_and(|image| image == *row))
+    }
+
     /// A combination of the entries whose residues modulo `primes[l]` are `rows[l]`; `None` when there are not enough primes.
     pub(super) fn witness(&self, rows: &[&[u32]]) -> Option<BigRational> {
         let residues: Vec<u32> = rows.iter().zip(self.primes).map(|(row, &p)| combination(row, p)).collect();
@@ -76,6 +86,10 @@ impl<'a> Tables<'a> {
         let mut residues = vec![0; rows.len()];
         for entry in 0..entries {
             residues.iter_mut().zip(rows).for_each(|(residue, row)| *residue = row[entry]);
+            if residues.iter().all(|&residue| residue == 0) {
+                numerators.push(BigInt::zero());
+                continue;
+            }
             let mut n = short.lift(&residues, &short_factors);
             if !is_small(&n, short) {
                 n = self.full.lift(&residues, &full_factors);

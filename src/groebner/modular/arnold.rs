@@ -1,0 +1,175 @@
+//! The proof that a basis from primes is the basis: homogenisation and Arnold's criterion.
+
+use std::collections::HashSet;
+
+use super::super::verify::{Claim, verify};
+use super::super::{Options, f4::Trace};
+use super::homogeneous::{Homogeneous, is_homogeneous};
+use super::system::{Integral, System, refuse};
+use super::vanish::Divisors;
+use super::{Modular, Status};
+use crate::number::{BigRational, Rationals, Ring, residue};
+use crate::poly::{Monomial, Order, Polynomial, PolynomialRing, Width};
+use crate::{Result, Watch};
+
+/// Proves that `found` is the reduced Groebner basis of the ideal of `generators`, which are polynomials of `ring`; gives
+/// [`Status::Proved`].
+///
+/// With cofactors, [`verify`] proves it. Without:
+///
+/// 1. The homogenised generators `F` (a last variable, graded reverse order) get a basis `H` by [`super::basis`].
+/// 2. Over Q, `F` and the S-pairs of `H` reduce to zero by `H`; modulo one prime, the leading monomials of `H` are those of the ideal
+///    of `F`. Then `<H> = <F>` (Arnold 2003, theorem 7.1): the Hilbert function of `F` modulo the prime bounds that of `F` over Q from
+///    above, that of `H` bounds it from below.
+/// 3. With the last variable put to one, `H` is a basis `B` of the ideal of the generators in graded reverse order. The
+///    elements of `found` reduce to zero by `B`. In graded reverse order they have the same leading monomials; in another order,
+///    their S-pairs and the generators reduce to zero by them.
+///
+/// What reduces to zero over Q does so by a bound on its coefficients and enough primes. What is taken for true of the
+/// computation modulo the prime of step 2 is that F4 without chance makes a Groebner basis out of multiples of its input.
+///
+/// # Errors
+/// [`Certificate`](crate::ErrorKind::Certificate) when `found` is not the basis, or is not reduced; those of [`super::basis`].
+pub fn prove(
+    found: &Modular,
+    ring: &PolynomialRing<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<Status> {
+    let basis = &found.basis;
+    let generators: Vec<_> = generators.iter().map(|f| ring.transfer(f, &basis.ring)).collect::<Result<_>>()?;
+    if !basis.cofactors.is_empty() {
+        let claim = Claim { generators: &generators, basis: &basis.polynomials, cofactors: &basis.cofactors };
+        return verify(&basis.ring, &claim).map(|_| Status::Proved);
+    }
+    check_reduced(&basis.ring, &basis.polynomials)?;
+    if *basis.ring.layout().order() == Order::GrevLex && generators.iter().all(|f| is_homogeneous(&basis.ring, f)) {
+        prove_homogeneous(&basis.ring, &basis.polynomials, &generators, watch)?;
+        return Ok(Status::Proved);
+    }
+    let graded = graded_basis(&basis.ring, &generators, watch)?;
+    prove_by(&graded, &basis.ring, &basis.polynomials, &generators, watch)
+}
+
+/// Monic, sorted from the smallest, none reducible by another.
+fn check_reduced(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRational>]) -> Result<()> {
+    let monic = |f: &Polynomial<BigRational>| f.leading().is_some_and(|t| ring.field().is_one(&t.coefficient));
+    if !basis.iter().all(|f| ring.is_well_formed(f) && monic(f)) {
+        return Err(refuse("a basis element is no monic polynomial of the ring"));
+    }
+    let leads: Vec<&Monomial> = basis.iter().filter_map(|f| f.leading()).map(|term| &term.monomial).collect();
+    let sorted = leads.windows(2).all(|pair| ring.layout().compare(pair[0], pair[1]).is_lt());
+    let reducible = |index: usize, m: &Monomial| {
+        let divides = |(other, lead): (usize, &&Monomial)| other != index && ring.layout().divides(lead, m);
+        leads.iter().enumerate().any(divides)
+    };
+    let reduced = |(index, f): (usize, &Polynomial<BigRational>)| !f.terms().iter().any(|t| reducible(index, &t.monomial));
+    if sorted && basis.iter().enumerate().all(reduced) {
+        return Ok(());
+    }
+    Err(refuse("the basis is not reduced, or not sorted by leading monomial from the smallest"))
+}
+
+fn integral(list: &[Polynomial<BigRational>]) -> Vec<Integral> {
+    let nonzero = list.iter().enumerate().filter(|(_, f)| !f.is_zero());
+    nonzero.map(|(index, f)| Integral::new(index, f)).collect()
+}
+
+/// Arnold's criterion: the homogeneous `generators` and `basis` generate the same ideal, and `basis` is a Groebner basis.
+fn prove_homogeneous(
+    ring: &PolynomialRing<Rationals>,
+    basis: &[Polynomial<BigRational>],
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<()> {
+    let mut divisors = Divisors::new(ring, basis);
+    check_leads(ring, &divisors.elements, generators, watch)?;
+    divisors.prove_all(&integral(generators), watch).map_err(|error| error.with_context("a generator"))?;
+    divisors.prove_basis(watch)
+}
+
+/// Modulo some prime that divides no coefficient of `generators` and no leading coefficient of `basis`, the leading
+/// monomials are those of `basis`. A prime may be unlucky: several are tried.
+fn check_leads(
+    ring: &PolynomialRing<Rationals>,
+    basis: &[Integral],
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<()> {
+    const TRIES: usize = 3;
+    let system = System::new(ring, generators);
+    let good = |p: &u32| basis.iter().all(|f| residue(f.leading_coefficient(), *p) != 0);
+    for p in system.primes().filter(good).take(TRIES) {
+        let (ring, images) = system.image(p)?;
+        let (image, _) = Trace::learn(&ring, &images, watch)?;
+        if image.leading_monomials().into_iter().eq(basis.iter().map(Integral::lead)) {
+            return Ok(());
+        }
+    }
+    Err(refuse(format!("modulo {TRIES} primes the leading monomials are others")))
+}
+
+/// A basis, not reduced, of the ideal of `generators` in graded reverse order, proved.
+struct Graded {
+    ring: PolynomialRing<Rationals>,
+    basis: Vec<Polynomial<BigRational>>,
+}
+
+fn graded_basis(
+    ring: &PolynomialRing<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<Graded> {
+    let lifted = Homogeneous::new(ring, generators)?;
+    let found = super::basis(&lifted.ring, &lifted.generators, &Options::default(), watch)?.basis;
+    let homogenised: Vec<_> =
+        lifted.generators.iter().map(|f| lifted.ring.transfer(f, &found.ring)).collect::<Result<_>>()?;
+    prove_homogeneous(&found.ring, &found.polynomials, &homogenised, watch)?;
+    let ring = lifted.plain.with_width(found.ring.layout().width());
+    let basis = found.polynomials.iter().map(|f| found.ring.transfer(&lifted.at_one(&found.ring, f)?, &ring));
+    let basis = minimal(&ring, basis.collect::<Result<_>>()?);
+    Ok(Graded { ring, basis })
+}
+
+/// The elements whose leading monomials no other divides, smallest first.
+fn minimal(ring: &PolynomialRing<Rationals>, mut basis: Vec<Polynomial<BigRational>>) -> Vec<Polynomial<BigRational>> {
+    basis.retain(|f| !f.is_zero());
+    basis.sort_by(|f, g| ring.layout().compare(lead(f), lead(g)));
+    let mut kept: Vec<Polynomial<BigRational>> = Vec::new();
+    for f in basis {
+        if !kept.iter().any(|g| ring.layout().divides(lead(g), lead(&f))) {
+            kept.push(f);
+        }
+    }
+    kept
+}
+
+fn lead(f: &Polynomial<BigRational>) -> &Monomial {
+    &f.leading().expect("not zero").monomial
+}
+
+/// Step 3 of [`prove`].
+fn prove_by(
+    graded: &Graded,
+    ring: &PolynomialRing<Rationals>,
+    basis: &[Polynomial<BigRational>],
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<Status> {
+    let width = ring.layout().width().max(graded.ring.layout().width());
+    let (target, ring_of) = (graded.ring.with_width(width), ring);
+    let moved = |from: &PolynomialRing<Rationals>, list: &[Polynomial<BigRational>]| -> Result<Vec<_>> {
+        list.iter().map(|f| from.transfer(f, &target)).collect()
+    };
+    let (by, elements) = (moved(&graded.ring, &graded.basis)?, moved(ring_of, basis)?);
+    let mut divisors = Divisors::new(&target, &by);
+    divisors.prove_all(&integral(&elements), watch).map_err(|error| error.with_context("a basis element"))?;
+    if *ring.layout().order() == Order::GrevLex {
+        let leads = |list: &[Polynomial<BigRational>]| list.iter().map(|f| lead(f).clone()).collect::<HashSet<_>>();
+        return if leads(&by) == leads(&elements) { Ok(Status::Proved) } else { Err(refuse("a leading monomial is missing")) };
+    }
+    let mut divisors = Divisors::new(ring, basis);
+    divisors.prove_all(&integral(generators), watch).map_err(|error| error.with_context("a generator"))?;
+    divisors.prove_basis(watch)?;
+    Ok(Status::Proved)
+}
