@@ -15,8 +15,8 @@ mod reduced;
 pub mod verify;
 
 pub use division::{Division, divide, normal_form, s_polynomial};
-pub use f4::{Trace, f4};
 pub use engine::{Basis, Options, basis};
+pub use f4::{Trace, f4};
 pub use fglm::Quotient;
 pub use pairs::Strategy;
 pub use reduced::reduced_basis;

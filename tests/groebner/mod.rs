@@ -3,4 +3,5 @@
 mod claims;
 mod known;
 mod limits;
+mod modular;
 mod random;

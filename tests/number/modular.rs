@@ -78,7 +78,8 @@ fn small_moduli_are_searched_through() {
     for p in [101i64, 1009] {
         for u in 0..p {
             for surplus in 0..6 {
-                let fits = |n: i64, d: i64| (n - d * u) % p == 0 && (n.abs() * d) << (surplus + 2) < p && n.gcd(&d) == 1;
+                let fits =
+                    |n: i64, d: i64| (n - d * u) % p == 0 && (n.abs() * d) << (surplus + 2) < p && n.gcd(&d) == 1;
                 let exists = (1..p).any(|d| [d * u % p, d * u % p - p].iter().any(|&n| fits(n, d)));
                 let found = reconstruct(&BigInt::from(u), &BigInt::from(p), surplus);
                 assert!(found.is_some() || !exists, "{u} modulo {p}");

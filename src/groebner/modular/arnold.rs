@@ -9,7 +9,7 @@ use super::system::{Integral, System, refuse};
 use super::vanish::Divisors;
 use super::{Modular, Status};
 use crate::number::{BigRational, Rationals, Ring, residue};
-use crate::poly::{Monomial, Order, Polynomial, PolynomialRing, Width};
+use crate::poly::{Monomial, Order, Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 
 /// Proves that `found` is the reduced Groebner basis of the ideal of `generators`, which are polynomials of `ring`; gives
@@ -63,7 +63,8 @@ fn check_reduced(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRation
         let divides = |(other, lead): (usize, &&Monomial)| other != index && ring.layout().divides(lead, m);
         leads.iter().enumerate().any(divides)
     };
-    let reduced = |(index, f): (usize, &Polynomial<BigRational>)| !f.terms().iter().any(|t| reducible(index, &t.monomial));
+    let reduced =
+        |(index, f): (usize, &Polynomial<BigRational>)| !f.terms().iter().any(|t| reducible(index, &t.monomial));
     if sorted && basis.iter().enumerate().all(reduced) {
         return Ok(());
     }
@@ -166,7 +167,11 @@ fn prove_by(
     divisors.prove_all(&integral(&elements), watch).map_err(|error| error.with_context("a basis element"))?;
     if *ring.layout().order() == Order::GrevLex {
         let leads = |list: &[Polynomial<BigRational>]| list.iter().map(|f| lead(f).clone()).collect::<HashSet<_>>();
-        return if leads(&by) == leads(&elements) { Ok(Status::Proved) } else { Err(refuse("a leading monomial is missing")) };
+        return if leads(&by) == leads(&elements) {
+            Ok(Status::Proved)
+        } else {
+            Err(refuse("a leading monomial is missing"))
+        };
     }
     let mut divisors = Divisors::new(ring, basis);
     divisors.prove_all(&integral(generators), watch).map_err(|error| error.with_context("a generator"))?;

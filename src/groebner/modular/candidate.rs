@@ -84,12 +84,7 @@ impl Candidate {
     }
 
     /// The images modulo the next primes.
-    fn gather(
-        &mut self,
-        system: &System<'_>,
-        primes: &mut impl Iterator<Item = u32>,
-        watch: &Watch,
-    ) -> Result<()> {
+    fn gather(&mut self, system: &System<'_>, primes: &mut impl Iterator<Item = u32>, watch: &Watch) -> Result<()> {
         watch.check()?;
         watch.report("primes", self.primes.len(), self.learned.shape.supports.len() - self.witnesses.len());
         let mut batch = [0; LANES];
@@ -155,7 +150,11 @@ impl Lift {
         }
         let cofactors = polynomials.split_off(self.shape.elements);
         let columns = system.generators.len();
-        let rows = if columns == 0 { Vec::new() } else { cofactors.chunks(columns).map(|row| widen(&ring, system, row)).collect() };
+        let rows = if columns == 0 {
+            Vec::new()
+        } else {
+            cofactors.chunks(columns).map(|row| widen(&ring, system, row)).collect()
+        };
         Ok(Basis { ring, polynomials, cofactors: rows })
     }
 }

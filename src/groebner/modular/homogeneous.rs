@@ -1,7 +1,7 @@
 //! Homogenisation with a last variable.
 
 use crate::Result;
-use crate::number::{BigRational, Rationals, Ring};
+use crate::number::{BigRational, Rationals};
 use crate::poly::{Order, Polynomial, PolynomialRing, Term};
 
 /// Whether all terms have one total degree.

@@ -42,8 +42,10 @@ impl Matrix {
         }
         let mut sorted: Vec<&Monomial> = rows.keys().collect();
         sorted.sort_unstable_by(|a, b| layout.compare(b, a));
-        let columns: HashMap<Monomial, u32> = sorted.iter().zip(0..).map(|(m, column)| ((*m).clone(), column)).collect();
-        let place = |m: &Monomial, shift: &Monomial| columns[&layout.checked_mul(m, shift).expect("was multiplied before")];
+        let columns: HashMap<Monomial, u32> =
+            sorted.iter().zip(0..).map(|(m, column)| ((*m).clone(), column)).collect();
+        let place =
+            |m: &Monomial, shift: &Monomial| columns[&layout.checked_mul(m, shift).expect("was multiplied before")];
         let numbered = |(element, shift): &(usize, Monomial)| Reducer {
             element: *element,
             columns: divisors.elements[*element].terms.iter().map(|(m, _)| place(m, shift)).collect(),
