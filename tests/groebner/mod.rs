@@ -1,6 +1,7 @@
 //! Tests of `groebot::groebner`.
 
 mod claims;
+mod f4;
 mod known;
 mod limits;
 mod modular;

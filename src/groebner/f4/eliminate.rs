@@ -1,5 +1,6 @@
 //! Elimination modulo one prime, eight rows at a time.
 
+use super::lanes::Instructions;
 use super::sweep::{Sparse, Sweep};
 use super::symbolic::{Row, Shape};
 use crate::{Result, Watch};
@@ -13,27 +14,27 @@ const CERTAINTY: u32 = 50;
 /// No column.
 const NOWHERE: [u32; LANES] = [u32::MAX; LANES];
 
-/// How the rows of a matrix are reduced.
+/// How rows are reduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
-    /// Each row by itself: tells which rows were independent of those before them.
-    Each,
-    /// Random combinations, as many as the rank: rows that become zero cost little.
-    Combined,
+pub(super) struct Way {
+    /// Random combinations, as many as the rank: rows that become zero cost little. Else each row by itself, which tells
+    /// which were independent of those before them.
+    pub combinations: bool,
+    pub instructions: Instructions,
 }
 
 /// The rows that a matrix adds: monic, reduced by the matrix and by one another, greatest lead first.
 pub(super) struct Echelon {
     pub rows: Vec<Sparse<u32>>,
-    /// With [`Way::Each`]: the lower rows that were independent, and the column that each led when it was found.
+    /// Without combinations: the lower rows that were independent, and the column that each led when it was found.
     pub independent: Vec<(usize, u32)>,
 }
 
 /// Reduces the lower rows of `shape` modulo `p`.
 pub(super) fn eliminate(shape: &Shape, coefficients: &[Vec<u32>], p: u32, way: Way, watch: &Watch) -> Result<Echelon> {
-    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], shape, coefficients);
+    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], way.instructions, shape, coefficients);
     let mut independent = Vec::new();
-    let combine = way == Way::Combined && LANES as u32 / 2 * p.ilog2() >= CERTAINTY;
+    let combine = way.combinations && LANES as u32 / 2 * p.ilog2() >= CERTAINTY;
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
     for (index, rows) in shape.lower.chunks(if combine { BLOCK } else { LANES }).enumerate() {
         watch.check()?;
@@ -158,9 +159,10 @@ pub(super) fn normal_forms(
     shape: &Shape,
     coefficients: &[Vec<u32>],
     p: u32,
+    way: Way,
     watch: &Watch,
 ) -> Result<Vec<Sparse<u32>>> {
-    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], shape, coefficients);
+    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], way.instructions, shape, coefficients);
     let free = sweep.free();
     let mut forms = Vec::with_capacity(shape.lower.len());
     for rows in shape.lower.chunks(LANES) {

@@ -17,9 +17,10 @@ pub use trace::Trace;
 
 use super::Basis;
 use crate::number::Zp;
-use crate::poly::{Polynomial, PolynomialRing, Term};
+use crate::poly::{Order, Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result, Watch};
 use eliminate::{Way, eliminate, normal_forms};
+use lanes::Instructions;
 use packing::{Packing, words};
 use running::{Running, overflow};
 use symbolic::{Builder, Columns, Shape};
@@ -37,7 +38,37 @@ pub const MODULUS_LIMIT: u64 = 1 << 31;
 /// [`ErrorKind::BadValue`] for a larger modulus; [`ErrorKind::Overflow`] when a degree outgrows 15 bits or the variables the
 /// widest keys; what `watch` stops with.
 pub fn f4(ring: &PolynomialRing<Zp>, generators: &[Polynomial<u64>], watch: &Watch) -> Result<Basis<Zp>> {
-    Ok(in_some_width(ring, generators, Way::Combined, watch)?.0)
+    f4_with(ring, generators, Settings::default(), watch)
+}
+
+/// How [`f4_with`] works.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Reduce random combinations of rows, as many as the rank; else each row by itself, without chance.
+    pub combinations: bool,
+    /// Use the vector instructions that the processor has; the results are the same.
+    pub vectors: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings { combinations: true, vectors: true }
+    }
+}
+
+/// [`f4`] with settings.
+///
+/// # Errors
+/// As [`f4`].
+pub fn f4_with(
+    ring: &PolynomialRing<Zp>,
+    generators: &[Polynomial<u64>],
+    settings: Settings,
+    watch: &Watch,
+) -> Result<Basis<Zp>> {
+    let instructions = if settings.vectors { Instructions::detect() } else { Instructions::Portable };
+    let way = Way { combinations: settings.combinations, instructions };
+    Ok(in_some_width(ring, generators, way, watch)?.0)
 }
 
 impl Trace {
@@ -50,7 +81,8 @@ impl Trace {
         generators: &[Polynomial<u64>],
         watch: &Watch,
     ) -> Result<(Basis<Zp>, Trace)> {
-        in_some_width(ring, generators, Way::Each, watch)
+        let way = Way { combinations: false, instructions: Instructions::detect() };
+        in_some_width(ring, generators, way, watch)
     }
 }
 
@@ -100,6 +132,8 @@ struct Run<'a, const W: usize> {
     ring: &'a PolynomialRing<Zp>,
     p: u32,
     way: Way,
+    /// Whether the order looks at the degree first: pairs then go by the degree of their common multiple.
+    graded: bool,
     running: Running<W>,
     coefficients: Vec<Vec<u32>>,
     table: Table<W>,
@@ -108,11 +142,14 @@ struct Run<'a, const W: usize> {
 
 impl<'a, const W: usize> Run<'a, W> {
     fn new(ring: &'a PolynomialRing<Zp>, bits: u32, way: Way) -> Self {
+        let graded = *ring.layout().order() == Order::GrevLex;
+        let packing = Packing::new(ring.layout().order(), ring.variables().len(), bits);
         Run {
             ring,
             p: ring.field().modulus() as u32,
             way,
-            running: Running::new(Packing::new(ring.layout().order(), ring.variables().len(), bits)),
+            graded,
+            running: Running::new(packing, !graded),
             coefficients: Vec::new(),
             table: Table::new(),
             trace: Trace::default(),
@@ -130,18 +167,21 @@ impl<'a, const W: usize> Run<'a, W> {
                 return self.finish(watch);
             }
             watch.report("F4", round, self.running.open() + selected.len());
-            let mut builder = Builder::new(&self.running, &mut self.table);
+            // In an order by degree the sugar of a round is its degree.
+            let sugar = selected[0].sugar;
+            let bound = if self.graded { u32::MAX } else { sugar };
+            let mut builder = Builder::new(&self.running, &mut self.table, bound);
             builder.take_pairs(&selected)?;
             builder.close(watch)?;
             let (shape, columns) = builder.finish();
-            self.eliminate(shape, &columns, watch)?;
+            self.eliminate(shape, &columns, sugar, watch)?;
             round += 1;
         }
     }
 
     /// The generators, reduced by one another without multiplying any.
     fn begin(&mut self, generators: &[Polynomial<u64>], watch: &Watch) -> Result<()> {
-        let mut raw = Running::new(self.running.packing.clone());
+        let mut raw = Running::new(self.running.packing.clone(), false);
         for (index, f) in generators.iter().enumerate().filter(|(_, f)| !f.is_zero()) {
             let keys = f.terms().iter().map(|term| {
                 let exponents = self.ring.layout().exponents(&term.monomial);
@@ -153,28 +193,30 @@ impl<'a, const W: usize> Run<'a, W> {
             self.trace.generators.push((index, f.terms().len()));
         }
         let all: Vec<u32> = (0..raw.elements.len() as u32).collect();
-        let mut builder = Builder::new(&raw, &mut self.table);
+        let mut builder = Builder::new(&raw, &mut self.table, u32::MAX);
         builder.take_elements(&all, 0)?;
         let (shape, columns) = builder.finish();
         let given = self.coefficients.len();
-        self.eliminate(shape, &columns, watch)?;
+        self.eliminate(shape, &columns, 0, watch)?;
         self.coefficients.drain(..given);
         Ok(())
     }
 
     /// Reduces a matrix and adjoins its new rows.
-    fn eliminate(&mut self, shape: Shape, columns: &Columns<W>, watch: &Watch) -> Result<()> {
+    fn eliminate(&mut self, shape: Shape, columns: &Columns<W>, sugar: u32, watch: &Watch) -> Result<()> {
         let terms: usize = shape.upper.iter().chain(&shape.lower).map(|row| row.columns.len()).sum();
         watch.check_terms(terms + self.coefficients.iter().map(Vec::len).sum::<usize>())?;
         let echelon = eliminate(&shape, &self.coefficients, self.p, self.way, watch)?;
-        if self.way == Way::Each {
+        if !self.way.combinations {
             self.trace.record(shape, &echelon);
         }
         // The smallest lead first: what makes another redundant then comes before it.
         for row in echelon.rows.into_iter().rev() {
             let keys: Vec<_> = row.columns.iter().map(|&column| columns[column as usize]).collect();
             self.trace.unit |= keys[0] == [0; W];
-            self.running.adjoin(keys)?;
+            let degree = |key| self.running.packing.degree(key);
+            let sugar = if self.graded { degree(&keys[0]) } else { keys.iter().map(degree).fold(sugar, u32::max) };
+            self.running.adjoin(keys, sugar)?;
             self.coefficients.push(row.coefficients);
         }
         Ok(())
@@ -186,11 +228,11 @@ impl<'a, const W: usize> Run<'a, W> {
         let mut live = self.running.live();
         let lead = |element: &u32| packing.rank(&self.running.elements[*element as usize].keys[0]);
         live.sort_by_key(lead);
-        let mut builder = Builder::new(&self.running, &mut self.table);
+        let mut builder = Builder::new(&self.running, &mut self.table, u32::MAX);
         builder.take_elements(&live, 1)?;
         builder.close(watch)?;
         let (shape, columns) = builder.finish();
-        let tails = normal_forms(&shape, &self.coefficients, self.p, watch)?;
+        let tails = normal_forms(&shape, &self.coefficients, self.p, self.way, watch)?;
         let term = |key: &packing::Key<W>, coefficient: u32| {
             let monomial = self.ring.monomial(&packing.exponents(key))?;
             Ok(Term { coefficient: u64::from(coefficient), monomial })
@@ -201,7 +243,7 @@ impl<'a, const W: usize> Run<'a, W> {
             let rest = tail.columns.iter().zip(&tail.coefficients).map(|(&c, &a)| term(&columns[c as usize], a));
             polynomials.push(self.ring.collect(std::iter::once(lead).chain(rest).collect::<Result<Vec<_>>>()?));
         }
-        if self.way == Way::Each {
+        if !self.way.combinations {
             self.trace.last = trace::pruned(shape);
             self.trace.supports = tails.into_iter().map(|tail| tail.columns.into()).collect();
         }

@@ -9,7 +9,8 @@ pub(super) struct Pair<const W: usize> {
     pub lcm: Key<W>,
     pub left: u32,
     pub right: u32,
-    pub degree: u32,
+    /// The degree that it would have had if the generators had been homogenised: its sugar.
+    pub sugar: u32,
 }
 
 /// A polynomial of the basis: monomials greatest first; its coefficients are kept apart, so that replays share the rest.
@@ -24,6 +25,8 @@ pub(super) struct Element<const W: usize> {
 struct Lead<const W: usize> {
     key: Key<W>,
     element: u32,
+    /// By how much its sugar exceeds the degree of its lead; the same for all its multiples.
+    excess: u32,
 }
 
 /// Elements with their critical pairs, by the criteria of Gebauer and Moeller ("On an installation of Buchberger's
@@ -34,6 +37,10 @@ pub(super) struct Running<const W: usize> {
     pub elements: Vec<Element<W>>,
     /// The leads of the elements that are not redundant, in the order of their coming.
     leads: Vec<Lead<W>>,
+    /// The leads that symbolic preprocessing may use: outside the orders by degree those of redundant elements too, which
+    /// are older, and whose multiples have less sugar.
+    reducers: Vec<Lead<W>>,
+    keep: bool,
     pairs: Vec<Pair<W>>,
 }
 
@@ -43,8 +50,8 @@ pub(super) fn overflow() -> Error {
 }
 
 impl<const W: usize> Running<W> {
-    pub fn new(packing: Packing<W>) -> Self {
-        Running { packing, elements: Vec::new(), leads: Vec::new(), pairs: Vec::new() }
+    pub fn new(packing: Packing<W>, keep: bool) -> Self {
+        Running { packing, elements: Vec::new(), leads: Vec::new(), reducers: Vec::new(), keep, pairs: Vec::new() }
     }
 
     /// The pairs that are still open.
@@ -57,30 +64,34 @@ impl<const W: usize> Running<W> {
         self.leads.iter().map(|lead| lead.element).collect()
     }
 
-    /// The first element from `start` on whose leading monomial divides `key`, in the order of coming.
+    /// The first element, in the order of coming, whose leading monomial divides `key` and whose multiple's sugar is at most
+    /// `bound`.
     #[inline]
-    pub fn divisor(&self, key: &Key<W>) -> Option<u32> {
-        self.leads.iter().find(|lead| self.packing.divides(&lead.key, key)).map(|lead| lead.element)
+    pub fn divisor(&self, key: &Key<W>, bound: u32) -> Option<u32> {
+        let room = bound.saturating_sub(self.packing.degree(key));
+        let reduces = |lead: &&Lead<W>| self.packing.divides(&lead.key, key) && lead.excess <= room;
+        self.reducers.iter().find(reduces).map(|lead| lead.element)
     }
 
-    /// Takes all pairs of the smallest degree, grouped by their common multiple.
+    /// Takes all pairs of the smallest sugar, grouped by their common multiple.
     pub fn select(&mut self) -> Vec<Pair<W>> {
-        let Some(degree) = self.pairs.iter().map(|pair| pair.degree).min() else { return Vec::new() };
+        let Some(sugar) = self.pairs.iter().map(|pair| pair.sugar).min() else { return Vec::new() };
         let (mut selected, rest) =
-            std::mem::take(&mut self.pairs).into_iter().partition::<Vec<_>, _>(|p| p.degree == degree);
+            std::mem::take(&mut self.pairs).into_iter().partition::<Vec<_>, _>(|p| p.sugar == sugar);
         self.pairs = rest;
         selected.sort_by(|a, b| self.packing.compare(&a.lcm, &b.lcm).then(a.left.cmp(&b.left)));
         selected
     }
 
     /// Adds an element: old pairs that it makes superfluous go, those with it that no criterion drops come.
-    pub fn adjoin(&mut self, keys: Vec<Key<W>>) -> Result<()> {
+    pub fn adjoin(&mut self, keys: Vec<Key<W>>, sugar: u32) -> Result<()> {
         let lead = keys[0];
         let element = self.elements.len() as u32;
-        let fresh = self.fresh_pairs(&lead, element)?;
+        let excess = sugar.saturating_sub(self.packing.degree(&lead));
+        let fresh = self.fresh_pairs(&lead, element, excess)?;
         self.drop_covered(&lead);
         self.pairs.extend(fresh);
-        let redundant = self.divisor(&lead).is_some();
+        let redundant = self.divisor(&lead, u32::MAX).is_some();
         let packing = &self.packing;
         let elements = &mut self.elements;
         self.leads.retain(|old| {
@@ -88,8 +99,14 @@ impl<const W: usize> Running<W> {
             elements[old.element as usize].redundant |= covered;
             !covered
         });
+        let head = Lead { key: lead, element, excess };
         if !redundant {
-            self.leads.push(Lead { key: lead, element });
+            self.leads.push(head);
+        }
+        if self.keep {
+            self.reducers.push(head);
+        } else {
+            self.reducers.clone_from(&self.leads);
         }
         self.elements.push(Element { keys, redundant });
         Ok(())
@@ -106,20 +123,21 @@ impl<const W: usize> Running<W> {
     }
 
     /// Criteria M and F and the product criterion among the pairs with the new element.
-    fn fresh_pairs(&self, lead: &Key<W>, element: u32) -> Result<Vec<Pair<W>>> {
+    fn fresh_pairs(&self, lead: &Key<W>, element: u32, excess: u32) -> Result<Vec<Pair<W>>> {
         let mut candidates = Vec::with_capacity(self.leads.len());
         for old in &self.leads {
             let lcm = self.packing.lcm(lead, &old.key).ok_or_else(overflow)?;
             let coprime = self.packing.coprime(lead, &old.key, &lcm);
-            let pair = Pair { lcm, left: old.element, right: element, degree: self.packing.degree(&lcm) };
-            candidates.push((pair, coprime));
+            let degree = self.packing.degree(&lcm);
+            let pair = Pair { lcm, left: old.element, right: element, sugar: degree + excess.max(old.excess) };
+            candidates.push((degree, pair, coprime));
         }
         // Of equal multiples a coprime pair comes first: it drops the others, then goes itself.
-        candidates.sort_by(|(a, x), (b, y)| {
-            a.degree.cmp(&b.degree).then(a.lcm.cmp(&b.lcm)).then(y.cmp(x)).then(a.left.cmp(&b.left))
+        candidates.sort_by(|(d, a, x), (e, b, y)| {
+            d.cmp(e).then(a.lcm.cmp(&b.lcm)).then(y.cmp(x)).then(a.sugar.cmp(&b.sugar)).then(a.left.cmp(&b.left))
         });
         let mut kept: Vec<(Pair<W>, bool)> = Vec::new();
-        for (pair, coprime) in candidates {
+        for (_, pair, coprime) in candidates {
             if !kept.iter().any(|(other, _)| self.packing.divides(&other.lcm, &pair.lcm)) {
                 kept.push((pair, coprime));
             }

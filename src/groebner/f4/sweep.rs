@@ -104,10 +104,10 @@ macro_rules! dispatch {
 }
 
 impl<'a, C: Coefficient<N>, const N: usize> Sweep<'a, C, N> {
-    pub fn new(moduli: [u32; N], shape: &'a Shape, coefficients: &'a [Vec<C>]) -> Self {
+    pub fn new(moduli: [u32; N], instructions: Instructions, shape: &'a Shape, coefficients: &'a [Vec<C>]) -> Self {
         Sweep {
             moduli: Moduli::new(moduli),
-            instructions: Instructions::detect(),
+            instructions,
             shape,
             coefficients,
             sums: vec![[0; N]; shape.columns],

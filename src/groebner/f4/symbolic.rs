@@ -56,12 +56,15 @@ pub(super) struct Builder<'a, const W: usize> {
     roles: Vec<Role>,
     upper: Vec<Row>,
     lower: Vec<Row>,
+    /// No reducer's sugar exceeds this.
+    bound: u32,
 }
 
 impl<'a, const W: usize> Builder<'a, W> {
-    pub fn new(running: &'a Running<W>, table: &'a mut Table<W>) -> Self {
+    pub fn new(running: &'a Running<W>, table: &'a mut Table<W>, bound: u32) -> Self {
         let place = vec![UNSEEN; table.len()];
         Builder {
+            bound,
             running,
             table,
             monomials: Vec::new(),
@@ -140,7 +143,7 @@ impl<'a, const W: usize> Builder<'a, W> {
             }
             if self.roles[next] == Role::Open {
                 let key = *self.table.key(self.monomials[next]);
-                self.roles[next] = match self.running.divisor(&key) {
+                self.roles[next] = match self.running.divisor(&key, self.bound) {
                     None => Role::Free,
                     Some(element) => {
                         let multiplier = quotient(&key, &self.running.elements[element as usize].keys[0]);

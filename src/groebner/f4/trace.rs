@@ -3,6 +3,7 @@
 //! algorithms", ISSAC 1988).
 
 use super::eliminate::Echelon;
+use super::lanes::Instructions;
 use super::sweep::{Sparse, Sweep};
 use super::symbolic::{Row, Shape};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -99,7 +100,7 @@ impl Trace {
         alive: &mut [bool; N],
         watch: &Watch,
     ) -> Result<Vec<Vec<[u32; N]>>> {
-        let mut sweep = Sweep::new(moduli, &self.last, coefficients);
+        let mut sweep = Sweep::new(moduli, Instructions::detect(), &self.last, coefficients);
         let mut tails = Vec::with_capacity(self.supports.len());
         for (row, support) in self.last.lower.iter().zip(&self.supports) {
             watch.check()?;
@@ -137,7 +138,7 @@ impl Round {
         alive: &mut [bool; N],
         watch: &Watch,
     ) -> Result<Vec<Vec<[u32; N]>>> {
-        let mut sweep = Sweep::new(moduli, &self.shape, coefficients);
+        let mut sweep = Sweep::new(moduli, Instructions::detect(), &self.shape, coefficients);
         for (row, &lead) in self.shape.lower.iter().zip(&self.leads) {
             watch.check()?;
             sweep.accumulate(row, &moduli.map(|p| p - 1));
