@@ -16,7 +16,6 @@ pub mod verify;
 
 pub use division::{Division, divide, normal_form, s_polynomial};
 pub use engine::{Basis, Options, basis};
-pub use f4::{Trace, f4};
 pub use f4::{Settings, Trace, f4, f4_with};
 pub use fglm::Quotient;
 pub use pairs::Strategy;

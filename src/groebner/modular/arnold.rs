@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::super::verify::{Claim, verify};
-use super::super::{Options, f4::Trace};
+use super::super::{Options, Trace};
 use super::homogeneous::{Homogeneous, is_homogeneous};
 use super::system::{Integral, System, refuse};
 use super::vanish::Divisors;
@@ -44,7 +44,7 @@ pub fn prove(
     }
     check_reduced(&basis.ring, &basis.polynomials)?;
     if *basis.ring.layout().order() == Order::GrevLex && generators.iter().all(|f| is_homogeneous(&basis.ring, f)) {
-        prove_homogeneous(&basis.ring, &basis.polynomials, &generators, watch)?;
+        prove_homogeneous(&basis.ring, &basis.polynomials, &generators, found.confirmed_by, watch)?;
         return Ok(Status::Proved);
     }
     let graded = graded_basis(&basis.ring, &generators, watch)?;
@@ -81,33 +81,34 @@ fn prove_homogeneous(
     ring: &PolynomialRing<Rationals>,
     basis: &[Polynomial<BigRational>],
     generators: &[Polynomial<BigRational>],
+    prime: u32,
     watch: &Watch,
 ) -> Result<()> {
     let mut divisors = Divisors::new(ring, basis);
-    check_leads(ring, &divisors.elements, generators, watch)?;
+    check_leads(ring, &divisors.elements, generators, prime, watch)?;
     divisors.prove_all(&integral(generators), watch).map_err(|error| error.with_context("a generator"))?;
     divisors.prove_basis(watch)
 }
 
-/// Modulo some prime that divides no coefficient of `generators` and no leading coefficient of `basis`, the leading
-/// monomials are those of `basis`. A prime may be unlucky: several are tried.
+/// Modulo `p`, which divides no coefficient of `generators` and no leading coefficient of `basis`, the leading monomials are
+/// those of `basis`.
 fn check_leads(
     ring: &PolynomialRing<Rationals>,
     basis: &[Integral],
     generators: &[Polynomial<BigRational>],
+    p: u32,
     watch: &Watch,
 ) -> Result<()> {
-    const TRIES: usize = 3;
     let system = System::new(ring, generators);
-    let good = |p: &u32| basis.iter().all(|f| residue(f.leading_coefficient(), *p) != 0);
-    for p in system.primes().filter(good).take(TRIES) {
-        let (ring, images) = system.image(p)?;
-        let (image, _) = Trace::learn(&ring, &images, watch)?;
-        if image.leading_monomials().into_iter().eq(basis.iter().map(Integral::lead)) {
-            return Ok(());
-        }
+    if !system.is_good(p) || basis.iter().any(|f| residue(f.leading_coefficient(), p) == 0) {
+        return Err(refuse(format!("the prime {p} divides a coefficient; compute the basis again")));
     }
-    Err(refuse(format!("modulo {TRIES} primes the leading monomials are others")))
+    let (ring, images) = system.image(p)?;
+    let (image, _) = Trace::learn(&ring, &images, watch)?;
+    if image.leading_monomials().into_iter().eq(basis.iter().map(Integral::lead)) {
+        return Ok(());
+    }
+    Err(refuse(format!("modulo {p} the leading monomials are others")))
 }
 
 /// A basis, not reduced, of the ideal of `generators` in graded reverse order, proved.
@@ -122,10 +123,11 @@ fn graded_basis(
     watch: &Watch,
 ) -> Result<Graded> {
     let lifted = Homogeneous::new(ring, generators)?;
-    let found = super::basis(&lifted.ring, &lifted.generators, &Options::default(), watch)?.basis;
+    let found = super::basis(&lifted.ring, &lifted.generators, &Options::default(), watch)?;
+    let (found, prime) = (found.basis, found.confirmed_by);
     let homogenised: Vec<_> =
         lifted.generators.iter().map(|f| lifted.ring.transfer(f, &found.ring)).collect::<Result<_>>()?;
-    prove_homogeneous(&found.ring, &found.polynomials, &homogenised, watch)?;
+    prove_homogeneous(&found.ring, &found.polynomials, &homogenised, prime, watch)?;
     let ring = lifted.plain.with_width(found.ring.layout().width());
     let basis = found.polynomials.iter().map(|f| found.ring.transfer(&lifted.at_one(&found.ring, f)?, &ring));
     let basis = minimal(&ring, basis.collect::<Result<_>>()?);

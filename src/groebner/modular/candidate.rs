@@ -1,7 +1,7 @@
 //! Candidates for the shape of the basis, the images that each has gathered, and the lift of one to Q.
 
 use super::super::Basis;
-use super::learned::{Image, LANES, Learned, Shape};
+use super::learned::{Image, LANES, Learned, Seen, Shape};
 use super::next;
 use super::system::System;
 use super::vectors::{Tables, Vector};
@@ -30,16 +30,17 @@ pub(super) struct Candidate {
 pub(super) struct Lift {
     vectors: Vec<Vector>,
     shape: Shape,
+    width: Width,
     primes: usize,
 }
 
 impl Ballot {
     /// Counts the vote; the candidate with most votes, the latest of several.
     pub(super) fn enter(&mut self, learned: Learned) -> &mut Candidate {
-        match self.candidates.iter_mut().find(|candidate| candidate.learned.shape == learned.shape) {
+        match self.candidates.iter_mut().find(|candidate| candidate.learned.seen.shape == learned.seen.shape) {
             Some(candidate) => {
                 candidate.votes += 1;
-                candidate.take(learned.prime, learned.image);
+                candidate.take(learned.seen.prime, learned.seen.image);
             }
             None => self.candidates.push(Candidate::new(learned)),
         }
@@ -56,7 +57,7 @@ impl Ballot {
 
 impl Candidate {
     fn new(learned: Learned) -> Self {
-        let (primes, images) = (vec![learned.prime], vec![learned.image.clone()]);
+        let (primes, images) = (vec![learned.seen.prime], vec![learned.seen.image.clone()]);
         Candidate { learned, votes: 1, unlucky: 0, primes, images, witnesses: Vec::new() }
     }
 
@@ -74,7 +75,8 @@ impl Candidate {
     ) -> Result<Option<Lift>> {
         loop {
             if let Some(vectors) = self.vectors(watch)? {
-                return Ok(Some(Lift { vectors, shape: self.learned.shape.clone(), primes: self.primes.len() }));
+                let Seen { shape, width, .. } = &self.learned.seen;
+                return Ok(Some(Lift { vectors, shape: shape.clone(), width: *width, primes: self.primes.len() }));
             }
             if self.unlucky > self.primes.len() {
                 return Ok(None);
@@ -86,7 +88,7 @@ impl Candidate {
     /// The images modulo the next primes.
     fn gather(&mut self, system: &System<'_>, primes: &mut impl Iterator<Item = u32>, watch: &Watch) -> Result<()> {
         watch.check()?;
-        watch.report("primes", self.primes.len(), self.learned.shape.supports.len() - self.witnesses.len());
+        watch.report("primes", self.primes.len(), self.learned.seen.shape.supports.len() - self.witnesses.len());
         let mut batch = [0; LANES];
         for p in &mut batch {
             *p = next(primes)?;
@@ -102,7 +104,7 @@ impl Candidate {
 
     /// All coefficients over Q, as soon as each polynomial has its witness.
     fn vectors(&mut self, watch: &Watch) -> Result<Option<Vec<Vector>>> {
-        let count = self.learned.shape.supports.len();
+        let count = self.learned.seen.shape.supports.len();
         let mut tables = Tables::new(&self.primes)?;
         while self.witnesses.len() < count {
             match tables.witness(&rows(&self.images, self.witnesses.len())) {
@@ -115,7 +117,10 @@ impl Candidate {
             watch.check()?;
             match tables.vector(&rows(&self.images, index), witness)? {
                 Some(vector) => vectors.push(vector),
-                None => return Ok(None),
+                None => {
+                    self.witnesses.truncate(index);
+                    return Ok(None);
+                }
             }
         }
         Ok(Some(vectors))
@@ -133,15 +138,15 @@ impl Lift {
         self.primes
     }
 
-    /// Whether this is, modulo the prime of `learned`, what was computed there.
-    pub(super) fn agrees_with(&self, learned: &Learned) -> bool {
-        let same = |(vector, image): (&Vector, &Vec<u32>)| vector.modulo(learned.prime).as_ref() == Some(image);
-        self.shape == learned.shape && self.vectors.iter().zip(&learned.image).all(same)
+    /// Whether this is, modulo the prime of `seen`, what was computed there.
+    pub(super) fn agrees_with(&self, seen: &Seen) -> bool {
+        let same = |(vector, image): (&Vector, &Vec<u32>)| vector.modulo(seen.prime).as_ref() == Some(image);
+        self.shape == seen.shape && self.vectors.iter().zip(&seen.image).all(same)
     }
 
     /// The basis over Q.
-    pub(super) fn into_basis(self, system: &System<'_>, width: Width, watch: &Watch) -> Result<Basis<Rationals>> {
-        let ring = system.ring.with_width(width);
+    pub(super) fn into_basis(self, system: &System<'_>, watch: &Watch) -> Result<Basis<Rationals>> {
+        let ring = system.ring.with_width(self.width);
         let mut polynomials = Vec::with_capacity(self.vectors.len());
         for (vector, support) in self.vectors.iter().zip(&self.shape.supports) {
             watch.check()?;

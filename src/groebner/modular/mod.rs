@@ -11,6 +11,7 @@ mod homogeneous;
 mod learned;
 mod matrix;
 mod system;
+mod terms;
 mod vanish;
 mod vectors;
 
@@ -44,6 +45,8 @@ pub struct Modular {
     pub primes: usize,
     /// The number of primes that were thrown away, because their computation went another way.
     pub unlucky: usize,
+    /// The prime that confirmed it.
+    pub confirmed_by: u32,
 }
 
 /// The reduced Groebner basis over Q of the ideal of `generators` in the order of `ring`, by many primes.
@@ -65,14 +68,16 @@ pub fn basis(
     let mut ballot = Ballot::default();
     let mut lifted: Option<Lift> = None;
     loop {
-        let learned = system.learn(next(&mut primes)?, options, watch)?;
-        if let Some(lift) = lifted.filter(|lift| lift.agrees_with(&learned)) {
-            let primes = lift.primes();
-            let basis = lift.into_basis(&system, learned.ring.layout().width(), watch)?;
-            let found = Modular { basis, status: Status::Probable, primes, unlucky: ballot.unlucky() };
+        let p = next(&mut primes)?;
+        if let Some(lift) = lifted
+            && lift.agrees_with(&system.look(p, options, watch)?)
+        {
+            let (primes, confirmed_by) = (lift.primes(), p);
+            let basis = lift.into_basis(&system, watch)?;
+            let found = Modular { basis, status: Status::Probable, primes, unlucky: ballot.unlucky(), confirmed_by };
             return if options.cofactors { proved_by_cofactors(found, generators) } else { Ok(found) };
         }
-        lifted = ballot.enter(learned).lift(&system, &mut primes, watch)?;
+        lifted = ballot.enter(system.learn(p, options, watch)?).lift(&system, &mut primes, watch)?;
     }
 }
 

@@ -78,8 +78,12 @@ impl<'a> System<'a> {
 
     /// The primes below 2^31 that divide no coefficient, in descending order.
     pub(super) fn primes(&self) -> impl Iterator<Item = u32> {
-        let good = |p: &u32| self.generators.iter().flat_map(|f| &f.terms).all(|(_, c)| residue(c, *p) != 0);
-        primes_below(1 << 31).map(|p| p as u32).filter(good)
+        primes_below(1 << 31).map(|p| p as u32).filter(|&p| self.is_good(p))
+    }
+
+    /// Whether `p` divides no coefficient.
+    pub(super) fn is_good(&self, p: u32) -> bool {
+        p > 0 && self.generators.iter().flat_map(|f| &f.terms).all(|(_, c)| residue(c, p) != 0)
     }
 
     /// The ring and the generators modulo a prime.

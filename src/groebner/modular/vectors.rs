@@ -3,14 +3,13 @@
 //! A random combination of the entries tells when there are enough primes, and the denominator; then each entry times the
 //! denominator is an integer, rebuilt without any division.
 
-use num_integer::Integer;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 use crate::Result;
 use crate::number::{BigInt, BigRational, Chinese, reconstruct, residue};
 
 /// By how many bits a number must be smaller than the modulus to be believed.
-const SURPLUS: u32 = 40;
+const SURPLUS: u32 = 32;
 
 /// A vector of rational numbers: integers over one denominator.
 #[derive(Clone, Debug)]
@@ -28,9 +27,9 @@ pub(super) struct Tables<'a> {
     short: Option<Chinese>,
 }
 
-/// A combination of the entries with fixed weights of 16 bits, as residues.
+/// A combination of the entries with fixed weights of 8 bits, as residues.
 fn combination(residues: &[u32], p: u32) -> u32 {
-    let weights = (1u64..).map(|k| (k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 48) | 1);
+    let weights = (1u64..).map(|k| (k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56) | 1);
     let sum: u64 = residues.iter().zip(weights).map(|(&c, weight)| u64::from(c) * weight).sum();
     (sum % u64::from(p)) as u32
 }
@@ -124,45 +123,4 @@ impl Vector {
         let entry = |n: &BigInt| (u64::from(residue(n, p)) * inverse % modulus) as u32;
         Some(self.numerators.iter().map(entry).collect())
     }
-
-    /// The entries in lowest terms. One greatest common divisor tells which primes of the denominator divide any numerator.
-    pub(super) fn entries(&self) -> Vec<BigRational> {
-        let part = self.common_part();
-        let short = u128::try_from(&part).ok();
-        let entry = |n: &BigInt| {
-            if n.is_zero() || part.is_one() {
-                return fraction(n.clone(), self.denominator.clone());
-            }
-            let rest = n % &part;
-            let divisor = match (short, u128::try_from(rest.magnitude())) {
-                (Some(part), Ok(rest)) => BigInt::from(part.gcd(&rest)),
-                _ => part.gcd(&rest),
-            };
-            if divisor.is_one() {
-                return fraction(n.clone(), self.denominator.clone());
-            }
-            fraction(n / &divisor, &self.denominator / &divisor)
-        };
-        self.numerators.iter().map(entry).collect()
-    }
-
-    /// The part of the denominator made of primes that it has in common with some numerator.
-    fn common_part(&self) -> BigInt {
-        let nonzero = self.numerators.iter().filter(|n| !n.is_zero());
-        let product = nonzero.fold(BigInt::one(), |product, n| product * n % &self.denominator);
-        let mut part = product.gcd(&self.denominator);
-        loop {
-            let next = (&part * &part).gcd(&self.denominator);
-            if next == part {
-                return part;
-            }
-            part = next;
-        }
-    }
-}
-
-/// A fraction already in lowest terms; zero gets the denominator one.
-fn fraction(numerator: BigInt, denominator: BigInt) -> BigRational {
-    let denominator = if numerator.is_zero() { BigInt::one() } else { denominator };
-    BigRational::new_raw(numerator, denominator)
 }
