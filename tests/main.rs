@@ -16,4 +16,5 @@ mod poly;
 mod robots;
 mod roots;
 mod spatial;
+mod watch;
 mod witness;

@@ -46,7 +46,8 @@ pub struct Arguments {
 
 /// Derives, writes the files, then tells about it.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let session = Session::start(Limits { time: arguments.time, terms: arguments.terms, quiet: arguments.quiet })?;
+    let session =
+        Session::start(Limits { time: arguments.time, terms: arguments.terms, memory: None, quiet: arguments.quiet })?;
     let mut clock = Clock::start();
     let source = Source::read_between(&arguments.input, &arguments.ends.ends())?;
     let folder = destination(&source, &arguments.input, arguments.out.as_deref())?;

@@ -5,6 +5,9 @@
 
 mod algebra;
 mod answers;
+mod basis;
+mod basis_answer;
+mod basis_certificate;
 mod check;
 mod console;
 mod derive;
@@ -37,6 +40,7 @@ const EXAMPLES: &str = "Examples:
   groebot fk robot.urdf --tip tool0 --q 0,-90,90,0,0,0 --degrees
   groebot plan nao_left_leg
   groebot ik ur5 --target 0.4,0.1,0.5,0,180,0 --degrees
+  groebot basis cyclic5.txt --order lex
 
 Exit status: 0 success, 1 failure, 2 wrong usage, 130 interrupted.";
 
@@ -57,6 +61,7 @@ enum Command {
     Plan(plan::Arguments),
     Ik(ik::Arguments),
     Fk(fk::Arguments),
+    Basis(basis::Arguments),
 }
 
 /// Why a subcommand ends early.
@@ -93,6 +98,7 @@ pub fn run() -> ExitCode {
         Command::Plan(arguments) => plan::run(arguments),
         Command::Ik(arguments) => ik::run(arguments),
         Command::Fk(arguments) => fk::run(arguments),
+        Command::Basis(arguments) => basis::run(arguments),
     };
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,

@@ -2,7 +2,7 @@
 
 use std::io::{IsTerminal, stderr};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -19,6 +19,8 @@ pub struct Limits {
     pub time: Option<Duration>,
     /// The most polynomial terms alive.
     pub terms: Option<usize>,
+    /// The most memory in use, in bytes.
+    pub memory: Option<usize>,
     /// No spinner.
     pub quiet: bool,
 }
@@ -51,10 +53,16 @@ impl Session {
         if let Some(terms) = limits.terms {
             watch = watch.with_terms(terms);
         }
+        if let Some(bytes) = limits.memory {
+            watch = watch.with_memory(bytes);
+            if let Some(meter) = meter() {
+                watch = watch.with_meter(meter);
+            }
+        }
         let spinner = (!limits.quiet && stderr().is_terminal()).then(spinner);
         if let Some(bar) = spinner.clone() {
             watch = watch.with_listener(move |progress| {
-                bar.set_message(format!("{}: {} done, {} open", progress.stage, progress.done, progress.open));
+                bar.set_message(progress.to_string());
             });
         }
         Ok(Session { watch, spinner })
@@ -69,6 +77,30 @@ impl Drop for Session {
     }
 }
 
+/// How often the memory in use is measured.
+const METER_PERIOD: Duration = Duration::from_millis(20);
+
+/// The bytes that this process has in memory, kept up to date; `None` where the system does not tell.
+fn meter() -> Option<Arc<AtomicUsize>> {
+    let meter = Arc::new(AtomicUsize::new(resident_bytes()?));
+    let kept = Arc::downgrade(&meter);
+    std::thread::spawn(move || {
+        while let (Some(meter), Some(bytes)) = (kept.upgrade(), resident_bytes()) {
+            meter.store(bytes, Ordering::Relaxed);
+            drop(meter);
+            std::thread::sleep(METER_PERIOD);
+        }
+    });
+    Some(meter)
+}
+
+/// `VmRSS` of Linux' proc(5).
+fn resident_bytes() -> Option<usize> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<usize>().ok()?.checked_mul(1024)
+}
+
 fn spinner() -> ProgressBar {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
@@ -76,6 +108,12 @@ fn spinner() -> ProgressBar {
     }
     bar.enable_steady_tick(Duration::from_millis(120));
     bar
+}
+
+/// Reads a memory budget in MiB, as bytes.
+pub fn mebibytes(text: &str) -> std::result::Result<usize, String> {
+    let bytes = text.parse::<usize>().ok().filter(|&n| n > 0).and_then(|n| n.checked_mul(1 << 20));
+    bytes.ok_or_else(|| "give a whole number of MiB greater than 0".to_owned())
 }
 
 /// Reads a time budget in seconds.

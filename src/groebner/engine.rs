@@ -1,6 +1,8 @@
 //! The Buchberger engine that users run: pair criteria, strategies, cofactors, progress and budget.
 
 use super::division::{divide_by, inverse, s_factors};
+use super::hilbert::HilbertSeries;
+use super::homogeneous::Goal;
 use super::pairs::{Head, Pair, Pairs, Strategy};
 use super::reduced;
 use crate::number::{Field, Ring};
@@ -47,9 +49,22 @@ pub fn basis<F: Field>(
     options: &Options,
     watch: &Watch,
 ) -> Result<Basis<F>> {
+    basis_towards(ring, generators, options, None, watch)
+}
+
+/// [`basis`], without the pairs that the Hilbert series of a homogeneous ideal shows to be idle.
+pub(super) fn basis_towards<F: Field>(
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    options: &Options,
+    series: Option<&HilbertSeries>,
+    watch: &Watch,
+) -> Result<Basis<F>> {
     let mut width = Width::Bits8;
     loop {
-        let attempt = basis_in_width(&ring.with_width(width), ring, generators, options, watch);
+        let narrow = ring.with_width(width);
+        let moved = generators.iter().map(|f| ring.transfer(f, &narrow)).collect::<Result<Vec<_>>>();
+        let attempt = moved.and_then(|moved| basis_in_width(&narrow, &moved, options, series, watch));
         match (attempt, width.wider()) {
             (Err(error), Some(wider)) if error.kind() == ErrorKind::Overflow => width = wider,
             (Ok(basis), _) if width <= ring.layout().width() => return basis.with_width(ring.layout().width()),
@@ -60,13 +75,12 @@ pub fn basis<F: Field>(
 
 fn basis_in_width<F: Field>(
     ring: &PolynomialRing<F>,
-    source: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
     options: &Options,
+    series: Option<&HilbertSeries>,
     watch: &Watch,
 ) -> Result<Basis<F>> {
-    let generators: Vec<_> = generators.iter().map(|f| source.transfer(f, ring)).collect::<Result<_>>()?;
-    let elements = complete(ring, &generators, options, watch)?;
+    let elements = complete(ring, generators, options, series.map(Goal::new), watch)?;
     let elements = reduced::interreduce(ring, elements, watch)?;
     let (polynomials, cofactors): (Vec<_>, Vec<_>) =
         elements.into_iter().map(|element| (element.polynomial, element.cofactors)).unzip();
@@ -103,6 +117,7 @@ fn complete<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
     options: &Options,
+    mut goal: Option<Goal<'_>>,
     watch: &Watch,
 ) -> Result<Vec<Tracked<F::Element>>> {
     let mut elements = Vec::new();
@@ -117,7 +132,15 @@ fn complete<F: Field>(
     }
     while let Some(pair) = pairs.select(ring) {
         watch.check()?;
+        if let Some(goal) = &mut goal
+            && goal.is_full(ring, &heads, pair.sugar)?
+        {
+            continue;
+        }
         watch.check_terms(elements.iter().map(term_count).sum())?;
+        watch.check_memory(
+            elements.iter().map(term_count).sum::<usize>() * size_of::<crate::poly::Term<F::Element>>(),
+        )?;
         watch.report("Groebner basis", done, pairs.len());
         let element = s_element(ring, &pair, &elements)?;
         let element = reduce(ring, element, &elements, watch)?;

@@ -87,6 +87,15 @@ pub trait Ring: Clone + Debug + PartialEq {
     }
 }
 
+/// An element of a prime field, as algorithms on machine words take it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PrimeElement<'a> {
+    /// A number `0..p` of GF(p).
+    Residue(u64),
+    /// A rational number.
+    Rational(&'a BigRational),
+}
+
 /// A field as a value: a [`Ring`] in which all but zero has an inverse.
 pub trait Field: Ring {
     /// The characteristic; 0 for the rationals and what stands on them.
@@ -99,5 +108,9 @@ pub trait Field: Ring {
     /// The image of a rational number; `None` when its denominator is zero here.
     fn from_rational(&self, q: &BigRational) -> Option<Self::Element> {
         self.checked_div(&self.from_integer(q.numer()), &self.from_integer(q.denom()))
+    }
+    /// `a` as a plain number, in Q and GF(p); `None` in other fields.
+    fn prime_element<'a>(&self, _a: &'a Self::Element) -> Option<PrimeElement<'a>> {
+        None
     }
 }

@@ -2,7 +2,7 @@
 
 use num_traits::{One, Pow, Zero};
 
-use super::{BigInt, BigRational, Field, Ring, Style};
+use super::{BigInt, BigRational, Field, PrimeElement, Ring, Style};
 
 /// The rational numbers Q; elements are [`BigRational`] in lowest terms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,6 +56,12 @@ impl Ring for Rationals {
 impl Field for Rationals {
     fn characteristic(&self) -> u64 {
         0
+    }
+    fn from_rational(&self, q: &BigRational) -> Option<BigRational> {
+        Some(q.clone())
+    }
+    fn prime_element<'a>(&self, a: &'a BigRational) -> Option<PrimeElement<'a>> {
+        Some(PrimeElement::Rational(a))
     }
 }
 

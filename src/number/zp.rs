@@ -2,7 +2,7 @@
 
 use num_bigint::Sign;
 
-use super::{BigInt, Field, Ring, Style};
+use super::{BigInt, Field, PrimeElement, Ring, Style};
 use crate::{Error, ErrorKind, Result};
 
 /// The field of integers modulo a prime `p < 2^61`; elements are `0..p`.
@@ -113,5 +113,8 @@ impl Ring for Zp {
 impl Field for Zp {
     fn characteristic(&self) -> u64 {
         self.p
+    }
+    fn prime_element<'a>(&self, a: &'a u64) -> Option<PrimeElement<'a>> {
+        Some(PrimeElement::Residue(*a))
     }
 }

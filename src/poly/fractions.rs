@@ -5,7 +5,7 @@
 //! denominators are free of algebraic parameters, so that equal elements are equal data: no parameter relation is ever
 //! hidden in a coefficient that looks invertible (design: `r.r - 1` must not become a unit).
 
-use super::gcd::gcd;
+use super::gcd::{common, gcd};
 use super::order::Order;
 use super::ring::{Polynomial, PolynomialRing};
 use crate::number::{BigInt, Field, Ring, Style};
@@ -137,11 +137,27 @@ impl<F: Field> Fractions<F> {
         numerator: Polynomial<F::Element>,
         denominator: Polynomial<F::Element>,
     ) -> Fraction<F::Element> {
-        let common = self.shared_factor(&numerator, &denominator);
-        let (top, bottom) = (self.divided(&numerator, &common), self.divided(&denominator, &common));
+        let (top, bottom) = self.cancel(numerator, denominator);
         let lead = &bottom.leading().expect("a denominator is not zero").coefficient;
         let inverse = self.ring.field().inverse(lead).expect("a leading coefficient is not zero");
         Fraction { numerator: self.ring.scale(&top, &inverse), denominator: self.ring.scale(&bottom, &inverse) }
+    }
+
+    /// `f` and `divisor`, which is free of roots, without their common factor.
+    fn cancel(
+        &self,
+        f: Polynomial<F::Element>,
+        divisor: Polynomial<F::Element>,
+    ) -> (Polynomial<F::Element>, Polynomial<F::Element>) {
+        if self.relations.is_empty() {
+            let common = common(&self.ring, &f, &divisor);
+            return (common.left, common.right);
+        }
+        let shared = self.shared_factor(&f, &divisor);
+        if self.ring.is_one(&shared) {
+            return (f, divisor);
+        }
+        (self.divided(&f, &shared), self.divided(&divisor, &shared))
     }
 
     /// The gcd of `divisor`, which is free of roots, and all parts of `f` over the roots.
@@ -157,20 +173,18 @@ impl<F: Field> Fractions<F> {
 
     /// The sum over different denominators: only a factor that the denominators share can cancel (Henrici 1956; Knuth 4.5.1).
     fn add_unlike(&self, a: &Fraction<F::Element>, b: &Fraction<F::Element>) -> Fraction<F::Element> {
-        let shared = gcd(&self.ring, &a.denominator, &b.denominator);
-        let (left, right) = (self.divided(&a.denominator, &shared), self.divided(&b.denominator, &shared));
+        let denominators = common(&self.ring, &a.denominator, &b.denominator);
+        let (left, right) = (denominators.left, denominators.right);
         let sum = self.ring.add(&self.ring.mul(&a.numerator, &right), &self.ring.mul(&b.numerator, &left));
-        let cancelled = self.shared_factor(&sum, &shared);
-        let denominator = self.ring.mul(&left, &self.divided(&b.denominator, &cancelled));
-        Fraction { numerator: self.divided(&sum, &cancelled), denominator }
+        let (numerator, shared) = self.cancel(sum, denominators.gcd);
+        Fraction { numerator, denominator: self.ring.mul(&self.ring.mul(&left, &right), &shared) }
     }
 
     /// The product after cancelling crosswise; roots that multiply may cancel once more.
     fn mul_crosswise(&self, a: &Fraction<F::Element>, b: &Fraction<F::Element>) -> Fraction<F::Element> {
-        let first = self.shared_factor(&a.numerator, &b.denominator);
-        let second = self.shared_factor(&b.numerator, &a.denominator);
-        let top = self.ring.mul(&self.divided(&a.numerator, &first), &self.divided(&b.numerator, &second));
-        let bottom = self.ring.mul(&self.divided(&a.denominator, &second), &self.divided(&b.denominator, &first));
+        let (a_top, b_bottom) = self.cancel(a.numerator.clone(), b.denominator.clone());
+        let (b_top, a_bottom) = self.cancel(b.numerator.clone(), a.denominator.clone());
+        let (top, bottom) = (self.ring.mul(&a_top, &b_top), self.ring.mul(&a_bottom, &b_bottom));
         let reduced = self.reduce(&top);
         if reduced == top {
             return Fraction { numerator: reduced, denominator: bottom };

@@ -21,7 +21,7 @@ pub(super) enum Dialect {
     Latex,
 }
 
-/// Reads tokens, the last of which is [`Kind::End`].
+/// Reads tokens, the last of which is [`Kind::End`] or a [`Kind::Delimiter`].
 pub(super) struct Parser<'a> {
     tokens: Vec<Token<'a>>,
     next: usize,
@@ -52,7 +52,7 @@ impl<'a> Parser<'a> {
 
     fn end(&self) -> Result<()> {
         match self.peek() {
-            Kind::End => Ok(()),
+            Kind::End | Kind::Delimiter(_) => Ok(()),
             Kind::Symbol('=') => Err(self.error("`=` may stand once, between the two sides of an equation")),
             Kind::Symbol(')') => Err(self.error("`)` closes nothing; remove it or open a `(`")),
             found => Err(self.error(format!("an operator or the end expected, found `{found}`"))),
@@ -206,6 +206,8 @@ impl<'a> Parser<'a> {
     }
 
     fn error(&self, message: impl fmt::Display) -> Error {
-        syntax(self.tokens[self.next].column, message)
+        let token = &self.tokens[self.next];
+        let error = syntax(token.column, message);
+        if let Some(line) = token.line { error.at_line(line) } else { error }
     }
 }

@@ -55,9 +55,9 @@ fn tokens(text: &str) -> Result<Vec<Token<'_>>> {
             '+' | '-' | '^' | '(' | ')' | '{' | '}' => Some(Kind::Symbol(cursor.take_one())),
             _ => return Err(cursor.unknown_character(&format!("numbers, letters, `+ - ^ ( ) {{ }}`, {COMMANDS}"))),
         };
-        tokens.extend(kind.map(|kind| Token { column, kind }));
+        tokens.extend(kind.map(|kind| Token { line: None, column, kind }));
     }
-    tokens.push(Token { column: cursor.column(), kind: Kind::End });
+    tokens.push(Token { line: None, column: cursor.column(), kind: Kind::End });
     Ok(tokens)
 }
 

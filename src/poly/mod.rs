@@ -17,12 +17,14 @@ mod parse;
 mod print;
 mod ring;
 mod root;
+pub mod system;
 mod token;
 pub mod univariate;
+mod words;
 
 pub use evaluate::ExpansionBound;
 pub use expression::Expression;
-pub use factor::{refine_factors, square_free_factors};
+pub use factor::{Factorisation, factor, refine_factors, square_free_factors};
 pub use fractions::{Fraction, Fractions};
 pub use gcd::gcd;
 pub use grammar::{MAX_DEPTH, MAX_EXPONENT};

@@ -43,7 +43,12 @@ pub fn parse(text: &str) -> Result<Expression> {
 /// # Errors
 /// As [`parse`]; a second `=`, or one inside parentheses, is refused.
 pub fn parse_equation(text: &str) -> Result<Expression> {
-    let (left, right) = Parser::new(tokens(text)?, Dialect::Text).equation()?;
+    equation_of(tokens(text)?)
+}
+
+/// As [`parse_equation`], of words that are cut already.
+pub(super) fn equation_of(tokens: Vec<Token<'_>>) -> Result<Expression> {
+    let (left, right) = Parser::new(tokens, Dialect::Text).equation()?;
     Ok(match right {
         None => left,
         Some(Expression::Number(zero)) if zero.is_zero() => left,
@@ -59,11 +64,11 @@ fn difference(left: Expression, right: Expression) -> Expression {
     Expression::Sum(terms)
 }
 
-fn starts_name(c: char) -> bool {
+pub(super) fn starts_name(c: char) -> bool {
     c.is_ascii_alphabetic() || c == '_'
 }
 
-fn continues_name(c: char) -> bool {
+pub(super) fn continues_name(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_'
 }
 
@@ -78,14 +83,14 @@ fn tokens(text: &str) -> Result<Vec<Token<'_>>> {
             '+' | '-' | '*' | '/' | '^' | '(' | ')' | '=' => Kind::Symbol(cursor.take_one()),
             _ => return Err(cursor.unknown_character("numbers, names, `+ - * / ^ ( )` and, in an equation, `=`")),
         };
-        tokens.push(Token { column, kind });
+        tokens.push(Token { line: None, column, kind });
     }
-    tokens.push(Token { column: cursor.column(), kind: Kind::End });
+    tokens.push(Token { line: None, column: cursor.column(), kind: Kind::End });
     Ok(tokens)
 }
 
 /// Digits and points, then an exponent if `e` or `E` is followed by one; whether that is a number is checked later.
-fn number<'a>(cursor: &mut Cursor<'a>) -> &'a str {
+pub(super) fn number<'a>(cursor: &mut Cursor<'a>) -> &'a str {
     let start = cursor.mark();
     cursor.take_while(|c| c.is_ascii_digit() || c == '.');
     let end = cursor.mark();

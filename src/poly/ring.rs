@@ -115,6 +115,13 @@ impl<F: Field> PolynomialRing<F> {
         Polynomial { terms }
     }
 
+    /// The polynomial of nonzero `terms` that descend in the monomial order already.
+    pub(crate) fn descending(&self, terms: Vec<Term<F::Element>>) -> Polynomial<F::Element> {
+        let f = Polynomial { terms };
+        debug_assert!(self.is_sorted(&f), "terms descend and none is zero");
+        f
+    }
+
     /// The constant polynomial `c`.
     pub fn constant(&self, c: F::Element) -> Polynomial<F::Element> {
         self.term(c, self.layout.one())

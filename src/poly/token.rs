@@ -1,4 +1,4 @@
-//! Words of a text and the cursor that cuts them, for the two lexers.
+//! Words of a text and the cursor that cuts them, for the lexers.
 
 use std::fmt;
 
@@ -9,6 +9,8 @@ pub const MAX_LENGTH: usize = 400_000;
 
 /// A word of the text and where it starts.
 pub(super) struct Token<'a> {
+    /// From 1, in a text that is read by lines.
+    pub(super) line: Option<usize>,
     /// In characters, from 1.
     pub(super) column: usize,
     pub(super) kind: Kind<'a>,
@@ -20,8 +22,12 @@ pub(super) enum Kind<'a> {
     Number(&'a str),
     Name(String),
     Symbol(char),
+    /// A word that its reader has yet to understand: a name, or a monomial written without signs.
+    Word(&'a str),
     /// `\frac`.
     Fraction,
+    /// What ends an expression inside a longer text: `,`, `;`, the end of a line.
+    Delimiter(&'static str),
     End,
 }
 
@@ -29,10 +35,11 @@ impl fmt::Display for Kind<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let short = |text: &str| text.chars().take(40).collect::<String>();
         match self {
-            Kind::Number(text) => f.write_str(&short(text)),
+            Kind::Number(text) | Kind::Word(text) => f.write_str(&short(text)),
             Kind::Name(name) => f.write_str(&short(name)),
             Kind::Symbol(symbol) => write!(f, "{symbol}"),
             Kind::Fraction => f.write_str("\\frac"),
+            Kind::Delimiter(text) => f.write_str(text),
             Kind::End => f.write_str("end of text"),
         }
     }
@@ -57,7 +64,12 @@ impl<'a> Cursor<'a> {
             let message = format!("the text is {} bytes long, at most {MAX_LENGTH} are read; split it", text.len());
             return Err(Error::new(ErrorKind::Syntax, message));
         }
-        Ok(Cursor { text, byte: 0, column: 1 })
+        Ok(Cursor::at_start(text))
+    }
+
+    /// At the start of a text whose length the caller bounds.
+    pub(super) fn at_start(text: &'a str) -> Self {
+        Cursor { text, byte: 0, column: 1 }
     }
 
     pub(super) fn column(&self) -> usize {

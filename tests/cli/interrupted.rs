@@ -46,7 +46,7 @@ fn a_budget_ends_it() {
 
 /// Whether the process catches SIGINT by now.
 #[cfg(target_os = "linux")]
-fn catches_interrupts(process: u32) -> bool {
+pub fn catches_interrupts(process: u32) -> bool {
     let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
     u64::from_str_radix(mask.trim(), 16).unwrap() & 0b10 != 0

@@ -1,5 +1,6 @@
 //! The program itself, as a person or a script runs it.
 
+mod basis;
 mod check;
 mod derive;
 mod fk;
@@ -128,7 +129,7 @@ fn leg_copy() -> TempDir {
 fn usage_and_version() {
     assert_eq!(succeed(&["--version"]).trim(), concat!("groebot ", env!("CARGO_PKG_VERSION")));
     let help = succeed(&["--help"]);
-    for word in ["derive", "solve", "check", "info", "fk", "Examples:", "Exit status"] {
+    for word in ["derive", "solve", "check", "info", "fk", "basis", "Examples:", "Exit status"] {
         assert!(help.contains(word), "{word}");
     }
     for wrong in [&["dance"][..], &[], &["derive"], &["derive", ".", "--time", "-1"], &["derive", ".", "--time", "nan"]]

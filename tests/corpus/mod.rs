@@ -2,6 +2,7 @@
 
 pub mod groebner;
 pub mod poly;
+pub mod systems;
 
 use std::path::Path;
 

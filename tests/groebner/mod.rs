@@ -2,7 +2,12 @@
 
 mod claims;
 mod f4;
+mod fglm;
+mod hilbert;
+mod homogeneous;
+mod families;
 mod known;
 mod limits;
 mod modular;
 mod random;
+mod systems;

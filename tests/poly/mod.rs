@@ -9,5 +9,8 @@ mod parse;
 mod print;
 mod ring;
 pub mod sparse;
+mod system;
+mod system_mutated;
+mod system_refused;
 mod trees;
 mod univariate;

@@ -204,8 +204,7 @@ impl<'a, const W: usize> Run<'a, W> {
 
     /// Reduces a matrix and adjoins its new rows.
     fn eliminate(&mut self, shape: Shape, columns: &Columns<W>, sugar: u32, watch: &Watch) -> Result<()> {
-        let terms: usize = shape.upper.iter().chain(&shape.lower).map(|row| row.columns.len()).sum();
-        watch.check_terms(terms + self.coefficients.iter().map(Vec::len).sum::<usize>())?;
+        watch.check_terms(shape.entries.len() + self.coefficients.iter().map(Vec::len).sum::<usize>())?;
         let echelon = eliminate(&shape, &self.coefficients, self.p, self.way, watch)?;
         if !self.way.combinations {
             self.trace.record(shape, &echelon);
@@ -233,18 +232,21 @@ impl<'a, const W: usize> Run<'a, W> {
         builder.close(watch)?;
         let (shape, columns) = builder.finish();
         let tails = normal_forms(&shape, &self.coefficients, self.p, self.way, watch)?;
-        let term = |key: &packing::Key<W>, coefficient: u32| {
-            let monomial = self.ring.monomial(&packing.exponents(key))?;
-            Ok(Term { coefficient: u64::from(coefficient), monomial })
+        let mut exponents = vec![0; self.ring.variables().len()];
+        let mut term = |key: &packing::Key<W>, coefficient: u32| {
+            packing.unpack(key, &mut exponents);
+            Ok(Term { coefficient: u64::from(coefficient), monomial: self.ring.monomial(&exponents)? })
         };
         let mut polynomials = Vec::with_capacity(live.len());
         for (element, tail) in live.iter().zip(&tails) {
-            let lead = term(&self.running.elements[*element as usize].keys[0], 1);
-            let rest = tail.columns.iter().zip(&tail.coefficients).map(|(&c, &a)| term(&columns[c as usize], a));
-            polynomials.push(self.ring.collect(std::iter::once(lead).chain(rest).collect::<Result<Vec<_>>>()?));
+            let mut terms = vec![term(&self.running.elements[*element as usize].keys[0], 1)?];
+            for (&column, &coefficient) in tail.columns.iter().zip(&tail.coefficients) {
+                terms.push(term(&columns[column as usize], coefficient)?);
+            }
+            polynomials.push(self.ring.descending(terms));
         }
         if !self.way.combinations {
-            self.trace.last = trace::pruned(shape);
+            self.trace.last = trace::pruned(&shape);
             self.trace.supports = tails.into_iter().map(|tail| tail.columns.into()).collect();
         }
         Ok((Basis { ring: self.ring.clone(), polynomials, cofactors: Vec::new() }, self.trace))

@@ -135,9 +135,11 @@ impl<const W: usize> Packing<W> {
         self.lane(key, self.exponents[variable])
     }
 
-    /// All exponents.
-    pub fn exponents(&self, key: &Key<W>) -> Vec<u32> {
-        (0..self.exponents.len()).map(|variable| self.exponent(key, variable)).collect()
+    /// Writes all exponents.
+    pub fn unpack(&self, key: &Key<W>, exponents: &mut [u32]) {
+        for (variable, exponent) in exponents.iter_mut().enumerate() {
+            *exponent = self.exponent(key, variable);
+        }
     }
 
     fn lane(&self, key: &Key<W>, (word, shift): (usize, u32)) -> u32 {

@@ -34,8 +34,8 @@ fn clear<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, from: u
             let factor = sweep.moduli.residues(&sweep.sums[column]);
             sweep.sums[column] = [0; N];
             if factor != [0; N] {
-                let Row { element, columns } = &sweep.shape.upper[column];
-                let coefficients = &sweep.coefficients[*element as usize];
+                let row = &sweep.shape.upper[column];
+                let (columns, coefficients) = (sweep.shape.columns_of(row), &sweep.coefficients[row.element as usize]);
                 sweep.moduli.subtract(&mut sweep.sums, &columns[1..], &coefficients[1..], &factor);
             }
         }
@@ -63,8 +63,9 @@ fn clear<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, from: u
 #[inline(always)]
 fn accumulate<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, row: &Row, factor: &[u32; N]) {
     let coefficients = &sweep.coefficients[row.element as usize];
-    let skip = coefficients.len() - row.columns.len();
-    sweep.moduli.subtract(&mut sweep.sums, &row.columns, &coefficients[skip..], factor);
+    let columns = sweep.shape.columns_of(row);
+    let skip = coefficients.len() - columns.len();
+    sweep.moduli.subtract(&mut sweep.sums, columns, &coefficients[skip..], factor);
 }
 
 #[inline(always)]

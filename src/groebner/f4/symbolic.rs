@@ -6,11 +6,12 @@ use super::table::Table;
 use crate::{Result, Watch};
 
 /// A row: a multiple of an element. Its entries stand in the element's order of terms.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
     pub element: u32,
-    /// The columns of its terms.
-    pub columns: Box<[u32]>,
+    /// Where the columns of its terms stand among the entries of the shape.
+    pub from: usize,
+    pub to: usize,
 }
 
 /// The shape of a round's matrix. The first `upper.len()` columns are the leads of the reducers, one each, in the same order;
@@ -20,12 +21,19 @@ pub(super) struct Shape {
     pub columns: usize,
     pub upper: Vec<Row>,
     pub lower: Vec<Row>,
+    pub entries: Vec<u32>,
 }
 
 impl Shape {
+    /// The columns of a row's terms.
+    #[inline(always)]
+    pub fn columns_of(&self, row: &Row) -> &[u32] {
+        &self.entries[row.from..row.to]
+    }
+
     /// Bytes that the shape takes.
     pub fn bytes(&self) -> usize {
-        self.upper.iter().chain(&self.lower).map(|row| 4 * row.columns.len() + 24).sum()
+        4 * self.entries.capacity() + size_of::<Row>() * (self.upper.capacity() + self.lower.capacity())
     }
 }
 
@@ -33,6 +41,8 @@ impl Shape {
 pub(super) type Columns<const W: usize> = Vec<Key<W>>;
 
 const UNSEEN: u32 = u32::MAX;
+/// Monomials of a small matrix: what the lists have room for from the start.
+const ROOM: usize = 128;
 
 /// What a monomial of the matrix is, while the matrix grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,22 +66,25 @@ pub(super) struct Builder<'a, const W: usize> {
     roles: Vec<Role>,
     upper: Vec<Row>,
     lower: Vec<Row>,
+    entries: Vec<u32>,
     /// No reducer's sugar exceeds this.
     bound: u32,
 }
 
 impl<'a, const W: usize> Builder<'a, W> {
     pub fn new(running: &'a Running<W>, table: &'a mut Table<W>, bound: u32) -> Self {
-        let place = vec![UNSEEN; table.len()];
+        let mut place = Vec::with_capacity(table.len() + ROOM);
+        place.resize(table.len(), UNSEEN);
         Builder {
-            bound,
             running,
             table,
-            monomials: Vec::new(),
+            monomials: Vec::with_capacity(ROOM),
             place,
-            roles: Vec::new(),
-            upper: Vec::new(),
-            lower: Vec::new(),
+            roles: Vec::with_capacity(ROOM),
+            upper: Vec::with_capacity(ROOM / 4),
+            lower: Vec::with_capacity(ROOM / 4),
+            entries: Vec::with_capacity(4 * ROOM),
+            bound,
         }
     }
 
@@ -94,14 +107,16 @@ impl<'a, const W: usize> Builder<'a, W> {
     fn row(&mut self, element: u32, multiplier: &Key<W>, skip: usize) -> Result<Row> {
         let running = self.running;
         let keys = &running.elements[element as usize].keys[skip..];
-        let mut columns = Vec::with_capacity(keys.len());
+        let from = self.entries.len();
+        self.entries.reserve(keys.len());
         let mut over = false;
         for key in keys {
             let key = product(key, multiplier);
             over |= running.packing.overflows(&key);
-            columns.push(self.place_of(key));
+            let place = self.place_of(key);
+            self.entries.push(place);
         }
-        if over { Err(overflow()) } else { Ok(Row { element, columns: columns.into() }) }
+        if over { Err(overflow()) } else { Ok(Row { element, from, to: self.entries.len() }) }
     }
 
     /// The rows of the selected pairs: of each common multiple, the first row is its reducer, the others are to be reduced.
@@ -176,18 +191,11 @@ impl<'a, const W: usize> Builder<'a, W> {
                 upper_order.push(row);
             }
         }
-        let mut rows: Vec<Option<Row>> = self.upper.into_iter().map(Some).collect();
-        let renumber = |mut row: Row| {
-            row.columns.iter_mut().for_each(|place| *place = column[*place as usize]);
-            row
-        };
-        let upper = upper_order.into_iter().filter_map(|row| rows[row as usize].take()).map(renumber).collect();
-        let lower = self.lower.into_iter().map(renumber).collect();
-        let keys = order.iter().map(|&(_, _, place)| *self.table.key(self.monomials[place as usize])).collect();
-        (Shape { columns: keys_len(&order), upper, lower }, keys)
+        let mut entries = self.entries;
+        entries.iter_mut().for_each(|place| *place = column[*place as usize]);
+        let upper = upper_order.into_iter().map(|row: u32| self.upper[row as usize]).collect();
+        let keys: Columns<W> =
+            order.iter().map(|&(_, _, place)| *self.table.key(self.monomials[place as usize])).collect();
+        (Shape { columns: keys.len(), upper, lower: self.lower, entries }, keys)
     }
-}
-
-fn keys_len<T>(order: &[T]) -> usize {
-    order.len()
 }

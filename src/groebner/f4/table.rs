@@ -13,7 +13,7 @@ pub(super) struct Table<const W: usize> {
 
 impl<const W: usize> Table<W> {
     pub fn new() -> Self {
-        Table { keys: Vec::new(), slots: vec![0; 1 << 12], shift: 64 - 12 }
+        Table { keys: Vec::with_capacity(256), slots: vec![0; 1 << 10], shift: 64 - 10 }
     }
 
     pub fn len(&self) -> usize {

@@ -35,9 +35,8 @@ pub struct Trace {
 impl Trace {
     /// Keeps of a round what led to new rows.
     pub(super) fn record(&mut self, shape: Shape, echelon: &Echelon) {
-        let mut lower: Vec<Option<Row>> = shape.lower.into_iter().map(Some).collect();
-        let kept = echelon.independent.iter().filter_map(|(index, _)| lower[*index].take()).collect();
-        let shape = pruned(Shape { lower: kept, ..shape });
+        let lower = echelon.independent.iter().map(|(index, _)| shape.lower[*index]).collect();
+        let shape = pruned(&Shape { lower, ..shape });
         let leads = echelon.independent.iter().map(|(_, lead)| *lead).collect();
         let supports = echelon.rows.iter().map(|row| row.columns.clone().into()).collect();
         self.rounds.push(Round { shape, leads, supports });
@@ -114,19 +113,23 @@ impl Trace {
 }
 
 /// The same matrix without the reducers that no lower row can need; they leave an empty row behind.
-pub(super) fn pruned(mut shape: Shape) -> Shape {
+pub(super) fn pruned(shape: &Shape) -> Shape {
     let mut touched = vec![false; shape.columns];
-    for row in &shape.lower {
-        row.columns.iter().for_each(|&column| touched[column as usize] = true);
+    let mut entries = Vec::new();
+    let mut keep = |row: &Row, touched: &mut [bool]| {
+        let columns = shape.columns_of(row);
+        columns.iter().for_each(|&column| touched[column as usize] = true);
+        entries.extend_from_slice(columns);
+        Row { element: row.element, from: entries.len() - columns.len(), to: entries.len() }
+    };
+    let lower = shape.lower.iter().map(|row| keep(row, &mut touched)).collect();
+    let empty = |row: &Row| Row { element: row.element, from: 0, to: 0 };
+    let mut upper = Vec::with_capacity(shape.upper.len());
+    for (column, row) in shape.upper.iter().enumerate() {
+        upper.push(if touched[column] { keep(row, &mut touched) } else { empty(row) });
     }
-    for column in 0..shape.upper.len() {
-        if touched[column] {
-            shape.upper[column].columns.iter().for_each(|&column| touched[column as usize] = true);
-        } else {
-            shape.upper[column].columns = Box::default();
-        }
-    }
-    shape
+    entries.shrink_to_fit();
+    Shape { columns: shape.columns, upper, lower, entries }
 }
 
 impl Round {

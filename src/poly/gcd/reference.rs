@@ -1,11 +1,11 @@
 //! Greatest common divisors of multivariate polynomials over a field, by primitive remainder sequences
 //! (Knuth, The Art of Computer Programming 2, 4.6.1) with an evaluation test that finds most coprime pairs.
 
-use super::ring::{Polynomial, PolynomialRing, Term};
 use crate::number::{BigInt, Field, Ring};
+use crate::poly::ring::{Polynomial, PolynomialRing, Term};
 
 /// The monic greatest common divisor of `f` and `g`; zero only for two zeros.
-pub fn gcd<F: Field>(
+pub(in crate::poly) fn gcd<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
     g: &Polynomial<F::Element>,
@@ -28,7 +28,7 @@ fn leading<E>(f: &Polynomial<E>) -> &Term<E> {
 }
 
 /// Splits `f` into the greatest monomial that divides it, and the rest.
-pub(super) fn split_monomial<F: Field>(
+pub(in crate::poly) fn split_monomial<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
 ) -> (Polynomial<F::Element>, Polynomial<F::Element>) {
@@ -88,11 +88,7 @@ fn divisor_of_the_other<F: Field>(
 }
 
 /// The gcd of the coefficients of `f` as a polynomial in `variable`.
-pub(super) fn content<F: Field>(
-    ring: &PolynomialRing<F>,
-    f: &Polynomial<F::Element>,
-    variable: usize,
-) -> Polynomial<F::Element> {
+fn content<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, variable: usize) -> Polynomial<F::Element> {
     let mut coefficients = ring.coefficients_in(f, variable);
     coefficients.sort_by_key(|c| c.terms().len());
     let mut content = ring.zero();

@@ -1,8 +1,8 @@
 //! Splitting polynomials into coprime square-free factors, as the strata of a parametric basis need them.
 
-use super::gcd::{content, gcd, split_monomial};
-use super::ring::{Polynomial, PolynomialRing};
 use crate::number::{Field, Ring};
+use crate::poly::gcd::{content, gcd, split_monomial};
+use crate::poly::ring::{Polynomial, PolynomialRing};
 
 /// Pairwise coprime, monic, square-free, non-constant factors with the same zero set as `f`, over a field of
 /// characteristic zero: single variables, contents in each variable, and the square-free rest.

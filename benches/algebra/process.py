@@ -1,0 +1,61 @@
+"""Runs one contestant on one processor and measures it from outside."""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import time
+from dataclasses import dataclass
+
+MEMORY_KB = 4 << 20
+
+
+@dataclass
+class Outcome:
+    """What a process left: processor time [s], peak of its resident memory [kB], its output."""
+
+    finished: bool
+    cpu: float
+    memory_kb: int
+    output: str
+    messages: str
+
+
+def run(command, core, limit, text=""):
+    """Runs `command` with `text` as its input, for at most `limit` seconds and in at most MEMORY_KB."""
+    with tempfile.TemporaryFile("w+") as given, tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        given.write(text)
+        given.seek(0)
+        environment = os.environ | {"OMP_NUM_THREADS": "1", "RAYON_NUM_THREADS": "1"}
+        pinned = ["taskset", "-c", str(core), *map(str, command)]
+        child = subprocess.Popen(pinned, stdin=given, stdout=out, stderr=err, env=environment, start_new_session=True)
+        memory, status, usage = watch(child, limit)
+        out.seek(0)
+        err.seek(0)
+        texts = [file.read().decode(errors="replace") for file in (out, err)]
+        return Outcome(status == 0, usage.ru_utime + usage.ru_stime, memory, *texts)
+
+
+def watch(child, limit):
+    """Waits for the end; the kernel's own maximum would count the memory of this interpreter before the start."""
+    start, memory = time.monotonic(), 0
+    while True:
+        memory = max(memory, resident_peak(child.pid))
+        done, status, usage = os.wait4(child.pid, os.WNOHANG)
+        if done:
+            child.returncode = os.waitstatus_to_exitcode(status)
+            return memory, status, usage
+        age = time.monotonic() - start
+        if age > limit or memory > MEMORY_KB:
+            child.kill()
+        time.sleep(0.0005 if age < 0.1 else 0.005)
+
+
+def resident_peak(pid):
+    """The line VmHWM of a process, 0 when it is gone."""
+    try:
+        status = pathlib.Path(f"/proc/{pid}/status").read_text()
+    except OSError:
+        return 0
+    lines = [line.split()[1] for line in status.splitlines() if line.startswith("VmHWM:")]
+    return int(lines[0]) if lines else 0

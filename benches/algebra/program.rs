@@ -1,0 +1,99 @@
+//! What the contestants written in Rust share: their arguments, their input, the clock and the report.
+//!
+//! `PROGRAM FILE [--order grevlex|lex] [--seconds S] [--print]` reads a file in msolve's format, computes its basis again and again
+//! for `S` seconds (once at least) and prints `min`, `median` \[s\], `memory_kb` (the peak) and, if asked, the basis.
+
+use std::fmt::Display;
+use std::time::{Duration, Instant};
+
+pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+/// One system: the first line of the file names the variables, the second one the characteristic and, behind a blank, parameters.
+#[derive(Debug)]
+pub struct Input {
+    pub variables: Vec<String>,
+    pub characteristic: u64,
+    pub parameters: Vec<String>,
+    pub polynomials: Vec<String>,
+}
+
+#[derive(Debug)]
+pub struct Arguments {
+    pub input: Input,
+    pub lex: bool,
+    budget: Duration,
+    print: bool,
+}
+
+impl Arguments {
+    /// Reads the command line and the file that it names.
+    pub fn read() -> Result<Self> {
+        let mut words = std::env::args().skip(1);
+        let file = words.next().ok_or("usage: FILE [--order grevlex|lex] [--seconds S] [--print]")?;
+        let input = Input::parse(&std::fs::read_to_string(&file)?)?;
+        let mut found = Arguments { input, lex: false, budget: Duration::ZERO, print: false };
+        while let Some(word) = words.next() {
+            let mut value = || words.next().ok_or_else(|| format!("{word} needs a value"));
+            match word.as_str() {
+                "--order" => found.lex = value()? == "lex",
+                "--seconds" => found.budget = Duration::try_from_secs_f64(value()?.parse()?)?,
+                "--print" => found.print = true,
+                _ => return Err(format!("unknown argument {word}").into()),
+            }
+        }
+        Ok(found)
+    }
+
+    /// Runs `compute` until the budget is spent, prints the times and, if asked, the basis as `show` writes it.
+    pub fn measure<T>(&self, compute: impl Fn() -> Result<T>, show: impl Fn(&T) -> Result<Vec<String>>) -> Result<()> {
+        let start = Instant::now();
+        let basis = compute()?;
+        let mut times = vec![start.elapsed()];
+        let memory = peak_memory()?;
+        while start.elapsed() < self.budget {
+            let again = Instant::now();
+            std::hint::black_box(compute()?);
+            times.push(again.elapsed());
+        }
+        times.sort();
+        let seconds = |time: Duration| format!("{:.9}", time.as_secs_f64());
+        report("min", seconds(times[0]));
+        report("median", seconds(times[times.len() / 2]));
+        report("memory_kb", memory);
+        if self.print {
+            println!("basis");
+            show(&basis)?.iter().for_each(|line| println!("{line}"));
+        }
+        Ok(())
+    }
+}
+
+fn report(key: &str, value: impl Display) {
+    println!("{key} {value}");
+}
+
+impl Input {
+    fn parse(text: &str) -> Result<Self> {
+        let (variables, rest) = text.split_once('\n').ok_or("the file has one line")?;
+        let (field, rest) = rest.split_once('\n').ok_or("the file has two lines")?;
+        let (characteristic, parameters) = field.split_once(' ').unwrap_or((field, ""));
+        Ok(Input {
+            variables: names(variables),
+            characteristic: characteristic.trim().parse()?,
+            parameters: names(parameters),
+            polynomials: names(rest),
+        })
+    }
+}
+
+/// The pieces between commas; none of an empty text.
+fn names(text: &str) -> Vec<String> {
+    text.split(',').map(|piece| piece.trim().to_owned()).filter(|piece| !piece.is_empty()).collect()
+}
+
+/// The peak of the resident memory so far, in kB (Linux).
+fn peak_memory() -> Result<u64> {
+    let status = std::fs::read_to_string("/proc/self/status")?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).ok_or("no VmHWM in /proc/self/status")?;
+    Ok(line.trim().trim_end_matches("kB").trim().parse()?)
+}

@@ -1,0 +1,9 @@
+//! Denavit-Hartenberg tables.
+#![no_main]
+
+use groebot::kinematics::Chain;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    let _ = Chain::from_dh_toml(text);
+});

@@ -1,0 +1,172 @@
+//! `groebot basis`: the Groebner engine alone, on a system of polynomials in a file.
+
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+use super::Outcome;
+use super::basis_answer::{Answer, Question};
+use super::console;
+use super::progress::{Limits, Session, mebibytes, seconds};
+use crate::files::write_atomically;
+use crate::poly::Order;
+use crate::poly::system::{Format, MAX_SYSTEM_LENGTH, PolynomialSystem, parse_order};
+use crate::{Error, ErrorKind, Result, Watch};
+
+const STDIN: &str = "<stdin>";
+
+const EXAMPLES: &str = "Examples:
+  groebot basis cyclic5.txt                                  the reduced basis, in the order of the file
+  groebot basis cyclic5.ms --order lex --output-format singular
+  groebot basis surface.txt --eliminate s,t -o surface.basis
+  groebot basis circles.sing --characteristic 32003 --time 60 --memory 2000
+  groebot basis circles.txt --certificate=circles.json       with cofactors: the basis is in the ideal
+
+docs/basis_files.md describes the three formats and the certificate.";
+
+/// Computes the reduced Groebner basis of a system of polynomials
+///
+/// The basis goes to standard output (or to OUT), a summary to standard error. Ctrl-C stops the work; nothing is half-written.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// Plain text, a Singular ring and ideal, or an msolve file; `-` for standard input
+    file: PathBuf,
+    /// grevlex, lex, block:2,3 or blocks such as grevlex(2),lex(3) (default: what the file says, else grevlex)
+    #[arg(long, value_parser = order)]
+    order: Option<Order>,
+    /// Compute modulo this prime
+    #[arg(long, value_name = "P")]
+    characteristic: Option<u64>,
+    /// Eliminate these variables: the basis of what the others satisfy
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    eliminate: Vec<String>,
+    /// Prove the basis and write the proof, by default beside FILE as NAME.certificate.json
+    #[arg(long, value_name = "OUT", num_args = 0..=1, require_equals = true)]
+    certificate: Option<Option<PathBuf>>,
+    /// The format of FILE
+    #[arg(long, default_value = "auto", value_parser = formats(&["auto", "plain", "singular", "msolve"]))]
+    format: Choice,
+    /// The format of the basis (default: that of FILE)
+    #[arg(long, value_parser = formats(&["plain", "singular", "msolve"]))]
+    output_format: Option<Choice>,
+    /// Write the basis to this file
+    #[arg(short, long, value_name = "OUT")]
+    out: Option<PathBuf>,
+    /// The time budget
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<Duration>,
+    /// The memory budget
+    #[arg(long, value_name = "MiB", value_parser = mebibytes)]
+    memory: Option<usize>,
+    /// Neither progress nor summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// A format, or none: the content shows it.
+#[derive(Clone, Copy)]
+struct Choice(Option<Format>);
+
+fn formats(names: &'static [&'static str]) -> impl TypedValueParser<Value = Choice> {
+    PossibleValuesParser::new(names).map(|name| {
+        let known = [Format::Plain, Format::Singular, Format::Msolve];
+        Choice(known.into_iter().find(|format| format.to_string() == name))
+    })
+}
+
+fn order(text: &str) -> std::result::Result<Order, String> {
+    parse_order(text).map_err(|error| error.message().to_owned())
+}
+
+/// Reads, computes, writes, and tells about it.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let limits = Limits { time: arguments.time, memory: arguments.memory, quiet: arguments.quiet, terms: None };
+    let session = Session::start(limits)?;
+    let start = Instant::now();
+    let question = arguments.question().map_err(|error| error.in_file(shown(&arguments.file)))?;
+    let proof_file = arguments.proof_file()?;
+    let answer = question.answer(&session.watch).map_err(|error| in_file(error, &arguments.file))?;
+    let text = answer.text.clone();
+    write_files(&arguments.files(&answer, proof_file), &session.watch)?;
+    drop(session);
+    if arguments.out.is_none() {
+        console::print(&text)?;
+    }
+    if !arguments.quiet {
+        // There is no one left to tell about a closed standard error.
+        let _ = writeln!(io::stderr(), "{}; {:.2} s", answer.summary(), start.elapsed().as_secs_f64());
+    }
+    Ok(())
+}
+
+impl Arguments {
+    fn question(&self) -> Result<Question> {
+        let bytes = read_bytes(&self.file)?;
+        let given = self.format.0.unwrap_or_else(|| PolynomialSystem::format_of(&String::from_utf8_lossy(&bytes)));
+        let mut system = PolynomialSystem::read_bytes(&bytes, Some(given))?;
+        if let Some(p) = self.characteristic {
+            system.heading = system.heading.modulo(p).map_err(|error| error.with_context("--characteristic"))?;
+        }
+        let format = self.output_format.and_then(|choice| choice.0).unwrap_or(given);
+        Question::new(system, self.order.clone(), &self.eliminate, format, self.certificate.is_some())
+    }
+
+    /// Where the certificate goes, if one is asked for.
+    fn proof_file(&self) -> Result<Option<PathBuf>> {
+        let path = match &self.certificate {
+            None => return Ok(None),
+            Some(Some(path)) => path.clone(),
+            Some(None) if self.file == Path::new("-") => {
+                let text = "standard input has no name for the certificate; give one, as in --certificate=proof.json";
+                return Err(Error::new(ErrorKind::MissingKey, text));
+            }
+            Some(None) => self.file.with_extension("certificate.json"),
+        };
+        if self.out.as_ref() == Some(&path) {
+            let text = "the basis and its certificate need two files; give another name to one of them";
+            return Err(Error::new(ErrorKind::BadValue, text).in_file(&path));
+        }
+        Ok(Some(path))
+    }
+
+    /// The files to write, each with its content.
+    fn files(&self, answer: &Answer, proof_file: Option<PathBuf>) -> Vec<(PathBuf, String)> {
+        let proof = proof_file.zip(answer.certificate.clone());
+        let basis = self.out.clone().map(|path| (path, answer.text.clone()));
+        proof.into_iter().chain(basis).collect()
+    }
+}
+
+/// At most one byte more than the longest system.
+fn read_bytes(path: &Path) -> Result<Vec<u8>> {
+    let limit = MAX_SYSTEM_LENGTH as u64 + 1;
+    let mut bytes = Vec::new();
+    let read = if path == Path::new("-") {
+        io::stdin().lock().take(limit).read_to_end(&mut bytes)
+    } else {
+        File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
+    };
+    read.map_err(|error| Error::io(shown(path), &error))?;
+    Ok(bytes)
+}
+
+fn shown(path: &Path) -> &Path {
+    if path == Path::new("-") { Path::new(STDIN) } else { path }
+}
+
+fn in_file(error: Error, path: &Path) -> Error {
+    match error.kind() {
+        ErrorKind::Cancelled => error,
+        _ => error.in_file(shown(path)),
+    }
+}
+
+/// Replaces each file whole; an interruption is heeded before the first.
+fn write_files(files: &[(PathBuf, String)], watch: &Watch) -> Result<()> {
+    watch.check()?;
+    files.iter().try_for_each(|(path, text)| write_atomically(path, text.as_bytes()))
+}

@@ -1,0 +1,57 @@
+//! The proof of a basis as JSON: generators, basis and cofactors as text.
+
+use serde::Serialize;
+
+use super::basis_answer::Question;
+use crate::groebner::Basis;
+use crate::groebner::verify::{Claim, verify};
+use crate::number::{Field, Ring, Style};
+use crate::poly::{Polynomial, PolynomialRing};
+use crate::{Error, ErrorKind, Result};
+
+/// `basis` is the reduced Groebner basis of the ideal of `generators`, and `basis[i]` is the sum over j of
+/// `cofactors[i][j] * generators[j]`. docs/basis_files.md describes it.
+#[derive(Serialize)]
+struct Certificate<'a> {
+    format: &'static str,
+    characteristic: u64,
+    parameters: &'a [String],
+    variables: &'a [String],
+    order: String,
+    eliminated: &'a [String],
+    generators: Vec<String>,
+    basis: Vec<String>,
+    cofactors: Vec<Vec<String>>,
+}
+
+/// Proves `found` without the engine, then writes the proof.
+///
+/// # Errors
+/// [`ErrorKind::Certificate`] when it is no basis of `generators`; [`ErrorKind::Overflow`].
+pub fn prove<F: Field>(
+    question: &Question,
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    found: &Basis<F>,
+) -> Result<String> {
+    let generators: Vec<_> = generators.iter().map(|f| ring.transfer(f, &found.ring)).collect::<Result<_>>()?;
+    let claim = Claim { generators: &generators, basis: &found.polynomials, cofactors: &found.cofactors };
+    verify(&found.ring, &claim)?;
+    let texts = |list: &[Polynomial<F::Element>]| list.iter().map(|f| found.ring.format(f, Style::Text)).collect();
+    let heading = &question.working;
+    let certificate = Certificate {
+        format: "groebot basis certificate 1",
+        characteristic: heading.characteristic,
+        parameters: &heading.parameters,
+        variables: &heading.variables,
+        order: heading.order.to_string(),
+        eliminated: &question.eliminated,
+        generators: texts(&generators),
+        basis: texts(&found.polynomials),
+        cofactors: found.cofactors.iter().map(|row| texts(row)).collect(),
+    };
+    let json = serde_json::to_string_pretty(&certificate);
+    let json =
+        json.map_err(|error| Error::new(ErrorKind::Certificate, format!("the proof cannot be written: {error}")))?;
+    Ok(json + "\n")
+}

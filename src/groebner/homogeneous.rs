@@ -1,0 +1,147 @@
+//! Homogenisation, and the computation of a homogeneous basis whose Hilbert series is known beforehand.
+//!
+//! C. Traverso, "Hilbert functions and the Buchberger algorithm", J. Symbolic Computation 22 (1996): once the leading monomials of a
+//! degree are as many as the series says, all pairs of that degree reduce to zero and are skipped.
+
+use num_traits::ToPrimitive;
+
+use super::engine::basis_towards;
+use super::hilbert::{excess, is_homogeneous, numerator};
+use super::pairs::Head;
+use super::{Basis, HilbertSeries, Options, Strategy};
+use crate::number::Field;
+use crate::poly::{Block, Order, Polynomial, PolynomialRing, Term};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// A ring and polynomials of it.
+pub type System<F> = (PolynomialRing<F>, Vec<Polynomial<<F as crate::number::Ring>::Element>>);
+
+/// The polynomials made homogeneous by powers of one more variable, `name`, the smallest. The order among the others stays; a basis
+/// of the homogenised system becomes one of the system by [`dehomogenise`].
+///
+/// # Errors
+/// [`ErrorKind::DuplicateName`] when `name` is taken.
+pub fn homogenise<F: Field>(
+    ring: &PolynomialRing<F>,
+    polynomials: &[Polynomial<F::Element>],
+    name: &str,
+) -> Result<System<F>> {
+    let names: Vec<&str> = ring.variables().iter().map(String::as_str).chain([name]).collect();
+    let order = match ring.layout().order() {
+        Order::Block(blocks) => Order::Block(blocks.iter().copied().chain([Block { size: 1, graded: true }]).collect()),
+        order => order.clone(),
+    };
+    let target = PolynomialRing::new(ring.field().clone(), &names, order)?.with_width(ring.layout().width());
+    let lift = |f: &Polynomial<F::Element>| {
+        let top = ring.degree(f);
+        let lifted = f.terms().iter().map(|term| {
+            let mut exponents = ring.layout().exponents(&term.monomial);
+            exponents.push(top - ring.layout().degree(&term.monomial));
+            Ok(Term { coefficient: term.coefficient.clone(), monomial: target.monomial(&exponents)? })
+        });
+        Ok(target.collect(lifted.collect::<Result<Vec<_>>>()?))
+    };
+    let lifted = polynomials.iter().map(lift).collect::<Result<_>>()?;
+    Ok((target, lifted))
+}
+
+/// The polynomials with one for the variable `name`, in the ring without it.
+///
+/// # Errors
+/// [`ErrorKind::UnknownName`] when there is no such variable.
+pub fn dehomogenise<F: Field>(
+    ring: &PolynomialRing<F>,
+    polynomials: &[Polynomial<F::Element>],
+    name: &str,
+) -> Result<System<F>> {
+    let Some(index) = ring.index_of(name) else {
+        let known = ring.variables().join(", ");
+        return Err(Error::new(ErrorKind::UnknownName, format!("`{name}` is no variable; the variables are {known}")));
+    };
+    let names: Vec<&String> = ring.variables().iter().filter(|variable| *variable != name).collect();
+    let order = order_without(ring.layout().order(), index);
+    let target = PolynomialRing::new(ring.field().clone(), &names, order)?.with_width(ring.layout().width());
+    let lower = |f: &Polynomial<F::Element>| {
+        let lowered = f.terms().iter().map(|term| {
+            let mut exponents = ring.layout().exponents(&term.monomial);
+            exponents.remove(index);
+            Ok(Term { coefficient: term.coefficient.clone(), monomial: target.monomial(&exponents)? })
+        });
+        Ok(target.collect(lowered.collect::<Result<Vec<_>>>()?))
+    };
+    let lowered = polynomials.iter().map(lower).collect::<Result<_>>()?;
+    Ok((target, lowered))
+}
+
+/// The order of the variables that stay when the one at `index` goes.
+fn order_without(order: &Order, index: usize) -> Order {
+    let Order::Block(blocks) = order else { return order.clone() };
+    let mut end = 0;
+    let shrunk = blocks.iter().map(|block| {
+        let start = end;
+        end += block.size;
+        Block { size: block.size - usize::from((start..end).contains(&index)), ..*block }
+    });
+    Order::Block(shrunk.filter(|block| block.size > 0).collect())
+}
+
+/// The reduced Groebner basis of a homogeneous ideal whose Hilbert series is known: from another order, or from another prime that
+/// is no less lucky. Pays where most pairs reduce to zero, as for a lexicographic order.
+///
+/// The answer is right when `series` is that of the ideal.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] when a generator is not homogeneous, or when the series is found not to be that of the ideal; those of
+/// [`super::basis`].
+pub fn hilbert_driven<F: Field>(
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    series: &HilbertSeries,
+    watch: &Watch,
+) -> Result<Basis<F>> {
+    if let Some(index) = generators.iter().position(|f| !is_homogeneous(ring, f)) {
+        let text = format!("generator {} is not homogeneous; homogenise the system first", index + 1);
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    let options = Options { strategy: Strategy::Sugar, ..Options::default() };
+    let found = basis_towards(ring, generators, &options, Some(series), watch)?;
+    if found.hilbert_series()? == *series { Ok(found) } else { Err(another_series()) }
+}
+
+fn another_series() -> Error {
+    Error::new(
+        ErrorKind::BadValue,
+        "the Hilbert series is not that of the ideal; take it from a basis of the same ideal",
+    )
+}
+
+/// The known Hilbert series of a running computation, which takes pairs by degree.
+#[derive(Debug)]
+pub(super) struct Goal<'a> {
+    series: &'a HilbertSeries,
+    /// The degree that the computation is at, and the number of elements with which it is full.
+    stage: Option<(u32, usize)>,
+}
+
+impl<'a> Goal<'a> {
+    pub fn new(series: &'a HilbertSeries) -> Self {
+        Goal { series, stage: None }
+    }
+
+    /// Whether all leading monomials of `degree` are there: each new element has one more.
+    pub fn is_full<F: Field>(&mut self, ring: &PolynomialRing<F>, heads: &[Head], degree: u32) -> Result<bool> {
+        let size = match self.stage {
+            Some((at, size)) if at == degree => size,
+            _ => heads.len().saturating_add(self.missing(ring, heads, degree)?),
+        };
+        self.stage = Some((degree, size));
+        Ok(heads.len() >= size)
+    }
+
+    fn missing<F: Field>(&self, ring: &PolynomialRing<F>, heads: &[Head], degree: u32) -> Result<usize> {
+        let leads = heads.iter().map(|head| ring.layout().exponents(&head.monomial)).collect();
+        let current = HilbertSeries { numerator: numerator(leads), variables: ring.variables().len() };
+        let missing = excess(&current, self.series, degree as usize).ok_or_else(another_series)?;
+        Ok(missing.to_usize().unwrap_or(usize::MAX))
+    }
+}

@@ -1,0 +1,147 @@
+//! Splitting polynomials into coprime, square-free and irreducible factors.
+//!
+//! [`factor`] works over Q and GF(p): powers are split off by derivatives ([`square_free`]), contents by gcds, and
+//! square-free primitive polynomials by lifting the factors of an image in one variable ([`lift`]), which come from
+//! [`finite`] (Cantor and Zassenhaus) or [`integers`] (Zassenhaus).
+
+mod coprime;
+mod finite;
+mod integers;
+mod lift;
+mod over_finite;
+mod over_integers;
+mod series;
+mod square_free;
+
+pub use coprime::{refine_factors, square_free_factors};
+
+use num_traits::One;
+
+use self::over_finite::split_over_prime;
+use self::over_integers::split_over_integers;
+use super::gcd::{content, gcd};
+use super::ring::{Polynomial, PolynomialRing};
+use super::words::convert;
+use crate::number::{BigRational, Field, Ring, Style};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// A polynomial as a constant times powers of irreducible polynomials.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Factorisation<E> {
+    /// The leading coefficient of the polynomial.
+    pub unit: E,
+    /// Monic irreducible polynomials, pairwise different, each with its multiplicity; by multiplicity, degree, number
+    /// of terms, and text.
+    pub factors: Vec<(Polynomial<E>, u32)>,
+}
+
+impl<E: Clone> Factorisation<E> {
+    /// The product: the polynomial that was factored.
+    pub fn product<F: Field<Element = E>>(&self, ring: &PolynomialRing<F>) -> Polynomial<E>
+    where
+        E: std::fmt::Debug + PartialEq,
+    {
+        let unit = ring.constant(self.unit.clone());
+        self.factors.iter().fold(unit, |product, (f, n)| ring.mul(&product, &ring.pow(f, *n)))
+    }
+}
+
+/// The irreducible factors of a nonzero `f` over Q or GF(p).
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for zero; [`ErrorKind::Unsupported`] over other fields; [`ErrorKind::Overflow`] when the
+/// exponents of a term do not fit 128 bits; what `watch` stops with.
+pub fn factor<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    watch: &Watch,
+) -> Result<Factorisation<F::Element>> {
+    let Some(lead) = f.leading() else {
+        return Err(Error::new(ErrorKind::BadValue, "zero has no factorisation; give a nonzero polynomial"));
+    };
+    if ring.field().prime_element(&lead.coefficient).is_none() {
+        return Err(unsupported());
+    }
+    let mut factors = Vec::new();
+    for (part, multiplicity) in square_free::powers(ring, f) {
+        watch.check()?;
+        factors.extend(irreducible_factors(ring, &part, watch)?.into_iter().map(|factor| (factor, multiplicity)));
+    }
+    factors.sort_by_cached_key(|(f, n)| (*n, ring.degree(f), f.terms().len(), ring.format(f, Style::Text)));
+    let found = Factorisation { unit: lead.coefficient.clone(), factors };
+    debug_assert_eq!(&found.product(ring), f);
+    Ok(found)
+}
+
+/// The monic irreducible factors of a square-free polynomial.
+fn irreducible_factors<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    watch: &Watch,
+) -> Result<Vec<Polynomial<F::Element>>> {
+    let Some(main) = main_variable(ring, f) else { return Ok(Vec::new()) };
+    let content = content(ring, f, main);
+    let mut factors = irreducible_factors(ring, &content, watch)?;
+    let f = ring.monic(&ring.exact_div(f, &content).expect("a content divides"));
+    let inseparable = inseparable_part(ring, &f, main);
+    factors.extend(irreducible_factors(ring, &inseparable, watch)?);
+    let f = ring.monic(&ring.exact_div(&f, &inseparable).expect("a gcd divides"));
+    if ring.degree_in(&f, main) == 1 {
+        factors.push(f);
+    } else {
+        factors.extend(split(ring, &f, main, watch)?);
+    }
+    Ok(factors)
+}
+
+/// The product of the factors of a square-free `f` whose derivative in `variable` vanishes.
+fn inseparable_part<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    variable: usize,
+) -> Polynomial<F::Element> {
+    let p = ring.field().characteristic();
+    if p == 0 || p > u64::from(ring.degree_in(f, variable)) {
+        return ring.one();
+    }
+    gcd(ring, f, &ring.derivative(f, variable))
+}
+
+/// Of the variables in which `f` has a derivative the one of degree one, or else with the shortest leading coefficient;
+/// `None` for a constant.
+fn main_variable<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) -> Option<usize> {
+    let separable = (0..ring.variables().len()).filter(|&v| !ring.derivative(f, v).is_zero());
+    separable.min_by_key(|&v| {
+        let degree = ring.degree_in(f, v);
+        let leading = f.terms().iter().filter(|term| ring.layout().exponent(&term.monomial, v) == degree);
+        (degree > 1, leading.count(), degree)
+    })
+}
+
+/// The monic irreducible factors of a square-free polynomial that is primitive in `main`.
+fn split<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    main: usize,
+    watch: &Watch,
+) -> Result<Vec<Polynomial<F::Element>>> {
+    let packing = convert::packing(ring, &[f]).ok_or_else(too_wide)?;
+    let one = BigRational::one();
+    let factors: Vec<_> = if let Some(flat) = convert::to_flat(ring, &packing, f) {
+        let factors = split_over_prime(ring.field().characteristic(), &packing, &flat, main, watch)?;
+        factors.iter().map(|factor| convert::from_flat(ring, &packing, factor)).collect()
+    } else {
+        let (integral, _) = convert::to_integral(ring, &packing, f).ok_or_else(unsupported)?;
+        let factors = split_over_integers(&packing, &integral, main, watch)?;
+        factors.iter().map(|factor| convert::from_integral(ring, &packing, factor, &one)).collect()
+    };
+    Ok(factors.iter().map(|factor| ring.monic(factor)).collect())
+}
+
+fn unsupported() -> Error {
+    Error::new(ErrorKind::Unsupported, "factorisation works over the rationals and over GF(p) only")
+}
+
+fn too_wide() -> Error {
+    Error::new(ErrorKind::Overflow, "the exponents of a term do not fit 128 bits; use fewer variables or lower degrees")
+}

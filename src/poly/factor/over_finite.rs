@@ -1,0 +1,82 @@
+//! Factors of a square-free polynomial over GF(p), in one or several variables.
+//!
+//! Where GF(p) has too few points the work is done over GF(p^k) for a prime `k` above a degree of the polynomial: a
+//! polynomial that is irreducible over GF(p) splits into conjugates of equal degrees, so none of them splits there.
+
+use super::finite;
+use super::lift::Lifting;
+use crate::poly::words::dense::Dense;
+use crate::poly::words::{Extension, Flat, Packing, Prime, Random, WordField, dense};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// How many points are tried in one field.
+const POINTS: usize = 40;
+
+/// The monic irreducible factors over GF(p) of a square-free `f` that is primitive in `main`.
+pub fn split_over_prime(p: u64, packing: &Packing, f: &Flat, main: usize, watch: &Watch) -> Result<Vec<Flat>> {
+    let field = Prime::new(p);
+    let present: Vec<usize> = (0..packing.variables()).filter(|&v| f.degree_in(packing, v) > 0).collect();
+    if present.len() == 1 {
+        let factors = finite::factors(&field, &f.dense(packing, main), watch)?;
+        return Ok(factors.iter().map(|factor| Flat::from_dense(packing, main, factor)).collect());
+    }
+    if let Some(factors) = split_in(&field, packing, f, main, watch)? {
+        return Ok(factors);
+    }
+    let degree = present.iter().map(|&v| f.degree_in(packing, v)).min().unwrap_or(0);
+    let extensions = (degree + 1..).filter(|&k| is_prime(k)).map_while(|k| Extension::new(p, k));
+    for field in extensions {
+        if let Some(factors) = split_in(&field, packing, f, main, watch)? {
+            return Ok(factors);
+        }
+    }
+    let text = format!("GF({p}) has too few points for a polynomial of these degrees; use a larger prime");
+    Err(Error::new(ErrorKind::Unsupported, text))
+}
+
+fn is_prime(k: u32) -> bool {
+    k > 1 && (2..k).all(|d| k % d != 0)
+}
+
+/// The factors by points of one field; `None` when all points that were tried are unlucky.
+fn split_in<K: WordField>(
+    field: &K,
+    packing: &Packing,
+    f: &Flat,
+    main: usize,
+    watch: &Watch,
+) -> Result<Option<Vec<Flat>>> {
+    let others: Vec<usize> = (0..packing.variables()).filter(|&v| v != main && f.degree_in(packing, v) > 0).collect();
+    let mut random = Random::new(2);
+    for _ in 0..POINTS {
+        watch.check()?;
+        let anchor = others.iter().map(|_| random.below(field.size())).collect();
+        let Some(lifting) = Lifting::new(field, packing, f, main, &others, anchor) else { continue };
+        let line = finite::factors(field, &lifting.line(), watch)?;
+        if line.len() == 1 {
+            return Ok(Some(vec![f.monic(field)]));
+        }
+        let Some(parts) = lifting.partition(&line, watch)? else { continue };
+        if parts.len() == 1 {
+            return Ok(Some(vec![f.monic(field)]));
+        }
+        let images: Vec<Dense> = parts.iter().map(|part| product(field, &line, part)).collect();
+        if let Some(factors) = lifting.factors(&images, &mut random, watch)?
+            && is_product(field, packing, f, &factors)
+        {
+            return Ok(Some(factors));
+        }
+    }
+    Ok(None)
+}
+
+fn product<K: WordField>(field: &K, factors: &[Dense], chosen: &[usize]) -> Dense {
+    chosen.iter().fold(vec![1], |product, &i| dense::mul(field, &product, &factors[i]))
+}
+
+/// Whether `factors`, all over GF(p), multiply to `f` up to a constant.
+fn is_product<K: WordField>(field: &K, packing: &Packing, f: &Flat, factors: &[Flat]) -> bool {
+    let over_prime = factors.iter().all(|factor| factor.values.iter().all(|&value| value < field.characteristic()));
+    let rest = factors.iter().try_fold(f.clone(), |rest, factor| rest.exact_div(field, packing, factor));
+    over_prime && rest.is_some_and(|rest| rest.is_constant())
+}

@@ -1,0 +1,57 @@
+//! Square-free decomposition by derivatives (Musser 1975), in any characteristic.
+
+use crate::number::Field;
+use crate::poly::gcd::{common, gcd, split_monomial};
+use crate::poly::{Polynomial, PolynomialRing, Term};
+
+/// Square-free, pairwise coprime, non-constant polynomials with multiplicities, whose powers multiply to `f` up to a
+/// constant, over a prime field or one of characteristic zero.
+pub fn powers<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) -> Vec<(Polynomial<F::Element>, u32)> {
+    let (monomial, rest) = split_monomial(ring, f);
+    let exponents = (0..ring.variables().len()).map(|v| (ring.variable(v), ring.degree_in(&monomial, v)));
+    let mut parts: Vec<_> = exponents.filter(|(_, exponent)| *exponent > 0).collect();
+    let (mut rest, mut scale) = (rest, 1);
+    while ring.as_constant(&rest).is_none() {
+        let (found, repeated) = powers_by_derivatives(ring, &rest);
+        parts.extend(found.into_iter().map(|(part, n)| (part, n * scale)));
+        if ring.as_constant(&repeated).is_some() {
+            break;
+        }
+        let p = ring.field().characteristic() as u32;
+        rest = root(ring, &repeated, p);
+        scale *= p;
+    }
+    parts
+}
+
+/// The parts whose multiplicity the characteristic does not divide, and the rest: a power of the characteristic.
+fn powers_by_derivatives<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+) -> (Vec<(Polynomial<F::Element>, u32)>, Polynomial<F::Element>) {
+    let variables = (0..ring.variables().len()).filter(|&v| ring.degree_in(f, v) > 0);
+    let mut repeated = variables.fold(f.clone(), |shared, v| gcd(ring, &shared, &ring.derivative(f, v)));
+    let mut distinct = ring.exact_div(f, &repeated).expect("a gcd divides");
+    let (mut parts, mut multiplicity) = (Vec::new(), 1);
+    while ring.as_constant(&distinct).is_none() {
+        let shared = common(ring, &distinct, &repeated);
+        if ring.as_constant(&shared.left).is_none() {
+            parts.push((ring.monic(&shared.left), multiplicity));
+        }
+        (distinct, repeated) = (shared.gcd, shared.right);
+        multiplicity += 1;
+    }
+    (parts, repeated)
+}
+
+/// The `p`-th root of a `p`-th power over GF(p).
+fn root<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, p: u32) -> Polynomial<F::Element> {
+    let term = |term: &Term<F::Element>| {
+        let exponents: Vec<u32> = ring.layout().exponents(&term.monomial).iter().map(|e| e / p).collect();
+        Term {
+            coefficient: term.coefficient.clone(),
+            monomial: ring.layout().pack(&exponents).expect("a divisor fits"),
+        }
+    };
+    ring.collect(f.terms().iter().map(term))
+}

@@ -1,0 +1,127 @@
+//! Greatest common divisors of multivariate polynomials over a field.
+//!
+//! Over Q and GF(p) by images at points and modulo primes ([`modular`], [`rational`]), proved by division; over other
+//! fields, and where a small field has too few points, by primitive remainder sequences ([`reference`]).
+
+pub(super) mod modular;
+pub(super) mod rational;
+pub(super) mod reference;
+
+use self::modular::Search;
+use super::ring::{Polynomial, PolynomialRing};
+use super::words::{Extension, Flat, Packing, Prime, convert};
+use crate::number::{Field, PrimeElement, Ring};
+
+pub(super) use reference::split_monomial;
+
+/// Fields with fewer elements are extended to have enough points.
+const ENOUGH_POINTS: u64 = 1 << 12;
+
+/// Below this number of terms the tables of an extension cost more than remainder sequences.
+const WORTH_AN_EXTENSION: usize = 60;
+
+/// A greatest common divisor of two polynomials and what is left of each.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Common<T> {
+    pub gcd: T,
+    pub left: T,
+    pub right: T,
+}
+
+/// The monic greatest common divisor of `f` and `g`; zero only for two zeros.
+pub fn gcd<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
+) -> Polynomial<F::Element> {
+    common(ring, f, g).gcd
+}
+
+/// The monic greatest common divisor of `f` and `g`, not both zero, and its cofactors.
+pub(super) fn common<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
+) -> Common<Polynomial<F::Element>> {
+    trivial(ring, f, g).or_else(|| by_images(ring, f, g)).unwrap_or_else(|| {
+        let gcd = reference::gcd(ring, f, g);
+        let [left, right] = [f, g].map(|part| ring.exact_div(part, &gcd).expect("a gcd divides"));
+        Common { gcd, left, right }
+    })
+}
+
+/// The gcd of the coefficients of `f` as a polynomial in `variable`.
+pub(super) fn content<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    variable: usize,
+) -> Polynomial<F::Element> {
+    let mut coefficients = ring.coefficients_in(f, variable);
+    coefficients.sort_by_key(|c| c.terms().len());
+    let mut content = ring.zero();
+    for coefficient in &coefficients {
+        content = gcd(ring, &content, coefficient);
+        if ring.is_one(&content) {
+            break;
+        }
+    }
+    content
+}
+
+/// The answer where one of the two is zero or constant, or both are equal.
+fn trivial<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
+) -> Option<Common<Polynomial<F::Element>>> {
+    let lead = |h: &Polynomial<F::Element>| {
+        h.leading().map_or_else(|| ring.zero(), |term| ring.constant(term.coefficient.clone()))
+    };
+    if g.is_zero() || f == g {
+        let right = if g.is_zero() { ring.zero() } else { lead(g) };
+        return Some(Common { gcd: ring.monic(f), left: lead(f), right });
+    }
+    if f.is_zero() {
+        return Some(Common { gcd: ring.monic(g), left: ring.zero(), right: lead(g) });
+    }
+    let constant = ring.as_constant(f).is_some() || ring.as_constant(g).is_some();
+    constant.then(|| Common { gcd: ring.one(), left: f.clone(), right: g.clone() })
+}
+
+/// The answer over Q and GF(p); `None` over other fields, or when the images were unlucky again and again.
+fn by_images<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
+) -> Option<Common<Polynomial<F::Element>>> {
+    let first = ring.field().prime_element(&f.leading()?.coefficient)?;
+    let packing = convert::packing(ring, &[f, g])?;
+    match first {
+        PrimeElement::Rational(_) => rational::common_in(ring, &packing, f, g),
+        PrimeElement::Residue(_) => {
+            let p = ring.field().characteristic();
+            let [a, b] = [convert::to_flat(ring, &packing, f)?, convert::to_flat(ring, &packing, g)?];
+            let found = if p < ENOUGH_POINTS {
+                if a.keys.len() + b.keys.len() < WORTH_AN_EXTENSION {
+                    return None;
+                }
+                let degree = (2..).find(|&k| p.pow(k) >= ENOUGH_POINTS)?;
+                Search::new(&Extension::new(p, degree)?, &packing).repeated(&a, &b)
+            } else {
+                Search::new(&Prime::new(p), &packing).repeated(&a, &b)
+            }?;
+            Some(in_ring(ring, &packing, found))
+        }
+    }
+}
+
+/// The monic gcd of the ring's own order, and its cofactors.
+fn in_ring<F: Field>(
+    ring: &PolynomialRing<F>,
+    packing: &Packing,
+    found: Common<Flat>,
+) -> Common<Polynomial<F::Element>> {
+    let [gcd, left, right] = [&found.gcd, &found.left, &found.right].map(|f| convert::from_flat(ring, packing, f));
+    let lead = gcd.leading().expect("a gcd is not zero").coefficient.clone();
+    Common { gcd: ring.monic(&gcd), left: ring.scale(&left, &lead), right: ring.scale(&right, &lead) }
+}

@@ -1,0 +1,78 @@
+//! Sparse polynomials with integer coefficients, on the keys of a [`Packing`]: what images modulo primes stand for.
+
+use num_integer::Integer;
+use num_traits::{Signed, ToPrimitive, Zero};
+
+use super::field::Prime;
+use super::flat::{Flat, Packing};
+use super::images::{Images, primes};
+use crate::number::BigInt;
+
+/// A polynomial over the integers: keys in descending order, with nonzero values beside them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Integral {
+    pub keys: Vec<u128>,
+    pub values: Vec<BigInt>,
+}
+
+/// `n` modulo the prime of `field`.
+pub fn residue(n: &BigInt, field: &Prime) -> u64 {
+    match n.to_i64() {
+        Some(small) => i128::from(small).rem_euclid(i128::from(field.modulus())) as u64,
+        None => n.mod_floor(&BigInt::from(field.modulus())).to_u64().expect("a residue fits a word"),
+    }
+}
+
+impl Integral {
+    /// The image modulo a prime.
+    pub fn image(&self, field: &Prime) -> Flat {
+        let images = self.keys.iter().zip(&self.values).map(|(&key, value)| (key, residue(value, field)));
+        let (keys, values) = images.filter(|term| term.1 != 0).unzip();
+        Flat { keys, values }
+    }
+
+    /// Without the common divisor of the coefficients, with a positive leading one; and the factor taken out.
+    pub fn primitive(mut self) -> (Self, BigInt) {
+        let mut content = self.values.iter().fold(BigInt::zero(), |content, value| content.gcd(value));
+        if self.values.first().is_some_and(Signed::is_negative) {
+            content = -content;
+        }
+        if content != BigInt::from(1) && !content.is_zero() {
+            self.values.iter_mut().for_each(|value| *value = &*value / &content);
+        }
+        (self, content)
+    }
+
+    /// The greatest number of bits of a coefficient.
+    pub fn bits(&self) -> u64 {
+        self.values.iter().map(BigInt::bits).max().unwrap_or(0)
+    }
+
+    /// Whether this is a constant, zero included.
+    pub fn is_constant(&self) -> bool {
+        self.keys.first().is_none_or(|&key| key == 0)
+    }
+
+    /// `self / divisor`, if it is a polynomial over the integers and `divisor` is primitive.
+    ///
+    /// The quotient is found modulo primes. It is proved when the moduli exceed every coefficient of both sides of
+    /// `self = quotient * divisor`: a congruence of such small numbers is an equality.
+    pub fn quotient(&self, packing: &Packing, divisor: &Integral) -> Option<Integral> {
+        let mut images = Images::default();
+        let terms = (divisor.keys.len() as u64).ilog2() as u64 + 1;
+        for p in primes() {
+            let field = Prime::new(p);
+            let small = divisor.image(&field);
+            if small.keys.first() != divisor.keys.first() {
+                continue;
+            }
+            images.add(&field, self.image(&field).exact_div(&field, packing, &small)?);
+            let quotient = images.symmetric();
+            let needed = self.bits().max(quotient.bits() + divisor.bits() + terms);
+            if needed + 2 <= images.bits() {
+                return Some(quotient);
+            }
+        }
+        None
+    }
+}

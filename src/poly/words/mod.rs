@@ -1,0 +1,17 @@
+//! Polynomials on machine words: finite fields, dense univariate and packed sparse multivariate polynomials over them,
+//! and the way from the rationals there and back. The ground on which the modular gcd and the factorisation stand.
+
+pub mod convert;
+pub mod dense;
+mod extension;
+mod field;
+mod flat;
+mod images;
+mod integral;
+pub mod skeleton;
+
+pub use extension::Extension;
+pub use field::{Prime, Random, WordField};
+pub use flat::{Flat, Packing};
+pub use images::{Images, primes};
+pub use integral::{Integral, residue};
