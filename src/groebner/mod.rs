@@ -19,7 +19,6 @@ pub mod verify;
 pub use division::{Division, divide, normal_form, s_polynomial};
 pub use engine::{Basis, Options, basis};
 pub use f4::{Settings, Trace, f4, f4_with};
-pub use fglm::Quotient;
 pub use fglm::{Quotient, WordQuotient, change_order};
 pub use hilbert::HilbertSeries;
 pub use homogeneous::{System, dehomogenise, hilbert_driven, homogenise};

@@ -2,10 +2,10 @@
 
 mod claims;
 mod f4;
+mod families;
 mod fglm;
 mod hilbert;
 mod homogeneous;
-mod families;
 mod known;
 mod limits;
 mod modular;

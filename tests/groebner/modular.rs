@@ -143,6 +143,7 @@ fn primes_that_go_another_way_are_counted() {
     assert!(found.unlucky >= 1, "{found:?}");
     let lucky = modular(&ring, &system(&ring, &["x^2 + y^2 - 1", "x - y"], &[]));
     assert_eq!((lucky.unlucky, lucky.status), (0, Status::Probable));
+    assert!(lucky.primes >= 2);
 }
 
 #[test]

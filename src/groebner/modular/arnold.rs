@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
+use super::super::hilbert::is_homogeneous;
 use super::super::verify::{Claim, verify};
-use super::super::{Options, Trace};
-use super::homogeneous::{Homogeneous, is_homogeneous};
+use super::super::{Options, dehomogenise, f4, homogenise};
 use super::system::{Integral, System, refuse};
 use super::vanish::Divisors;
 use super::{Modular, Status};
@@ -19,14 +19,14 @@ use crate::{Result, Watch};
 ///
 /// 1. The homogenised generators `F` (a last variable, graded reverse order) get a basis `H` by [`super::basis`].
 /// 2. Over Q, `F` and the S-pairs of `H` reduce to zero by `H`; modulo one prime, the leading monomials of `H` are those of the ideal
-///    of `F`. Then `<H> = <F>` (Arnold 2003, theorem 7.1): the Hilbert function of `F` modulo the prime bounds that of `F` over Q from
+///    of `F`. Then `<H> = <F>` (Arnold 2003): the Hilbert function of `F` modulo the prime bounds that of `F` over Q from
 ///    above, that of `H` bounds it from below.
 /// 3. With the last variable put to one, `H` is a basis `B` of the ideal of the generators in graded reverse order. The
 ///    elements of `found` reduce to zero by `B`. In graded reverse order they have the same leading monomials; in another order,
 ///    their S-pairs and the generators reduce to zero by them.
 ///
-/// What reduces to zero over Q does so by a bound on its coefficients and enough primes. What is taken for true of the
-/// computation modulo the prime of step 2 is that F4 without chance makes a Groebner basis out of multiples of its input.
+/// What reduces to zero over Q does so by a bound on its coefficients and enough primes. All that is taken on trust is that the
+/// polynomials which F4 finds modulo the prime of step 2 lie in the ideal there: they are sums of multiples of its input.
 ///
 /// # Errors
 /// [`Certificate`](crate::ErrorKind::Certificate) when `found` is not the basis, or is not reduced; those of [`super::basis`].
@@ -37,7 +37,7 @@ pub fn prove(
     watch: &Watch,
 ) -> Result<Status> {
     let basis = &found.basis;
-    let generators: Vec<_> = generators.iter().map(|f| ring.transfer(f, &basis.ring)).collect::<Result<_>>()?;
+    let generators = transferred(ring, generators, &basis.ring)?;
     if !basis.cofactors.is_empty() {
         let claim = Claim { generators: &generators, basis: &basis.polynomials, cofactors: &basis.cofactors };
         return verify(&basis.ring, &claim).map(|_| Status::Proved);
@@ -69,6 +69,15 @@ fn check_reduced(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRation
         return Ok(());
     }
     Err(refuse("the basis is not reduced, or not sorted by leading monomial from the smallest"))
+}
+
+/// The same polynomials in another ring.
+fn transferred(
+    from: &PolynomialRing<Rationals>,
+    list: &[Polynomial<BigRational>],
+    to: &PolynomialRing<Rationals>,
+) -> Result<Vec<Polynomial<BigRational>>> {
+    list.iter().map(|f| from.transfer(f, to)).collect()
 }
 
 fn integral(list: &[Polynomial<BigRational>]) -> Vec<Integral> {
@@ -104,7 +113,7 @@ fn check_leads(
         return Err(refuse(format!("the prime {p} divides a coefficient; compute the basis again")));
     }
     let (ring, images) = system.image(p)?;
-    let (image, _) = Trace::learn(&ring, &images, watch)?;
+    let image = f4(&ring, &images, watch)?;
     if image.leading_monomials().into_iter().eq(basis.iter().map(Integral::lead)) {
         return Ok(());
     }
@@ -122,16 +131,24 @@ fn graded_basis(
     generators: &[Polynomial<BigRational>],
     watch: &Watch,
 ) -> Result<Graded> {
-    let lifted = Homogeneous::new(ring, generators)?;
-    let found = super::basis(&lifted.ring, &lifted.generators, &Options::default(), watch)?;
-    let (found, prime) = (found.basis, found.confirmed_by);
-    let homogenised: Vec<_> =
-        lifted.generators.iter().map(|f| lifted.ring.transfer(f, &found.ring)).collect::<Result<_>>()?;
-    prove_homogeneous(&found.ring, &found.polynomials, &homogenised, prime, watch)?;
-    let ring = lifted.plain.with_width(found.ring.layout().width());
-    let basis = found.polynomials.iter().map(|f| found.ring.transfer(&lifted.at_one(&found.ring, f)?, &ring));
-    let basis = minimal(&ring, basis.collect::<Result<_>>()?);
-    Ok(Graded { ring, basis })
+    let plain = PolynomialRing::new(Rationals, ring.variables(), Order::GrevLex)?.with_width(ring.layout().width());
+    let name = fresh_name(ring.variables());
+    let (homogeneous, lifted) = homogenise(&plain, &transferred(ring, generators, &plain)?, &name)?;
+    let found = super::basis(&homogeneous, &lifted, &Options::default(), watch)?;
+    let (prime, found) = (found.confirmed_by, found.basis);
+    let lifted = transferred(&homogeneous, &lifted, &found.ring)?;
+    prove_homogeneous(&found.ring, &found.polynomials, &lifted, prime, watch)?;
+    let (ring, basis) = dehomogenise(&found.ring, &found.polynomials, &name)?;
+    Ok(Graded { basis: minimal(&ring, basis), ring })
+}
+
+/// A name that none of `names` has.
+fn fresh_name(names: &[String]) -> String {
+    let mut name = "h".to_owned();
+    while names.contains(&name) {
+        name.push('h');
+    }
+    name
 }
 
 /// The elements whose leading monomials no other divides, smallest first.
@@ -160,11 +177,9 @@ fn prove_by(
     watch: &Watch,
 ) -> Result<Status> {
     let width = ring.layout().width().max(graded.ring.layout().width());
-    let (target, ring_of) = (graded.ring.with_width(width), ring);
-    let moved = |from: &PolynomialRing<Rationals>, list: &[Polynomial<BigRational>]| -> Result<Vec<_>> {
-        list.iter().map(|f| from.transfer(f, &target)).collect()
-    };
-    let (by, elements) = (moved(&graded.ring, &graded.basis)?, moved(ring_of, basis)?);
+    let target = graded.ring.with_width(width);
+    let by = transferred(&graded.ring, &graded.basis, &target)?;
+    let elements = transferred(ring, basis, &target)?;
     let mut divisors = Divisors::new(&target, &by);
     divisors.prove_all(&integral(&elements), watch).map_err(|error| error.with_context("a basis element"))?;
     if *ring.layout().order() == Order::GrevLex {

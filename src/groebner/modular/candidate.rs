@@ -2,8 +2,7 @@
 
 use super::super::Basis;
 use super::learned::{Image, LANES, Learned, Seen, Shape};
-use super::next;
-use super::system::System;
+use super::system::{System, no_primes};
 use super::vectors::{Tables, Vector};
 use crate::number::{BigRational, Rationals, Ring};
 use crate::poly::{Polynomial, PolynomialRing, Term, Width};
@@ -62,11 +61,13 @@ impl Candidate {
     }
 
     fn take(&mut self, prime: u32, image: Image) {
-        self.primes.push(prime);
-        self.images.push(image);
+        if !self.primes.contains(&prime) {
+            self.primes.push(prime);
+            self.images.push(image);
+        }
     }
 
-    /// Gathers images until the coefficients stand over Q; `None` when most primes go another way.
+    /// Gathers images until the coefficients stand over Q; `None` when a whole batch of primes goes another way.
     pub(super) fn lift(
         &mut self,
         system: &System<'_>,
@@ -78,28 +79,28 @@ impl Candidate {
                 let Seen { shape, width, .. } = &self.learned.seen;
                 return Ok(Some(Lift { vectors, shape: shape.clone(), width: *width, primes: self.primes.len() }));
             }
-            if self.unlucky > self.primes.len() {
+            if self.gather(system, primes, watch)? == 0 {
                 return Ok(None);
             }
-            self.gather(system, primes, watch)?;
         }
     }
 
-    /// The images modulo the next primes.
-    fn gather(&mut self, system: &System<'_>, primes: &mut impl Iterator<Item = u32>, watch: &Watch) -> Result<()> {
+    /// Takes the images modulo the next primes; how many there are.
+    fn gather(&mut self, system: &System<'_>, primes: &mut impl Iterator<Item = u32>, watch: &Watch) -> Result<usize> {
         watch.check()?;
         watch.report("primes", self.primes.len(), self.learned.seen.shape.supports.len() - self.witnesses.len());
         let mut batch = [0; LANES];
         for p in &mut batch {
-            *p = next(primes)?;
+            *p = primes.next().ok_or_else(no_primes)?;
         }
+        let before = self.primes.len();
         for (p, image) in batch.into_iter().zip(self.learned.images(system, batch, watch)?) {
             match image {
                 Some(image) => self.take(p, image),
                 None => self.unlucky += 1,
             }
         }
-        Ok(())
+        Ok(self.primes.len() - before)
     }
 
     /// All coefficients over Q, as soon as each polynomial has its witness.

@@ -7,7 +7,6 @@
 
 mod arnold;
 mod candidate;
-mod homogeneous;
 mod learned;
 mod matrix;
 mod system;
@@ -21,9 +20,9 @@ use super::verify::{Claim, verify};
 use super::{Basis, Options};
 use crate::number::Rationals;
 use crate::poly::{Polynomial, PolynomialRing};
-use crate::{Error, ErrorKind, Result, Watch};
+use crate::{Result, Watch};
 use candidate::{Ballot, Lift};
-use system::System;
+use system::{System, no_primes};
 
 /// What is known of a basis that came from primes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,12 +50,13 @@ pub struct Modular {
 
 /// The reduced Groebner basis over Q of the ideal of `generators` in the order of `ring`, by many primes.
 ///
-/// The result is [`Status::Probable`]: it agrees with the basis modulo a prime that it was not made from, every prime learned
-/// afresh until then having one vote on what the leading monomials are. With [`Options::cofactors`] the cofactors are rebuilt in the
+/// The result is [`Status::Probable`]: it agrees with the basis modulo a prime that it was not made from. That prime and the one
+/// that the computation is learned from are scattered over those of 31 bits; until they agree, further ones are
+/// learned from, each with one vote on what the monomials of the basis are. With [`Options::cofactors`] the cofactors are rebuilt in the
 /// same way, [`verify`] proves the basis by them, and the result is [`Status::Proved`]; that is for small systems.
 ///
 /// # Errors
-/// Those of [`super::basis`]; [`ErrorKind::Budget`] when no primes are left.
+/// Those of [`super::basis`] and [`super::f4`]; [`Budget`](crate::ErrorKind::Budget) when no primes are left.
 pub fn basis(
     ring: &PolynomialRing<Rationals>,
     generators: &[Polynomial<num_rational::BigRational>],
@@ -67,8 +67,8 @@ pub fn basis(
     let mut primes = system.primes();
     let mut ballot = Ballot::default();
     let mut lifted: Option<Lift> = None;
-    loop {
-        let p = next(&mut primes)?;
+    for round in 0.. {
+        let p = system.scattered_prime(round)?;
         if let Some(lift) = lifted
             && lift.agrees_with(&system.look(p, options, watch)?)
         {
@@ -79,10 +79,7 @@ pub fn basis(
         }
         lifted = ballot.enter(system.learn(p, options, watch)?).lift(&system, &mut primes, watch)?;
     }
-}
-
-fn next(primes: &mut impl Iterator<Item = u32>) -> Result<u32> {
-    primes.next().ok_or_else(|| Error::new(ErrorKind::Budget, "there are no more primes below 2^31 to compute modulo"))
+    Err(no_primes())
 }
 
 /// The same, proved: cofactors multiply out, generators and S-pairs reduce to zero.

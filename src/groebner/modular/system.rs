@@ -81,6 +81,17 @@ impl<'a> System<'a> {
         primes_below(1 << 31).map(|p| p as u32).filter(|&p| self.is_good(p))
     }
 
+    /// A good prime above 2^30 that all coefficients and `round` decide: not one that a system is likely to be special modulo.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Budget`] when there is none.
+    pub(super) fn scattered_prime(&self, round: u64) -> Result<u32> {
+        let digits = self.generators.iter().flat_map(|f| &f.terms).flat_map(|(_, c)| c.iter_u64_digits());
+        let seed = digits.fold(scatter(round), |seed, digit| scatter(seed ^ digit));
+        let mut primes = primes_below((1 << 30) + seed % (1 << 30)).map(|p| p as u32);
+        primes.find(|&p| self.is_good(p)).ok_or_else(no_primes)
+    }
+
     /// Whether `p` divides no coefficient.
     pub(super) fn is_good(&self, p: u32) -> bool {
         p > 0 && self.generators.iter().flat_map(|f| &f.terms).all(|(_, c)| residue(c, p) != 0)
@@ -124,6 +135,19 @@ pub(super) fn modulo(ring: &PolynomialRing<Rationals>, p: u32) -> Result<Polynom
     let layout = ring.layout();
     let image = PolynomialRing::new(Zp::new(u64::from(p))?, ring.variables(), layout.order().clone())?;
     Ok(image.with_width(layout.width()))
+}
+
+/// All bits of the result depend on all bits of `n` (the finaliser of splitmix64; Steele, Lea and Flood 2014).
+fn scatter(n: u64) -> u64 {
+    let n = n.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let n = (n ^ (n >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let n = (n ^ (n >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    n ^ (n >> 31)
+}
+
+/// What ends a search for primes.
+pub(super) fn no_primes() -> Error {
+    Error::new(ErrorKind::Budget, "there are no more primes below 2^31 to compute modulo")
 }
 
 /// The refusal of a claim.

@@ -9,11 +9,11 @@ use num_traits::Signed;
 
 use super::super::pairs::{Head, Pairs, Strategy};
 use super::matrix::Matrix;
-use super::system::{Integral, combination, modulo, refuse};
+use super::system::{Integral, combination, modulo, no_primes, refuse};
 use super::vectors::{Tables, Vector};
 use crate::number::{BigInt, BigRational, Field, Rationals, primes_below, residue};
-use crate::poly::{Polynomial, PolynomialRing};
-use crate::{Error, ErrorKind, Result, Watch};
+use crate::poly::{Monomial, Polynomial, PolynomialRing};
+use crate::{Result, Watch};
 
 /// How many primes are divided by at once.
 pub(super) const LANES: usize = 8;
@@ -51,23 +51,25 @@ impl<'a> Divisors<'a> {
     /// are a Groebner basis of the ideal that they generate.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] when one does not.
+    /// [`Certificate`](crate::ErrorKind::Certificate) when one does not.
     pub(super) fn prove_basis(&mut self, watch: &Watch) -> Result<()> {
         let mut pairs = Pairs::new(Strategy::Normal);
         let mut heads = Vec::new();
         for element in &self.elements {
+            watch.check()?;
             let head = Head { monomial: element.lead().clone(), sugar: element.degree(self.ring), redundant: false };
             pairs.update(self.ring, &mut heads, head)?;
         }
         let mut targets = Vec::new();
         while let Some(pair) = pairs.select(self.ring) {
+            watch.check()?;
             targets.push(self.s_polynomial(pair.left, pair.right, &pair.lcm)?);
         }
         self.prove_all(&targets, watch).map_err(|error| error.with_context("an S-pair"))
     }
 
     /// The S-polynomial of two elements with integer coefficients.
-    fn s_polynomial(&self, left: usize, right: usize, lcm: &crate::poly::Monomial) -> Result<Integral> {
+    fn s_polynomial(&self, left: usize, right: usize, lcm: &Monomial) -> Result<Integral> {
         let (a, b) = (&self.elements[left], &self.elements[right]);
         let divisor = num_integer::gcd(a.leading_coefficient().clone(), b.leading_coefficient().clone());
         let shift = |f: &Integral| self.ring.layout().checked_div(lcm, f.lead()).expect("a multiple is divisible");
@@ -79,7 +81,7 @@ impl<'a> Divisors<'a> {
     /// Proves that all `targets` reduce to zero.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] when one does not.
+    /// [`Certificate`](crate::ErrorKind::Certificate) when one does not.
     pub(super) fn prove_all(&mut self, targets: &[Integral], watch: &Watch) -> Result<()> {
         for (index, chunk) in targets.chunks(TARGETS).enumerate() {
             watch.report("proof", index * TARGETS, targets.len() - index * TARGETS);
@@ -136,7 +138,7 @@ impl<'a> Divisors<'a> {
         let mut primes = primes_below(1 << 31).map(|p| p as u32).filter(good).skip(self.batches.len() * LANES);
         let mut batch = [0; LANES];
         for p in &mut batch {
-            *p = primes.next().ok_or_else(|| Error::new(ErrorKind::Budget, "there are no more primes below 2^31"))?;
+            *p = primes.next().ok_or_else(no_primes)?;
         }
         drop(primes);
         self.batches.push(self.batch(batch)?);
