@@ -56,7 +56,7 @@ pub struct Modular {
 /// same way, [`verify`] proves the basis by them, and the result is [`Status::Proved`]; that is for small systems.
 ///
 /// # Errors
-/// Those of [`super::basis`] and [`super::f4`]; [`Budget`](crate::ErrorKind::Budget) when no primes are left.
+/// Those of [`super::basis`] and [`super::f4()`]; [`Budget`](crate::ErrorKind::Budget) when no primes are left.
 pub fn basis(
     ring: &PolynomialRing<Rationals>,
     generators: &[Polynomial<num_rational::BigRational>],
