@@ -12,6 +12,7 @@ mod fglm;
 mod hilbert;
 mod homogeneous;
 pub mod ideal;
+pub mod modular;
 mod pairs;
 mod prime_field;
 mod reduced;

@@ -3,17 +3,25 @@
 //! [`Ring`] and [`Field`] are the only two rungs of the ladder; polynomial rings and fields of
 //! rational functions (in [`crate::poly`]) stand on them too. [`laws`] holds the axioms as functions.
 
+mod chinese;
 mod decimal;
 mod extension;
 pub mod laws;
+mod limbs;
+mod primes;
 mod rational;
+mod reconstruct;
 mod zp;
 
+pub use chinese::Chinese;
 pub use decimal::parse_rational;
 pub use extension::Extension;
+pub use limbs::residue;
 pub use num_bigint::BigInt;
 pub use num_rational::BigRational;
+pub use primes::primes_below;
 pub use rational::Rationals;
+pub use reconstruct::reconstruct;
 pub use zp::Zp;
 
 use std::fmt::Debug;

@@ -50,7 +50,7 @@ fn pow_mod(mut a: u64, mut n: u64, p: u64) -> u64 {
 }
 
 /// Miller-Rabin with the first twelve primes as bases: exact below 3.3e24 (Sorenson and Webster 2015).
-fn is_prime(n: u64) -> bool {
+pub(super) fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     if n < 2 {
         return false;

@@ -10,6 +10,7 @@ mod cover;
 mod cover_points;
 mod known;
 mod limits;
+mod modular;
 mod random;
 mod systems;
 mod univariate_representation;

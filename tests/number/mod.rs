@@ -1,6 +1,7 @@
 //! The fields obey their axioms, and decimals are read exactly.
 
 mod extension;
+mod modular;
 
 use groebot::ErrorKind;
 use groebot::number::{BigInt, BigRational, Field, Rationals, Ring, Zp, laws, parse_rational};

@@ -1,0 +1,197 @@
+//! The proof that a basis from primes is the basis: homogenisation and Arnold's criterion.
+
+use std::collections::HashSet;
+
+use super::super::hilbert::is_homogeneous;
+use super::super::verify::{Claim, verify};
+use super::super::{Options, dehomogenise, f4, homogenise};
+use super::system::{Integral, System, refuse};
+use super::vanish::Divisors;
+use super::{Modular, Status};
+use crate::number::{BigRational, Rationals, Ring, residue};
+use crate::poly::{Monomial, Order, Polynomial, PolynomialRing};
+use crate::{Result, Watch};
+
+/// Proves that `found` is the reduced Groebner basis of the ideal of `generators`, which are polynomials of `ring`; gives
+/// [`Status::Proved`].
+///
+/// With cofactors, [`verify`] proves it. Without:
+///
+/// 1. The homogenised generators `F` (a last variable, graded reverse order) get a basis `H` by [`super::basis`].
+/// 2. Over Q, `F` and the S-pairs of `H` reduce to zero by `H`; modulo one prime, the leading monomials of `H` are those of the ideal
+///    of `F`. Then `<H> = <F>` (Arnold 2003): the Hilbert function of `F` modulo the prime bounds that of `F` over Q from
+///    above, that of `H` bounds it from below.
+/// 3. With the last variable put to one, `H` is a basis `B` of the ideal of the generators in graded reverse order. The
+///    elements of `found` reduce to zero by `B`. In graded reverse order they have the same leading monomials; in another order,
+///    their S-pairs and the generators reduce to zero by them.
+///
+/// What reduces to zero over Q does so by a bound on its coefficients and enough primes. All that is taken on trust is that the
+/// polynomials which F4 finds modulo the prime of step 2 lie in the ideal there: they are sums of multiples of its input.
+///
+/// # Errors
+/// [`Certificate`](crate::ErrorKind::Certificate) when `found` is not the basis, or is not reduced; those of [`super::basis`].
+pub fn prove(
+    found: &Modular,
+    ring: &PolynomialRing<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<Status> {
+    let basis = &found.basis;
+    let generators = transferred(ring, generators, &basis.ring)?;
+    if !basis.cofactors.is_empty() {
+        let claim = Claim { generators: &generators, basis: &basis.polynomials, cofactors: &basis.cofactors };
+        return verify(&basis.ring, &claim).map(|_| Status::Proved);
+    }
+    check_reduced(&basis.ring, &basis.polynomials)?;
+    if *basis.ring.layout().order() == Order::GrevLex && generators.iter().all(|f| is_homogeneous(&basis.ring, f)) {
+        prove_homogeneous(&basis.ring, &basis.polynomials, &generators, found.confirmed_by, watch)?;
+        return Ok(Status::Proved);
+    }
+    let graded = graded_basis(&basis.ring, &generators, watch)?;
+    prove_by(&graded, &basis.ring, &basis.polynomials, &generators, watch)
+}
+
+/// Monic, sorted from the smallest, none reducible by another.
+fn check_reduced(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRational>]) -> Result<()> {
+    let monic = |f: &Polynomial<BigRational>| f.leading().is_some_and(|t| ring.field().is_one(&t.coefficient));
+    if !basis.iter().all(|f| ring.is_well_formed(f) && monic(f)) {
+        return Err(refuse("a basis element is no monic polynomial of the ring"));
+    }
+    let leads: Vec<&Monomial> = basis.iter().filter_map(|f| f.leading()).map(|term| &term.monomial).collect();
+    let sorted = leads.windows(2).all(|pair| ring.layout().compare(pair[0], pair[1]).is_lt());
+    let reducible = |index: usize, m: &Monomial| {
+        let divides = |(other, lead): (usize, &&Monomial)| other != index && ring.layout().divides(lead, m);
+        leads.iter().enumerate().any(divides)
+    };
+    let reduced =
+        |(index, f): (usize, &Polynomial<BigRational>)| !f.terms().iter().any(|t| reducible(index, &t.monomial));
+    if sorted && basis.iter().enumerate().all(reduced) {
+        return Ok(());
+    }
+    Err(refuse("the basis is not reduced, or not sorted by leading monomial from the smallest"))
+}
+
+/// The same polynomials in another ring.
+fn transferred(
+    from: &PolynomialRing<Rationals>,
+    list: &[Polynomial<BigRational>],
+    to: &PolynomialRing<Rationals>,
+) -> Result<Vec<Polynomial<BigRational>>> {
+    list.iter().map(|f| from.transfer(f, to)).collect()
+}
+
+fn integral(list: &[Polynomial<BigRational>]) -> Vec<Integral> {
+    let nonzero = list.iter().enumerate().filter(|(_, f)| !f.is_zero());
+    nonzero.map(|(index, f)| Integral::new(index, f)).collect()
+}
+
+/// Arnold's criterion: the homogeneous `generators` and `basis` generate the same ideal, and `basis` is a Groebner basis.
+fn prove_homogeneous(
+    ring: &PolynomialRing<Rationals>,
+    basis: &[Polynomial<BigRational>],
+    generators: &[Polynomial<BigRational>],
+    prime: u32,
+    watch: &Watch,
+) -> Result<()> {
+    let mut divisors = Divisors::new(ring, basis);
+    check_leads(ring, &divisors.elements, generators, prime, watch)?;
+    divisors.prove_all(&integral(generators), watch).map_err(|error| error.with_context("a generator"))?;
+    divisors.prove_basis(watch)
+}
+
+/// Modulo `p`, which divides no coefficient of `generators` and no leading coefficient of `basis`, the leading monomials are
+/// those of `basis`.
+fn check_leads(
+    ring: &PolynomialRing<Rationals>,
+    basis: &[Integral],
+    generators: &[Polynomial<BigRational>],
+    p: u32,
+    watch: &Watch,
+) -> Result<()> {
+    let system = System::new(ring, generators);
+    if !system.is_good(p) || basis.iter().any(|f| residue(f.leading_coefficient(), p) == 0) {
+        return Err(refuse(format!("the prime {p} divides a coefficient; compute the basis again")));
+    }
+    let (ring, images) = system.image(p)?;
+    let image = f4(&ring, &images, watch)?;
+    if image.leading_monomials().into_iter().eq(basis.iter().map(Integral::lead)) {
+        return Ok(());
+    }
+    Err(refuse(format!("modulo {p} the leading monomials are others")))
+}
+
+/// A basis, not reduced, of the ideal of `generators` in graded reverse order, proved.
+struct Graded {
+    ring: PolynomialRing<Rationals>,
+    basis: Vec<Polynomial<BigRational>>,
+}
+
+fn graded_basis(
+    ring: &PolynomialRing<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<Graded> {
+    let plain = PolynomialRing::new(Rationals, ring.variables(), Order::GrevLex)?.with_width(ring.layout().width());
+    let name = fresh_name(ring.variables());
+    let (homogeneous, lifted) = homogenise(&plain, &transferred(ring, generators, &plain)?, &name)?;
+    let found = super::basis(&homogeneous, &lifted, &Options::default(), watch)?;
+    let (prime, found) = (found.confirmed_by, found.basis);
+    let lifted = transferred(&homogeneous, &lifted, &found.ring)?;
+    prove_homogeneous(&found.ring, &found.polynomials, &lifted, prime, watch)?;
+    let (ring, basis) = dehomogenise(&found.ring, &found.polynomials, &name)?;
+    Ok(Graded { basis: minimal(&ring, basis), ring })
+}
+
+/// A name that none of `names` has.
+fn fresh_name(names: &[String]) -> String {
+    let mut name = "h".to_owned();
+    while names.contains(&name) {
+        name.push('h');
+    }
+    name
+}
+
+/// The elements whose leading monomials no other divides, smallest first.
+fn minimal(ring: &PolynomialRing<Rationals>, mut basis: Vec<Polynomial<BigRational>>) -> Vec<Polynomial<BigRational>> {
+    basis.retain(|f| !f.is_zero());
+    basis.sort_by(|f, g| ring.layout().compare(lead(f), lead(g)));
+    let mut kept: Vec<Polynomial<BigRational>> = Vec::new();
+    for f in basis {
+        if !kept.iter().any(|g| ring.layout().divides(lead(g), lead(&f))) {
+            kept.push(f);
+        }
+    }
+    kept
+}
+
+fn lead(f: &Polynomial<BigRational>) -> &Monomial {
+    &f.leading().expect("not zero").monomial
+}
+
+/// Step 3 of [`prove`].
+fn prove_by(
+    graded: &Graded,
+    ring: &PolynomialRing<Rationals>,
+    basis: &[Polynomial<BigRational>],
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<Status> {
+    let width = ring.layout().width().max(graded.ring.layout().width());
+    let target = graded.ring.with_width(width);
+    let by = transferred(&graded.ring, &graded.basis, &target)?;
+    let elements = transferred(ring, basis, &target)?;
+    let mut divisors = Divisors::new(&target, &by);
+    divisors.prove_all(&integral(&elements), watch).map_err(|error| error.with_context("a basis element"))?;
+    if *ring.layout().order() == Order::GrevLex {
+        let leads = |list: &[Polynomial<BigRational>]| list.iter().map(|f| lead(f).clone()).collect::<HashSet<_>>();
+        return if leads(&by) == leads(&elements) {
+            Ok(Status::Proved)
+        } else {
+            Err(refuse("a leading monomial is missing"))
+        };
+    }
+    let mut divisors = Divisors::new(ring, basis);
+    divisors.prove_all(&integral(generators), watch).map_err(|error| error.with_context("a generator"))?;
+    divisors.prove_basis(watch)?;
+    Ok(Status::Proved)
+}
