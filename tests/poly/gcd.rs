@@ -5,7 +5,7 @@ use groebot::poly::{Order, Polynomial, PolynomialRing, gcd};
 use proptest::prelude::*;
 
 use super::factors::gcd_laws;
-use super::sparse::{build, sparse};
+use super::sparse::sparse;
 use crate::corpus::read;
 
 fn ring_over<F: Field>(field: F) -> PolynomialRing<F> {
