@@ -17,10 +17,11 @@ pub struct Pair {
     pub gcd: String,
 }
 
-/// A polynomial over Q and its irreducible factors, with their multiplicities.
+/// A polynomial over Q or GF(p) and its irreducible factors, with their multiplicities.
 #[derive(Debug)]
 pub struct Factored {
     pub name: String,
+    pub field: String,
     pub variables: Vec<String>,
     pub polynomial: String,
     pub unit: String,
@@ -54,6 +55,7 @@ fn factored_of(table: Table<'_>) -> Result<Factored> {
     let factors = table.required("factors")?.tables()?;
     Ok(Factored {
         name: text(table, "name")?,
+        field: text(table, "field")?,
         variables: texts(table, "variables")?,
         polynomial: text(table, "polynomial")?,
         unit: text(table, "unit")?,

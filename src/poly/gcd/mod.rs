@@ -14,11 +14,8 @@ use crate::number::{Field, PrimeElement, Ring};
 
 pub(super) use reference::split_monomial;
 
-/// Fields with fewer elements are extended to have enough points.
-const ENOUGH_POINTS: u64 = 1 << 12;
-
-/// Below this number of terms the tables of an extension cost more than remainder sequences.
-const WORTH_AN_EXTENSION: usize = 60;
+/// Where GF(p) has fewer points than that, it is extended: first a little, then more.
+const POINTS: [u64; 3] = [1 << 8, 1 << 12, 1 << 16];
 
 /// A greatest common divisor of two polynomials and what is left of each.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,20 +96,19 @@ fn by_images<F: Field>(
     match first {
         PrimeElement::Rational(_) => rational::common_in(ring, &packing, f, g),
         PrimeElement::Residue(_) => {
-            let p = ring.field().characteristic();
             let [a, b] = [convert::to_flat(ring, &packing, f)?, convert::to_flat(ring, &packing, g)?];
-            let found = if p < ENOUGH_POINTS {
-                if a.keys.len() + b.keys.len() < WORTH_AN_EXTENSION {
-                    return None;
-                }
-                let degree = (2..).find(|&k| p.pow(k) >= ENOUGH_POINTS)?;
-                Search::new(&Extension::new(p, degree)?, &packing).repeated(&a, &b)
-            } else {
-                Search::new(&Prime::new(p), &packing).repeated(&a, &b)
-            }?;
+            let found = over_prime(ring.field().characteristic(), &packing, &a, &b)?;
             Some(in_ring(ring, &packing, found))
         }
     }
+}
+
+/// The answer over GF(p). A gcd stays the same in an extension of the field.
+fn over_prime(p: u64, packing: &Packing, f: &Flat, g: &Flat) -> Option<Common<Flat>> {
+    POINTS.iter().find_map(|&points| match (1..).find(|&k| p.saturating_pow(k) >= points)? {
+        1 => Search::new(&Prime::new(p), packing).repeated(f, g),
+        degree => Search::new(&Extension::new(p, degree)?, packing).repeated(f, g),
+    })
 }
 
 /// The monic gcd of the ring's own order, and its cofactors.

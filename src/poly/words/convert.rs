@@ -1,5 +1,7 @@
 //! Between the polynomials of a ring over a prime field and those on machine words.
 
+use std::cmp::Reverse;
+
 use num_integer::Integer;
 use num_traits::One;
 
@@ -27,7 +29,7 @@ pub fn to_flat<F: Field>(ring: &PolynomialRing<F>, packing: &Packing, f: &Polyno
         PrimeElement::Rational(_) => None,
     };
     let mut terms = f.terms().iter().map(word).collect::<Option<Vec<_>>>()?;
-    terms.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+    terms.sort_unstable_by_key(|term| Reverse(term.0));
     let (keys, values) = terms.into_iter().unzip();
     Some(Flat { keys, values })
 }
@@ -50,7 +52,7 @@ pub fn to_integral<F: Field>(
     };
     let keys = f.terms().iter().map(|term| key(ring, packing, term));
     let mut terms: Vec<_> = keys.zip(numbers.iter().map(|q| integer(q))).collect();
-    terms.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+    terms.sort_unstable_by_key(|term| Reverse(term.0));
     let (keys, values) = terms.into_iter().unzip();
     let (primitive, content) = Integral { keys, values }.primitive();
     Some((primitive, BigRational::new(content, denominator)))

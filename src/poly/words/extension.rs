@@ -1,7 +1,6 @@
 //! Finite fields of `p^k` elements by tables of logarithms, for primes too small to give enough points.
 
-use super::dense;
-use super::field::{Prime, Random, WordField};
+use super::field::{Random, WordField};
 
 /// The largest field that gets tables.
 const LIMIT: u64 = 1 << 20;
@@ -18,12 +17,10 @@ impl Extension {
     /// The field of `p^k` elements; `None` above `2^20` elements.
     pub fn new(p: u64, k: u32) -> Option<Self> {
         let size = p.checked_pow(k).filter(|&size| size <= LIMIT)?;
-        let base = Prime::new(p);
         let mut random = Random::new(size);
         loop {
-            let mut modulus: Vec<u64> = (0..k).map(|_| random.below(p)).collect();
-            modulus.push(1);
-            if let Some(powers) = powers_of_x(&base, &modulus, size) {
+            let modulus = 1 + random.below(size - 1);
+            if let Some(powers) = powers_of_x(p, size, modulus) {
                 let mut logarithms = vec![0; size as usize];
                 powers.iter().enumerate().for_each(|(n, &power)| logarithms[power as usize] = n as u32);
                 return Some(Extension { p, powers, logarithms });
@@ -32,21 +29,34 @@ impl Extension {
     }
 }
 
-/// All powers of `x` modulo `modulus` as numbers, if they are all `size - 1` nonzero elements: then `modulus` is a
-/// primitive polynomial.
-fn powers_of_x(base: &Prime, modulus: &[u64], size: u64) -> Option<Vec<u32>> {
-    let mut powers = Vec::with_capacity(size as usize - 1);
-    let mut power = dense::rem(base, &[1], modulus);
+/// All powers of `x` as numbers, where `x^k` is the element `top`, if they are all `size - 1` nonzero elements: then
+/// `x^k - top` is a primitive polynomial.
+fn powers_of_x(p: u64, size: u64, top: u64) -> Option<Vec<u32>> {
+    let multiples: Vec<u64> =
+        std::iter::successors(Some(0), |&n| Some(add_digits(p, n, top))).take(p as usize).collect();
+    let place = size / p;
+    let (mut powers, mut power) = (Vec::with_capacity(size as usize - 1), 1);
     for n in 0..size - 1 {
-        let number = power.iter().rev().fold(0, |number, &digit| number * base.modulus() + digit);
-        if number == 0 || (n > 0 && number == 1) {
+        if power == 0 || (n > 0 && power == 1) {
             return None;
         }
-        powers.push(number as u32);
-        power.insert(0, 0);
-        power = dense::rem(base, &power, modulus);
+        powers.push(power as u32);
+        power = add_digits(p, power % place * p, multiples[(power / place) as usize]);
     }
-    (power == [1]).then_some(powers)
+    (power == 1).then_some(powers)
+}
+
+/// The sum digit by digit to the base `p`.
+fn add_digits(p: u64, mut a: u64, mut b: u64) -> u64 {
+    if p == 2 {
+        return a ^ b;
+    }
+    let (mut sum, mut place) = (0, 1);
+    while a > 0 || b > 0 {
+        sum += (a % p + b % p) % p * place;
+        (a, b, place) = (a / p, b / p, place * p);
+    }
+    sum
 }
 
 impl WordField for Extension {
@@ -57,15 +67,7 @@ impl WordField for Extension {
         self.p
     }
     fn add(&self, a: u64, b: u64) -> u64 {
-        if self.p == 2 {
-            return a ^ b;
-        }
-        let (mut a, mut b, mut sum, mut place) = (a, b, 0, 1);
-        while a > 0 || b > 0 {
-            sum += (a % self.p + b % self.p) % self.p * place;
-            (a, b, place) = (a / self.p, b / self.p, place * self.p);
-        }
-        sum
+        add_digits(self.p, a, b)
     }
     fn neg(&self, a: u64) -> u64 {
         let (mut a, mut result, mut place) = (a, 0, 1);

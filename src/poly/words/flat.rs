@@ -1,5 +1,6 @@
 //! Sparse multivariate polynomials over a finite field: sorted packed exponents beside a vector of words.
 
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::dense::Dense;
@@ -53,11 +54,6 @@ impl Packing {
         u128::from(exponent) << self.lanes[variable].shift
     }
 
-    /// The total degree of `key`.
-    pub fn degree(&self, key: u128) -> u64 {
-        (0..self.variables()).map(|v| u64::from(self.exponent(key, v))).sum()
-    }
-
     /// `key` without `variable`.
     pub fn without(&self, key: u128, variable: usize) -> u128 {
         let lane = self.lanes[variable];
@@ -109,7 +105,7 @@ impl Flat {
 
     /// Terms in any order, like terms collected.
     pub fn collect<K: WordField>(field: &K, mut terms: Vec<(u128, u64)>) -> Self {
-        terms.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+        terms.sort_unstable_by_key(|term| Reverse(term.0));
         let mut result = Flat { keys: Vec::with_capacity(terms.len()), values: Vec::with_capacity(terms.len()) };
         for (key, value) in terms {
             result.push(field, key, value);

@@ -71,7 +71,7 @@ def gcd(case, found):
 
 def factors(cases):
     """The text of factor.toml."""
-    cases = [case | {"field": "Q"} for case in cases]
+    cases = [{"field": "Q"} | case for case in cases]
     scripts = [FACTOR.format(ring=ring(case), **case) for case in cases]
     commands, found = run(scripts)
     return document(commands, [factorisation(case, found) for case in cases])
