@@ -9,6 +9,7 @@ mod engine;
 mod fglm;
 pub mod ideal;
 mod pairs;
+pub mod parametric;
 mod reduced;
 pub mod verify;
 

@@ -86,6 +86,11 @@ impl<F: Field> Fractions<F> {
         self.relations.iter().any(|relation| relation.variable == variable)
     }
 
+    /// The relations: a parameter and the polynomial that its square equals.
+    pub fn squares(&self) -> impl Iterator<Item = (usize, &Polynomial<F::Element>)> {
+        self.relations.iter().map(|relation| (relation.variable, &relation.square))
+    }
+
     /// `f` modulo the relations: every algebraic parameter to the power 0 or 1.
     pub fn reduce(&self, f: &Polynomial<F::Element>) -> Polynomial<F::Element> {
         self.relations.iter().rev().fold(f.clone(), |f, relation| {
