@@ -6,6 +6,7 @@
 pub mod buchberger;
 mod division;
 mod engine;
+pub mod f4;
 mod fglm;
 pub mod ideal;
 mod pairs;
@@ -15,6 +16,7 @@ pub mod verify;
 
 pub use division::{Division, divide, normal_form, s_polynomial};
 pub use engine::{Basis, Options, basis};
+pub use f4::{Trace, f4};
 pub use fglm::Quotient;
 pub use pairs::Strategy;
 pub use reduced::reduced_basis;

@@ -1,0 +1,185 @@
+//! Elimination modulo one prime, eight rows at a time.
+
+use super::sweep::{Sparse, Sweep};
+use super::symbolic::{Row, Shape};
+use crate::{Result, Watch};
+
+/// Rows that are reduced together.
+pub(super) const LANES: usize = 8;
+/// Rows of which random combinations are taken together.
+const BLOCK: usize = 64;
+/// A block is done when this many bits of chance say that its rest is zero.
+const CERTAINTY: u32 = 50;
+/// No column.
+const NOWHERE: [u32; LANES] = [u32::MAX; LANES];
+
+/// How the rows of a matrix are reduced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// Each row by itself: tells which rows were independent of those before them.
+    Each,
+    /// Random combinations, as many as the rank: rows that become zero cost little.
+    Combined,
+}
+
+/// The rows that a matrix adds: monic, reduced by the matrix and by one another, greatest lead first.
+pub(super) struct Echelon {
+    pub rows: Vec<Sparse<u32>>,
+    /// With [`Way::Each`]: the lower rows that were independent, and the column that each led when it was found.
+    pub independent: Vec<(usize, u32)>,
+}
+
+/// Reduces the lower rows of `shape` modulo `p`.
+pub(super) fn eliminate(shape: &Shape, coefficients: &[Vec<u32>], p: u32, way: Way, watch: &Watch) -> Result<Echelon> {
+    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], shape, coefficients);
+    let mut independent = Vec::new();
+    let combine = way == Way::Combined && LANES as u32 / 2 * p.ilog2() >= CERTAINTY;
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    for (index, rows) in shape.lower.chunks(if combine { BLOCK } else { LANES }).enumerate() {
+        watch.check()?;
+        if rows.len() <= LANES {
+            take_each(&mut sweep, rows);
+            let fresh = extract(&mut sweep, rows.len());
+            independent.extend(fresh.into_iter().map(|(lane, column)| (index * LANES + lane, column)));
+        } else {
+            take_combinations(&mut sweep, rows, p, &mut random, watch)?;
+        }
+    }
+    interreduce(&mut sweep, watch)?;
+    let mut rows = sweep.rows;
+    rows.sort_unstable_by_key(|row| row.columns[0]);
+    Ok(Echelon { rows, independent })
+}
+
+/// Adds random combinations of `rows` until their rest is zero but for chance.
+fn take_combinations(
+    sweep: &mut Sweep<'_, u32, LANES>,
+    rows: &[Row],
+    p: u32,
+    random: &mut Random,
+    watch: &Watch,
+) -> Result<()> {
+    let zeros = CERTAINTY.div_ceil(p.ilog2()) as usize;
+    let mut rank = 0;
+    loop {
+        watch.check()?;
+        for row in rows {
+            sweep.accumulate(row, &std::array::from_fn(|_| random.below(p)));
+        }
+        let fresh = clear_and_extract(sweep, LANES).len();
+        rank += fresh;
+        if fresh + zeros <= LANES || rank == rows.len() {
+            return Ok(());
+        }
+    }
+}
+
+/// Puts one row in each lane.
+fn take_each(sweep: &mut Sweep<'_, u32, LANES>, rows: &[Row]) {
+    for (lane, row) in rows.iter().enumerate() {
+        sweep.accumulate(row, &unit(lane, sweep.moduli.p[0]));
+    }
+    sweep.clear(0, &NOWHERE);
+}
+
+/// The factor that adds a row to one lane.
+fn unit(lane: usize, p: u32) -> [u32; LANES] {
+    std::array::from_fn(|l| if l == lane { p - 1 } else { 0 })
+}
+
+fn clear_and_extract(sweep: &mut Sweep<'_, u32, LANES>, lanes: usize) -> Vec<(usize, u32)> {
+    sweep.clear(0, &NOWHERE);
+    extract(sweep, lanes)
+}
+
+/// Takes what the lanes hold as new rows, reducing each by those before it: the lanes that were not zero, with their leads.
+fn extract(sweep: &mut Sweep<'_, u32, LANES>, lanes: usize) -> Vec<(usize, u32)> {
+    let mut found: Vec<(usize, usize, Vec<u32>)> = Vec::new();
+    for lane in 0..lanes {
+        let mut row = sweep.lane(lane);
+        // Leads of this batch, from the left: a row found later may lead further left.
+        let mut earlier: Vec<_> = found.iter().collect();
+        earlier.sort_by_key(|(_, lead, _)| *lead);
+        for (_, lead, other) in earlier {
+            if row[*lead] != 0 {
+                let factor = row[*lead];
+                sweep.dense(&mut row[*lead..], &other[*lead..], factor);
+            }
+        }
+        if let Some(lead) = row.iter().position(|&entry| entry != 0) {
+            let inverse = sweep.moduli.inverse(0, row[lead]);
+            row[lead..].iter_mut().for_each(|entry| *entry = sweep.moduli.product(0, *entry, inverse));
+            found.push((lane, lead, row));
+        }
+    }
+    sweep.reset();
+    let free = sweep.free();
+    found
+        .into_iter()
+        .map(|(lane, lead, row)| {
+            sweep.adopt(sparse(&row, free));
+            (lane, (free + lead) as u32)
+        })
+        .collect()
+}
+
+/// The nonzero entries of a row of the free columns.
+fn sparse(row: &[u32], free: usize) -> Sparse<u32> {
+    let nonzero = row.iter().enumerate().filter(|(_, entry)| **entry != 0);
+    let (columns, coefficients) = nonzero.map(|(column, &entry)| ((free + column) as u32, entry)).unzip();
+    Sparse { columns, coefficients }
+}
+
+/// Reduces the found rows by one another, those with the smallest leads first.
+fn interreduce(sweep: &mut Sweep<'_, u32, LANES>, watch: &Watch) -> Result<()> {
+    let mut order: Vec<usize> = (0..sweep.rows.len()).collect();
+    order.sort_unstable_by_key(|&row| std::cmp::Reverse(sweep.rows[row].columns[0]));
+    for group in order.chunks(LANES) {
+        watch.check()?;
+        let mut own = NOWHERE;
+        for (lane, &row) in group.iter().enumerate() {
+            own[lane] = sweep.rows[row].columns[0];
+            let row = sweep.rows[row].clone();
+            sweep.load(&row, &unit(lane, sweep.moduli.p[0]));
+        }
+        let first = own.iter().min().copied().unwrap_or(0);
+        sweep.clear(first as usize, &own);
+        let free = sweep.free();
+        for (lane, &row) in group.iter().enumerate() {
+            sweep.rows[row] = sparse(&sweep.lane(lane), free);
+        }
+        sweep.reset();
+    }
+    Ok(())
+}
+
+/// The lower rows of `shape`, reduced by its upper rows alone: one list of residues in the free columns a row.
+pub(super) fn normal_forms(
+    shape: &Shape,
+    coefficients: &[Vec<u32>],
+    p: u32,
+    watch: &Watch,
+) -> Result<Vec<Sparse<u32>>> {
+    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], shape, coefficients);
+    let free = sweep.free();
+    let mut forms = Vec::with_capacity(shape.lower.len());
+    for rows in shape.lower.chunks(LANES) {
+        watch.check()?;
+        take_each(&mut sweep, rows);
+        forms.extend((0..rows.len()).map(|lane| sparse(&sweep.lane(lane), free)));
+        sweep.reset();
+    }
+    Ok(forms)
+}
+
+/// A small generator of random residues (G. Marsaglia, "Xorshift RNGs", 2003); always the same run.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, p: u32) -> u32 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        ((u128::from(self.0) * u128::from(p)) >> 64) as u32
+    }
+}

@@ -1,0 +1,220 @@
+//! The F4 algorithm modulo word-size primes, and traces of it that replay modulo others.
+//!
+//! J.-C. Faugere, "A new efficient algorithm for computing Groebner bases (F4)", J. Pure Applied Algebra 139 (1999). [`f4`] computes
+//! a reduced basis in any order; [`Trace::learn`] also keeps what the computation did, so that [`Trace::replay`] repeats the
+//! arithmetic alone for other primes or other coefficients.
+
+mod eliminate;
+mod lanes;
+mod packing;
+mod running;
+mod sweep;
+mod symbolic;
+mod table;
+mod trace;
+
+pub use trace::Trace;
+
+use super::Basis;
+use crate::number::Zp;
+use crate::poly::{Order, Polynomial, PolynomialRing, Term};
+use crate::{Error, ErrorKind, Result, Watch};
+use eliminate::{Way, eliminate, normal_forms};
+use packing::{Packing, words};
+use running::{Running, overflow};
+use symbolic::{Builder, Columns, Shape};
+use table::Table;
+
+/// The largest modulus, exclusive.
+pub const MODULUS_LIMIT: u64 = 1 << 31;
+
+/// The reduced Groebner basis of the ideal of `generators` modulo a prime below 2^31, in the order of `ring`.
+///
+/// Rows are reduced through random combinations of them: that a basis is incomplete has a probability of less than 2^-50 for
+/// each block of rows; every polynomial of it lies in the ideal without doubt. Primes below 2^13 are treated row by row.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for a larger modulus; [`ErrorKind::Overflow`] when a degree outgrows 15 bits or the variables the
+/// widest keys; what `watch` stops with.
+pub fn f4(ring: &PolynomialRing<Zp>, generators: &[Polynomial<u64>], watch: &Watch) -> Result<Basis<Zp>> {
+    Ok(in_some_width(ring, generators, Way::Combined, watch)?.0)
+}
+
+impl Trace {
+    /// The reduced basis as [`f4`] computes it, each row by itself and without chance, and what the computation teaches.
+    ///
+    /// # Errors
+    /// As [`f4`].
+    pub fn learn(
+        ring: &PolynomialRing<Zp>,
+        generators: &[Polynomial<u64>],
+        watch: &Watch,
+    ) -> Result<(Basis<Zp>, Trace)> {
+        in_some_width(ring, generators, Way::Each, watch)
+    }
+}
+
+/// Tries narrow lanes first, then wider ones.
+fn in_some_width(
+    ring: &PolynomialRing<Zp>,
+    generators: &[Polynomial<u64>],
+    way: Way,
+    watch: &Watch,
+) -> Result<(Basis<Zp>, Trace)> {
+    let p = ring.field().modulus();
+    if p >= MODULUS_LIMIT {
+        let text = format!("F4 works modulo primes below 2^31, not modulo {p}");
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    match in_lanes(ring, generators, way, 8, watch) {
+        Err(error) if error.kind() == ErrorKind::Overflow => in_lanes(ring, generators, way, 16, watch),
+        outcome => outcome,
+    }
+}
+
+/// Fixes the number of words of a monomial.
+fn in_lanes(
+    ring: &PolynomialRing<Zp>,
+    generators: &[Polynomial<u64>],
+    way: Way,
+    bits: u32,
+    watch: &Watch,
+) -> Result<(Basis<Zp>, Trace)> {
+    let words = words(ring.layout().order(), ring.variables().len(), bits);
+    match words {
+        1 => Run::<1>::new(ring, bits, way).basis(generators, watch),
+        2 => Run::<2>::new(ring, bits, way).basis(generators, watch),
+        3 => Run::<3>::new(ring, bits, way).basis(generators, watch),
+        4 => Run::<4>::new(ring, bits, way).basis(generators, watch),
+        5..=6 => Run::<6>::new(ring, bits, way).basis(generators, watch),
+        7..=8 => Run::<8>::new(ring, bits, way).basis(generators, watch),
+        _ => {
+            let text = format!("{} variables are more than the keys of F4 hold", ring.variables().len());
+            Err(Error::new(ErrorKind::Overflow, text))
+        }
+    }
+}
+
+/// A run of F4 with monomials of `W` words.
+struct Run<'a, const W: usize> {
+    ring: &'a PolynomialRing<Zp>,
+    p: u32,
+    way: Way,
+    /// Whether the order looks at the degree first: pairs then go by the degree of their common multiple.
+    graded: bool,
+    running: Running<W>,
+    coefficients: Vec<Vec<u32>>,
+    table: Table<W>,
+    trace: Trace,
+}
+
+impl<'a, const W: usize> Run<'a, W> {
+    fn new(ring: &'a PolynomialRing<Zp>, bits: u32, way: Way) -> Self {
+        let graded = *ring.layout().order() == Order::GrevLex;
+        let packing = Packing::new(ring.layout().order(), ring.variables().len(), bits);
+        Run {
+            ring,
+            p: ring.field().modulus() as u32,
+            way,
+            graded,
+            running: Running::new(packing, !graded),
+            coefficients: Vec::new(),
+            table: Table::new(),
+            trace: Trace::default(),
+        }
+    }
+
+    /// The algorithm: reduce the generators by one another; then select pairs, complete them to a matrix by symbolic
+    /// preprocessing, eliminate, and adjoin the new rows, until no pair is left; reduce the tails.
+    fn basis(mut self, generators: &[Polynomial<u64>], watch: &Watch) -> Result<(Basis<Zp>, Trace)> {
+        self.begin(generators, watch)?;
+        let mut round = 0;
+        loop {
+            let selected = self.running.select();
+            if selected.is_empty() || self.trace.unit {
+                return self.finish(watch);
+            }
+            watch.report("F4", round, self.running.open() + selected.len());
+            // In an order by degree the sugar of a round is its degree.
+            let sugar = selected[0].sugar;
+            let bound = if self.graded { u32::MAX } else { sugar };
+            let mut builder = Builder::new(&self.running, &mut self.table, bound);
+            builder.take_pairs(&selected)?;
+            builder.close(watch)?;
+            let (shape, columns) = builder.finish();
+            self.eliminate(shape, &columns, sugar, watch)?;
+            round += 1;
+        }
+    }
+
+    /// The generators, reduced by one another without multiplying any.
+    fn begin(&mut self, generators: &[Polynomial<u64>], watch: &Watch) -> Result<()> {
+        let mut raw = Running::new(self.running.packing.clone(), false);
+        for (index, f) in generators.iter().enumerate().filter(|(_, f)| !f.is_zero()) {
+            let keys = f.terms().iter().map(|term| {
+                let exponents = self.ring.layout().exponents(&term.monomial);
+                raw.packing.key(&exponents).ok_or_else(overflow)
+            });
+            let keys = keys.collect::<Result<Vec<_>>>()?;
+            raw.elements.push(running::Element { keys, redundant: false });
+            self.coefficients.push(f.terms().iter().map(|term| term.coefficient as u32).collect());
+            self.trace.generators.push((index, f.terms().len()));
+        }
+        let all: Vec<u32> = (0..raw.elements.len() as u32).collect();
+        let mut builder = Builder::new(&raw, &mut self.table, u32::MAX);
+        builder.take_elements(&all, 0)?;
+        let (shape, columns) = builder.finish();
+        let given = self.coefficients.len();
+        self.eliminate(shape, &columns, 0, watch)?;
+        self.coefficients.drain(..given);
+        Ok(())
+    }
+
+    /// Reduces a matrix and adjoins its new rows.
+    fn eliminate(&mut self, shape: Shape, columns: &Columns<W>, sugar: u32, watch: &Watch) -> Result<()> {
+        let terms: usize = shape.upper.iter().chain(&shape.lower).map(|row| row.columns.len()).sum();
+        watch.check_terms(terms + self.coefficients.iter().map(Vec::len).sum::<usize>())?;
+        let echelon = eliminate(&shape, &self.coefficients, self.p, self.way, watch)?;
+        if self.way == Way::Each {
+            self.trace.record(shape, &echelon);
+        }
+        // The smallest lead first: what makes another redundant then comes before it.
+        for row in echelon.rows.into_iter().rev() {
+            let keys: Vec<_> = row.columns.iter().map(|&column| columns[column as usize]).collect();
+            self.trace.unit |= keys[0] == [0; W];
+            let degree = |key| self.running.packing.degree(key);
+            let sugar = if self.graded { degree(&keys[0]) } else { keys.iter().map(degree).fold(sugar, u32::max) };
+            self.running.adjoin(keys, sugar)?;
+            self.coefficients.push(row.coefficients);
+        }
+        Ok(())
+    }
+
+    /// The reduced basis: live elements with their tails reduced, smallest lead first.
+    fn finish(mut self, watch: &Watch) -> Result<(Basis<Zp>, Trace)> {
+        let packing = self.running.packing.clone();
+        let mut live = self.running.live();
+        let lead = |element: &u32| packing.rank(&self.running.elements[*element as usize].keys[0]);
+        live.sort_by_key(lead);
+        let mut builder = Builder::new(&self.running, &mut self.table, u32::MAX);
+        builder.take_elements(&live, 1)?;
+        builder.close(watch)?;
+        let (shape, columns) = builder.finish();
+        let tails = normal_forms(&shape, &self.coefficients, self.p, watch)?;
+        let term = |key: &packing::Key<W>, coefficient: u32| {
+            let monomial = self.ring.monomial(&packing.exponents(key))?;
+            Ok(Term { coefficient: u64::from(coefficient), monomial })
+        };
+        let mut polynomials = Vec::with_capacity(live.len());
+        for (element, tail) in live.iter().zip(&tails) {
+            let lead = term(&self.running.elements[*element as usize].keys[0], 1);
+            let rest = tail.columns.iter().zip(&tail.coefficients).map(|(&c, &a)| term(&columns[c as usize], a));
+            polynomials.push(self.ring.collect(std::iter::once(lead).chain(rest).collect::<Result<Vec<_>>>()?));
+        }
+        if self.way == Way::Each {
+            self.trace.last = trace::pruned(shape);
+            self.trace.supports = tails.into_iter().map(|tail| tail.columns.into()).collect();
+        }
+        Ok((Basis { ring: self.ring.clone(), polynomials, cofactors: Vec::new() }, self.trace))
+    }
+}

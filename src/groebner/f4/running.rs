@@ -1,0 +1,152 @@
+//! The running basis: elements, their leading monomials and the pairs between them.
+
+use super::packing::{Key, Packing, quotient};
+use crate::{Error, ErrorKind, Result};
+
+/// A critical pair.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair<const W: usize> {
+    pub lcm: Key<W>,
+    pub left: u32,
+    pub right: u32,
+    /// The degree that it would have had if the generators had been homogenised: its sugar.
+    pub sugar: u32,
+}
+
+/// A polynomial of the basis: monomials greatest first; its coefficients are kept apart, so that replays share the rest.
+#[derive(Clone, Debug)]
+pub(super) struct Element<const W: usize> {
+    pub keys: Vec<Key<W>>,
+    pub redundant: bool,
+}
+
+/// A leading monomial that may divide others.
+#[derive(Clone, Copy, Debug)]
+struct Lead<const W: usize> {
+    key: Key<W>,
+    element: u32,
+    /// By how much its sugar exceeds the degree of its lead; the same for all its multiples.
+    excess: u32,
+}
+
+/// Elements with their critical pairs, by the criteria of Gebauer and Moeller ("On an installation of Buchberger's
+/// algorithm", J. Symbolic Computation 6, 1988).
+#[derive(Clone, Debug)]
+pub(super) struct Running<const W: usize> {
+    pub packing: Packing<W>,
+    pub elements: Vec<Element<W>>,
+    /// The leads of the elements that are not redundant, in the order of their coming.
+    leads: Vec<Lead<W>>,
+    /// The leads that symbolic preprocessing may use: outside the orders by degree those of redundant elements too, which
+    /// are older, and whose multiples have less sugar.
+    reducers: Vec<Lead<W>>,
+    keep: bool,
+    pairs: Vec<Pair<W>>,
+}
+
+/// The error that makes the caller try again with wider lanes.
+pub(super) fn overflow() -> Error {
+    Error::new(ErrorKind::Overflow, "a monomial's degree exceeds what the widest lanes hold")
+}
+
+impl<const W: usize> Running<W> {
+    pub fn new(packing: Packing<W>, keep: bool) -> Self {
+        Running { packing, elements: Vec::new(), leads: Vec::new(), reducers: Vec::new(), keep, pairs: Vec::new() }
+    }
+
+    /// The pairs that are still open.
+    pub fn open(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// How many elements came so far that may divide others, and those still in use.
+    pub fn live(&self) -> Vec<u32> {
+        self.leads.iter().map(|lead| lead.element).collect()
+    }
+
+    /// The first element, in the order of coming, whose leading monomial divides `key` and whose multiple's sugar is at most
+    /// `bound`.
+    #[inline]
+    pub fn divisor(&self, key: &Key<W>, bound: u32) -> Option<u32> {
+        let room = bound.saturating_sub(self.packing.degree(key));
+        let reduces = |lead: &&Lead<W>| self.packing.divides(&lead.key, key) && lead.excess <= room;
+        self.reducers.iter().find(reduces).map(|lead| lead.element)
+    }
+
+    /// Takes all pairs of the smallest sugar, grouped by their common multiple.
+    pub fn select(&mut self) -> Vec<Pair<W>> {
+        let Some(sugar) = self.pairs.iter().map(|pair| pair.sugar).min() else { return Vec::new() };
+        let (mut selected, rest) =
+            std::mem::take(&mut self.pairs).into_iter().partition::<Vec<_>, _>(|p| p.sugar == sugar);
+        self.pairs = rest;
+        selected.sort_by(|a, b| self.packing.compare(&a.lcm, &b.lcm).then(a.left.cmp(&b.left)));
+        selected
+    }
+
+    /// Adds an element: old pairs that it makes superfluous go, those with it that no criterion drops come.
+    pub fn adjoin(&mut self, keys: Vec<Key<W>>, sugar: u32) -> Result<()> {
+        let lead = keys[0];
+        let element = self.elements.len() as u32;
+        let excess = sugar.saturating_sub(self.packing.degree(&lead));
+        let fresh = self.fresh_pairs(&lead, element, excess)?;
+        self.drop_covered(&lead);
+        self.pairs.extend(fresh);
+        let redundant = self.divisor(&lead, u32::MAX).is_some();
+        let packing = &self.packing;
+        let elements = &mut self.elements;
+        self.leads.retain(|old| {
+            let covered = packing.divides(&lead, &old.key);
+            elements[old.element as usize].redundant |= covered;
+            !covered
+        });
+        let head = Lead { key: lead, element, excess };
+        if !redundant {
+            self.leads.push(head);
+        }
+        if self.keep {
+            self.reducers.push(head);
+        } else {
+            self.reducers.clone_from(&self.leads);
+        }
+        self.elements.push(Element { keys, redundant });
+        Ok(())
+    }
+
+    /// Criterion B: a pair goes when the new lead divides its multiple strictly on both sides.
+    fn drop_covered(&mut self, lead: &Key<W>) {
+        let (packing, elements) = (&self.packing, &self.elements);
+        let differs =
+            |element: u32, lcm: &Key<W>| packing.lcm(lead, &elements[element as usize].keys[0]).as_ref() != Some(lcm);
+        self.pairs.retain(|pair| {
+            !(packing.divides(lead, &pair.lcm) && differs(pair.left, &pair.lcm) && differs(pair.right, &pair.lcm))
+        });
+    }
+
+    /// Criteria M and F and the product criterion among the pairs with the new element.
+    fn fresh_pairs(&self, lead: &Key<W>, element: u32, excess: u32) -> Result<Vec<Pair<W>>> {
+        let mut candidates = Vec::with_capacity(self.leads.len());
+        for old in &self.leads {
+            let lcm = self.packing.lcm(lead, &old.key).ok_or_else(overflow)?;
+            let coprime = self.packing.coprime(lead, &old.key, &lcm);
+            let degree = self.packing.degree(&lcm);
+            let pair = Pair { lcm, left: old.element, right: element, sugar: degree + excess.max(old.excess) };
+            candidates.push((degree, pair, coprime));
+        }
+        // Of equal multiples a coprime pair comes first: it drops the others, then goes itself.
+        candidates.sort_by(|(d, a, x), (e, b, y)| {
+            d.cmp(e).then(a.lcm.cmp(&b.lcm)).then(y.cmp(x)).then(a.sugar.cmp(&b.sugar)).then(a.left.cmp(&b.left))
+        });
+        let mut kept: Vec<(Pair<W>, bool)> = Vec::new();
+        for (_, pair, coprime) in candidates {
+            if !kept.iter().any(|(other, _)| self.packing.divides(&other.lcm, &pair.lcm)) {
+                kept.push((pair, coprime));
+            }
+        }
+        Ok(kept.into_iter().filter(|(_, coprime)| !coprime).map(|(pair, _)| pair).collect())
+    }
+
+    /// The multiplier that lifts `element` to `multiple`.
+    pub fn multiplier(&self, element: u32, multiple: &Key<W>) -> Key<W> {
+        quotient(multiple, &self.elements[element as usize].keys[0])
+    }
+}

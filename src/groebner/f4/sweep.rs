@@ -1,0 +1,168 @@
+//! One pass of elimination over `N` lanes: sums in all columns, cleared from the left by the rows that lead there.
+
+use super::lanes::{Coefficient, Instructions, Moduli};
+use super::symbolic::{Row, Shape};
+
+/// A monic sparse row: columns ascending, coefficients none zero in all lanes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Sparse<C> {
+    pub columns: Vec<u32>,
+    pub coefficients: Vec<C>,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// The workspace: the sums of the lanes, and the rows that were found so far with the columns that they lead.
+pub(super) struct Sweep<'a, C, const N: usize> {
+    pub moduli: Moduli<N>,
+    instructions: Instructions,
+    shape: &'a Shape,
+    /// The coefficients of the elements, by element.
+    coefficients: &'a [Vec<C>],
+    pub sums: Vec<[u64; N]>,
+    /// Which row of `rows` leads a column, from the first free column on.
+    leaders: Vec<u32>,
+    pub rows: Vec<Sparse<C>>,
+}
+
+/// Clears the columns of the reducers, then those of the rows found so far; `own[l]` is a column that lane `l` keeps.
+#[inline(always)]
+fn clear<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, from: usize, own: &[u32; N]) {
+    let free = sweep.shape.upper.len();
+    for column in from..free {
+        if sweep.sums[column] != [0; N] {
+            let factor = sweep.moduli.residues(&sweep.sums[column]);
+            sweep.sums[column] = [0; N];
+            if factor != [0; N] {
+                let Row { element, columns } = &sweep.shape.upper[column];
+                let coefficients = &sweep.coefficients[*element as usize];
+                sweep.moduli.subtract(&mut sweep.sums, &columns[1..], &coefficients[1..], &factor);
+            }
+        }
+    }
+    for column in from.max(free)..sweep.shape.columns {
+        let leader = sweep.leaders[column - free];
+        if leader == NONE || sweep.sums[column] == [0; N] {
+            continue;
+        }
+        let mut factor = sweep.moduli.residues(&sweep.sums[column]);
+        for l in 0..N {
+            if own[l] == column as u32 {
+                factor[l] = 0;
+            } else {
+                sweep.sums[column][l] = 0;
+            }
+        }
+        if factor != [0; N] {
+            let row = &sweep.rows[leader as usize];
+            sweep.moduli.subtract(&mut sweep.sums, &row.columns[1..], &row.coefficients[1..], &factor);
+        }
+    }
+}
+
+#[inline(always)]
+fn accumulate<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, row: &Row, factor: &[u32; N]) {
+    let coefficients = &sweep.coefficients[row.element as usize];
+    let skip = coefficients.len() - row.columns.len();
+    sweep.moduli.subtract(&mut sweep.sums, &row.columns, &coefficients[skip..], factor);
+}
+
+#[inline(always)]
+fn load<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, row: &Sparse<C>, factor: &[u32; N]) {
+    sweep.moduli.subtract(&mut sweep.sums, &row.columns, &row.coefficients, factor);
+}
+
+/// `target - factor * row`, dense residues of the first lane's modulus.
+#[inline(always)]
+fn dense<const N: usize>(moduli: &Moduli<N>, target: &mut [u32], row: &[u32], factor: u32) {
+    let negative = u64::from(moduli.p[0] - factor);
+    for (entry, &other) in target.iter_mut().zip(row) {
+        *entry = moduli.residue(0, u64::from(*entry) + negative * u64::from(other));
+    }
+}
+
+/// Compiles `$body` for each set of vector instructions and calls the one that the processor has.
+macro_rules! dispatch {
+    ($instructions:expr, [$($generic:tt)*], ($($name:ident : $type:ty),*), $body:ident) => {{
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2")]
+        fn avx2<$($generic)*>($($name: $type),*) { $body($($name),*) }
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx512f,avx512dq,avx2")]
+        fn avx512<$($generic)*>($($name: $type),*) { $body($($name),*) }
+        match $instructions {
+            Instructions::Portable => $body($($name),*),
+            // Sound: `Instructions::detect` found these on this processor; nothing else of the functions is unsafe.
+            #[cfg(target_arch = "x86_64")]
+            #[allow(unsafe_code)]
+            Instructions::Avx2 => unsafe { avx2($($name),*) },
+            #[cfg(target_arch = "x86_64")]
+            #[allow(unsafe_code)]
+            Instructions::Avx512 => unsafe { avx512($($name),*) },
+        }
+    }};
+}
+
+impl<'a, C: Coefficient<N>, const N: usize> Sweep<'a, C, N> {
+    pub fn new(moduli: [u32; N], shape: &'a Shape, coefficients: &'a [Vec<C>]) -> Self {
+        Sweep {
+            moduli: Moduli::new(moduli),
+            instructions: Instructions::detect(),
+            shape,
+            coefficients,
+            sums: vec![[0; N]; shape.columns],
+            leaders: vec![NONE; shape.columns - shape.upper.len()],
+            rows: Vec::new(),
+        }
+    }
+
+    /// The first column that no reducer leads.
+    pub fn free(&self) -> usize {
+        self.shape.upper.len()
+    }
+
+    /// Subtracts `factor[l]` times a row of the matrix from each lane.
+    pub fn accumulate(&mut self, row: &Row, factor: &[u32; N]) {
+        let sweep = self;
+        dispatch!(sweep.instructions, [C: Coefficient<N>, const N: usize],
+            (sweep: &mut Sweep<'_, C, N>, row: &Row, factor: &[u32; N]), accumulate);
+    }
+
+    /// Subtracts `factor[l]` times a found row from each lane.
+    pub fn load(&mut self, row: &Sparse<C>, factor: &[u32; N]) {
+        let sweep = self;
+        dispatch!(sweep.instructions, [C: Coefficient<N>, const N: usize],
+            (sweep: &mut Sweep<'_, C, N>, row: &Sparse<C>, factor: &[u32; N]), load);
+    }
+
+    /// Clears all columns from `from` on that some row leads; lane `l` keeps the column `own[l]`.
+    pub fn clear(&mut self, from: usize, own: &[u32; N]) {
+        let (sweep, own) = (self, own);
+        dispatch!(sweep.instructions, [C: Coefficient<N>, const N: usize],
+            (sweep: &mut Sweep<'_, C, N>, from: usize, own: &[u32; N]), clear);
+    }
+
+    /// `target - factor * row` modulo the first lane's prime.
+    pub fn dense(&self, target: &mut [u32], row: &[u32], factor: u32) {
+        let moduli = &self.moduli;
+        dispatch!(self.instructions, [const N: usize],
+            (moduli: &Moduli<N>, target: &mut [u32], row: &[u32], factor: u32), dense);
+    }
+
+    /// Takes a row in: from now on it clears the column that it leads.
+    pub fn adopt(&mut self, row: Sparse<C>) {
+        let free = self.free();
+        self.leaders[row.columns[0] as usize - free] = self.rows.len() as u32;
+        self.rows.push(row);
+    }
+
+    /// The residues of one lane in the free columns.
+    pub fn lane(&self, lane: usize) -> Vec<u32> {
+        self.sums[self.free()..].iter().map(|sums| self.moduli.residue(lane, sums[lane])).collect()
+    }
+
+    /// Forgets the sums.
+    pub fn reset(&mut self) {
+        self.sums.fill([0; N]);
+    }
+}

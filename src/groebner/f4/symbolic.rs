@@ -1,0 +1,193 @@
+//! Symbolic preprocessing: which multiples of which elements a round's matrix holds, and in which columns.
+
+use super::packing::{Key, product, quotient};
+use super::running::{Pair, Running, overflow};
+use super::table::Table;
+use crate::{Result, Watch};
+
+/// A row: a multiple of an element. Its entries stand in the element's order of terms.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    pub element: u32,
+    /// The columns of its terms.
+    pub columns: Box<[u32]>,
+}
+
+/// The shape of a round's matrix. The first `upper.len()` columns are the leads of the reducers, one each, in the same order;
+/// in both parts columns descend in the monomial order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shape {
+    pub columns: usize,
+    pub upper: Vec<Row>,
+    pub lower: Vec<Row>,
+}
+
+impl Shape {
+    /// Bytes that the shape takes.
+    pub fn bytes(&self) -> usize {
+        self.upper.iter().chain(&self.lower).map(|row| 4 * row.columns.len() + 24).sum()
+    }
+}
+
+/// What the columns of a shape stand for.
+pub(super) type Columns<const W: usize> = Vec<Key<W>>;
+
+const UNSEEN: u32 = u32::MAX;
+
+/// What a monomial of the matrix is, while the matrix grows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Role {
+    /// Nobody looked for a reducer yet.
+    Open,
+    /// It has this upper row.
+    Upper(u32),
+    /// Nothing reduces it.
+    Free,
+}
+
+/// The growing matrix.
+pub(super) struct Builder<'a, const W: usize> {
+    running: &'a Running<W>,
+    table: &'a mut Table<W>,
+    /// Indices of the monomials in the matrix.
+    monomials: Vec<u32>,
+    /// The place in `monomials`, by index of the table.
+    place: Vec<u32>,
+    roles: Vec<Role>,
+    upper: Vec<Row>,
+    lower: Vec<Row>,
+    /// No reducer's sugar exceeds this.
+    bound: u32,
+}
+
+impl<'a, const W: usize> Builder<'a, W> {
+    pub fn new(running: &'a Running<W>, table: &'a mut Table<W>, bound: u32) -> Self {
+        let place = vec![UNSEEN; table.len()];
+        Builder {
+            bound,
+            running,
+            table,
+            monomials: Vec::new(),
+            place,
+            roles: Vec::new(),
+            upper: Vec::new(),
+            lower: Vec::new(),
+        }
+    }
+
+    /// The place of a monomial, which is taken in when it is new.
+    #[inline]
+    fn place_of(&mut self, key: Key<W>) -> u32 {
+        let index = self.table.index(key) as usize;
+        if index >= self.place.len() {
+            self.place.resize(index + 1, UNSEEN);
+        }
+        if self.place[index] == UNSEEN {
+            self.place[index] = self.monomials.len() as u32;
+            self.monomials.push(index as u32);
+            self.roles.push(Role::Open);
+        }
+        self.place[index]
+    }
+
+    /// The row `multiplier * element`, `skip` leading terms left out.
+    fn row(&mut self, element: u32, multiplier: &Key<W>, skip: usize) -> Result<Row> {
+        let running = self.running;
+        let keys = &running.elements[element as usize].keys[skip..];
+        let mut columns = Vec::with_capacity(keys.len());
+        let mut over = false;
+        for key in keys {
+            let key = product(key, multiplier);
+            over |= running.packing.overflows(&key);
+            columns.push(self.place_of(key));
+        }
+        if over { Err(overflow()) } else { Ok(Row { element, columns: columns.into() }) }
+    }
+
+    /// The rows of the selected pairs: of each common multiple, the first row is its reducer, the others are to be reduced.
+    pub fn take_pairs(&mut self, selected: &[Pair<W>]) -> Result<()> {
+        for group in selected.chunk_by(|a, b| a.lcm == b.lcm) {
+            let lcm = group[0].lcm;
+            let mut elements: Vec<u32> = group.iter().flat_map(|pair| [pair.left, pair.right]).collect();
+            elements.sort_unstable();
+            elements.dedup();
+            let place = self.place_of(lcm) as usize;
+            for element in elements {
+                let row = self.row(element, &self.running.multiplier(element, &lcm), 0)?;
+                if self.roles[place] == Role::Open {
+                    self.roles[place] = Role::Upper(self.upper.len() as u32);
+                    self.upper.push(row);
+                } else {
+                    self.lower.push(row);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The elements themselves, `skip` leading terms left out, as rows to be reduced.
+    pub fn take_elements(&mut self, elements: &[u32], skip: usize) -> Result<()> {
+        for &element in elements {
+            let row = self.row(element, &[0; W], skip)?;
+            self.lower.push(row);
+        }
+        Ok(())
+    }
+
+    /// Finds a reducer for each monomial that has one, the monomials of the reducers included.
+    pub fn close(&mut self, watch: &Watch) -> Result<()> {
+        let mut next = 0;
+        while next < self.monomials.len() {
+            if next % 256 == 0 {
+                watch.check()?;
+            }
+            if self.roles[next] == Role::Open {
+                let key = *self.table.key(self.monomials[next]);
+                self.roles[next] = match self.running.divisor(&key, self.bound) {
+                    None => Role::Free,
+                    Some(element) => {
+                        let multiplier = quotient(&key, &self.running.elements[element as usize].keys[0]);
+                        let row = self.row(element, &multiplier, 0)?;
+                        self.upper.push(row);
+                        Role::Upper(self.upper.len() as u32 - 1)
+                    }
+                };
+            }
+            next += 1;
+        }
+        Ok(())
+    }
+
+    /// Puts the columns in order: those with a reducer first, each part descending.
+    pub fn finish(self) -> (Shape, Columns<W>) {
+        let packing = &self.running.packing;
+        let mut order: Vec<(bool, Key<W>, u32)> = (0..self.monomials.len() as u32)
+            .map(|place| {
+                let key = self.table.key(self.monomials[place as usize]);
+                (self.roles[place as usize] != Role::Free, packing.rank(key), place)
+            })
+            .collect();
+        order.sort_unstable_by(|a, b| b.cmp(a));
+        let mut column = vec![0; order.len()];
+        let mut upper_order = Vec::with_capacity(self.upper.len());
+        for (index, &(_, _, place)) in order.iter().enumerate() {
+            column[place as usize] = index as u32;
+            if let Role::Upper(row) = self.roles[place as usize] {
+                upper_order.push(row);
+            }
+        }
+        let mut rows: Vec<Option<Row>> = self.upper.into_iter().map(Some).collect();
+        let renumber = |mut row: Row| {
+            row.columns.iter_mut().for_each(|place| *place = column[*place as usize]);
+            row
+        };
+        let upper = upper_order.into_iter().filter_map(|row| rows[row as usize].take()).map(renumber).collect();
+        let lower = self.lower.into_iter().map(renumber).collect();
+        let keys = order.iter().map(|&(_, _, place)| *self.table.key(self.monomials[place as usize])).collect();
+        (Shape { columns: keys_len(&order), upper, lower }, keys)
+    }
+}
+
+fn keys_len<T>(order: &[T]) -> usize {
+    order.len()
+}

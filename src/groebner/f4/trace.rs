@@ -1,0 +1,227 @@
+//! What one run teaches: the matrices without the rows that came to nothing, and the supports of what came out. A replay repeats
+//! the arithmetic for `N` other coefficient vectors at once and looks at no monomial (C. Traverso, "Groebner trace
+//! algorithms", ISSAC 1988).
+
+use super::eliminate::Echelon;
+use super::sweep::{Sparse, Sweep};
+use super::symbolic::{Row, Shape};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// One matrix of the run.
+#[derive(Clone, Debug)]
+pub(super) struct Round {
+    shape: Shape,
+    /// The column that each lower row leads once the rows before it have reduced it.
+    leads: Vec<u32>,
+    /// The columns of each new row, greatest lead first.
+    supports: Vec<Box<[u32]>>,
+}
+
+/// A computation that can be repeated modulo other primes, or with other coefficients: what [`Trace::learn`] gives.
+///
+/// [`Trace::learn`]: super::Trace::learn
+#[derive(Clone, Debug, Default)]
+pub struct Trace {
+    /// The number of terms of each generator that is not zero, with its index.
+    pub(super) generators: Vec<(usize, usize)>,
+    pub(super) rounds: Vec<Round>,
+    /// Tails of the basis elements, to be reduced; the elements, and the columns that stay of each.
+    pub(super) last: Shape,
+    pub(super) supports: Vec<Box<[u32]>>,
+    pub(super) unit: bool,
+}
+
+impl Trace {
+    /// Keeps of a round what led to new rows.
+    pub(super) fn record(&mut self, shape: Shape, echelon: &Echelon) {
+        let mut lower: Vec<Option<Row>> = shape.lower.into_iter().map(Some).collect();
+        let kept = echelon.independent.iter().filter_map(|(index, _)| lower[*index].take()).collect();
+        let shape = pruned(Shape { lower: kept, ..shape });
+        let leads = echelon.independent.iter().map(|(_, lead)| *lead).collect();
+        let supports = echelon.rows.iter().map(|row| row.columns.clone().into()).collect();
+        self.rounds.push(Round { shape, leads, supports });
+    }
+
+    /// Bytes that the trace takes.
+    pub fn bytes(&self) -> usize {
+        let supports = |list: &[Box<[u32]>]| list.iter().map(|s| 4 * s.len()).sum::<usize>();
+        let rounds: usize = self.rounds.iter().map(|round| round.shape.bytes() + supports(&round.supports)).sum();
+        rounds + self.last.bytes() + supports(&self.supports)
+    }
+
+    /// Repeats the run for `N` coefficient vectors at once: `generators[i][j][l]` is the coefficient of term `j` (greatest first)
+    /// of generator `i` in lane `l`, modulo `moduli[l]`, a prime below 2^31.
+    ///
+    /// Gives of each lane the coefficients of the basis polynomials in the order of terms of the learned basis, monic; `None`
+    /// for a lane that goes another way than the learned one: its prime or its parameters are unlucky, or those of the
+    /// learned run were.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when the generators have not the learned numbers of terms; what `watch` stops with.
+    pub fn replay<const N: usize>(
+        &self,
+        moduli: [u32; N],
+        generators: &[Vec<[u32; N]>],
+        watch: &Watch,
+    ) -> Result<[Option<Vec<Vec<u32>>>; N]> {
+        let mut coefficients = self.nonzero_generators(generators)?;
+        let mut alive = [true; N];
+        for (index, round) in self.rounds.iter().enumerate() {
+            watch.report("replay", index, self.rounds.len() - index);
+            let fresh = round.replay(moduli, &coefficients, &mut alive, watch)?;
+            coefficients.extend(fresh);
+            if index == 0 {
+                coefficients.drain(..self.generators.len());
+            }
+        }
+        let tails = self.tails(moduli, &coefficients, &mut alive, watch)?;
+        let lane = |l: usize| {
+            let list = |tail: &Vec<[u32; N]>| std::iter::once(1).chain(tail.iter().map(|c| c[l])).collect();
+            alive[l].then(|| tails.iter().map(list).collect())
+        };
+        Ok(std::array::from_fn(lane))
+    }
+
+    fn nonzero_generators<const N: usize>(&self, generators: &[Vec<[u32; N]>]) -> Result<Vec<Vec<[u32; N]>>> {
+        let fits = |&(index, terms): &(usize, usize)| generators.get(index).is_some_and(|f| f.len() == terms);
+        if !self.generators.iter().all(fits) {
+            let text = "a replay takes generators with the very terms of those that were learned from";
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        Ok(self.generators.iter().map(|&(index, _)| generators[index].clone()).collect())
+    }
+
+    /// The tails of the basis, reduced.
+    fn tails<const N: usize>(
+        &self,
+        moduli: [u32; N],
+        coefficients: &[Vec<[u32; N]>],
+        alive: &mut [bool; N],
+        watch: &Watch,
+    ) -> Result<Vec<Vec<[u32; N]>>> {
+        let mut sweep = Sweep::new(moduli, &self.last, coefficients);
+        let mut tails = Vec::with_capacity(self.supports.len());
+        for (row, support) in self.last.lower.iter().zip(&self.supports) {
+            watch.check()?;
+            sweep.accumulate(row, &moduli.map(|p| p - 1));
+            sweep.clear(0, &[u32::MAX; N]);
+            let form = take_row(&mut sweep);
+            tails.push(on_support(&form, support, alive));
+        }
+        Ok(tails)
+    }
+}
+
+/// The same matrix without the reducers that no lower row can need; they leave an empty row behind.
+pub(super) fn pruned(mut shape: Shape) -> Shape {
+    let mut touched = vec![false; shape.columns];
+    for row in &shape.lower {
+        row.columns.iter().for_each(|&column| touched[column as usize] = true);
+    }
+    for column in 0..shape.upper.len() {
+        if touched[column] {
+            shape.upper[column].columns.iter().for_each(|&column| touched[column as usize] = true);
+        } else {
+            shape.upper[column].columns = Box::default();
+        }
+    }
+    shape
+}
+
+impl Round {
+    /// The coefficients of the round's new elements; lanes that go another way are struck from `alive`.
+    fn replay<const N: usize>(
+        &self,
+        moduli: [u32; N],
+        coefficients: &[Vec<[u32; N]>],
+        alive: &mut [bool; N],
+        watch: &Watch,
+    ) -> Result<Vec<Vec<[u32; N]>>> {
+        let mut sweep = Sweep::new(moduli, &self.shape, coefficients);
+        for (row, &lead) in self.shape.lower.iter().zip(&self.leads) {
+            watch.check()?;
+            sweep.accumulate(row, &moduli.map(|p| p - 1));
+            sweep.clear(0, &[u32::MAX; N]);
+            let mut form = take_row(&mut sweep);
+            start_at(&mut form, lead, alive);
+            make_monic(&sweep, &mut form, alive);
+            sweep.adopt(form);
+        }
+        let mut order: Vec<usize> = (0..sweep.rows.len()).collect();
+        order.sort_unstable_by_key(|&row| std::cmp::Reverse(sweep.rows[row].columns[0]));
+        for &row in &order {
+            watch.check()?;
+            let lead = sweep.rows[row].columns[0];
+            let form = sweep.rows[row].clone();
+            sweep.load(&form, &moduli.map(|p| p - 1));
+            sweep.clear(lead as usize, &[lead; N]);
+            sweep.rows[row] = take_row(&mut sweep);
+        }
+        // As they were adjoined: the smallest lead first.
+        let rows = order.iter().map(|&row| &sweep.rows[row]);
+        Ok(rows.zip(self.supports.iter().rev()).map(|(row, support)| on_support(row, support, alive)).collect())
+    }
+}
+
+/// What the lanes hold in the free columns; the sums are zero afterwards.
+fn take_row<const N: usize>(sweep: &mut Sweep<'_, [u32; N], N>) -> Sparse<[u32; N]> {
+    let mut row = Sparse { columns: Vec::new(), coefficients: Vec::new() };
+    for column in sweep.free()..sweep.sums.len() {
+        if sweep.sums[column] != [0; N] {
+            let residues = sweep.moduli.residues(&sweep.sums[column]);
+            sweep.sums[column] = [0; N];
+            if residues != [0; N] {
+                row.columns.push(column as u32);
+                row.coefficients.push(residues);
+            }
+        }
+    }
+    row
+}
+
+/// Makes `row` begin in the column `lead`: lanes with something further left are struck out.
+fn start_at<const N: usize>(row: &mut Sparse<[u32; N]>, lead: u32, alive: &mut [bool; N]) {
+    let left = row.columns.partition_point(|&column| column < lead);
+    for coefficients in row.coefficients.drain(..left) {
+        strike(alive, |l| coefficients[l] != 0);
+    }
+    row.columns.drain(..left);
+    if row.columns.first() != Some(&lead) {
+        row.columns.insert(0, lead);
+        row.coefficients.insert(0, [0; N]);
+    }
+}
+
+/// Divides each lane by its leading coefficient; lanes where it is zero are struck out, and lead with one all the same.
+fn make_monic<const N: usize>(sweep: &Sweep<'_, [u32; N], N>, row: &mut Sparse<[u32; N]>, alive: &mut [bool; N]) {
+    let lead = row.coefficients[0];
+    strike(alive, |l| lead[l] == 0);
+    let inverse: [u32; N] = std::array::from_fn(|l| if lead[l] == 0 { 1 } else { sweep.moduli.inverse(l, lead[l]) });
+    for coefficients in &mut row.coefficients {
+        *coefficients = std::array::from_fn(|l| sweep.moduli.product(l, coefficients[l], inverse[l]));
+    }
+    row.coefficients[0] = [1; N];
+}
+
+/// The coefficients of `row` in the columns of `support`; lanes with anything elsewhere are struck out.
+fn on_support<const N: usize>(row: &Sparse<[u32; N]>, support: &[u32], alive: &mut [bool; N]) -> Vec<[u32; N]> {
+    let mut coefficients = vec![[0; N]; support.len()];
+    let mut place = 0;
+    for (&column, value) in row.columns.iter().zip(&row.coefficients) {
+        while place < support.len() && support[place] < column {
+            place += 1;
+        }
+        if support.get(place) == Some(&column) {
+            coefficients[place] = *value;
+        } else {
+            strike(alive, |l| value[l] != 0);
+        }
+    }
+    coefficients
+}
+
+fn strike<const N: usize>(alive: &mut [bool; N], dead: impl Fn(usize) -> bool) {
+    for (l, lane) in alive.iter_mut().enumerate() {
+        *lane &= !dead(l);
+    }
+}
