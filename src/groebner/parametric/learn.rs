@@ -10,7 +10,8 @@ use super::prime::{Prime, SmoothPrime, Stream};
 use super::sequence::{distinct_roots, factors, minimal_polynomial};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The longest sequences that are tried.
+/// The shortest sequences, and the longest that are tried.
+const SHORTEST: usize = 4;
 const MOST_LINES: usize = 1 << 14;
 /// The most nodes on a line.
 const MOST_NODES: usize = 512;
@@ -81,25 +82,29 @@ impl<'a, S: Functions> Search<'a, S> {
     fn run(&mut self, watch: &Watch) -> Result<bool> {
         let mut waiting = weight_vectors(self.functions.parameters()).into_iter();
         let mut open: Vec<Lines> = Vec::new();
-        let mut longest = 4;
+        let mut longest = SHORTEST;
         while !self.is_done() && longest <= MOST_LINES {
-            if let Some(weights) = waiting.next() {
-                open.push(self.lines(weights));
-            }
-            let mut kept = Vec::new();
-            let mut count = longest;
-            for mut lines in open {
+            open.extend(self.next_promising(&mut waiting, watch)?);
+            for (rank, lines) in open.iter_mut().enumerate() {
                 watch.report("interpolation", self.settled.iter().flatten().count(), self.settled.len());
-                if count >= 4 && !self.is_done() && self.extend(&mut lines, count, watch)? {
-                    self.settle_all(&lines, watch)?;
-                    kept.push(lines);
-                    count /= 2;
+                if !self.is_done() && self.extend(lines, longest >> rank, watch)? {
+                    self.settle_all(lines, watch)?;
                 }
             }
-            open = kept;
             longest *= 2;
         }
         Ok(self.is_done())
+    }
+
+    /// The next weights that look good on a few lines.
+    fn next_promising(&mut self, waiting: &mut impl Iterator<Item = Vec<u32>>, watch: &Watch) -> Result<Option<Lines>> {
+        for weights in waiting {
+            let mut lines = self.lines(weights);
+            if self.extend(&mut lines, SHORTEST, watch)? && self.is_promising(&lines) {
+                return Ok(Some(lines));
+            }
+        }
+        Ok(None)
     }
 
     /// No lines yet, with random offsets and the bases that encode exponents as digits.
@@ -145,7 +150,7 @@ impl<'a, S: Functions> Search<'a, S> {
                 }
             }
         }
-        Ok(self.is_promising(lines))
+        Ok(true)
     }
 
     /// The first line, with as many nodes as its degrees ask for.
@@ -310,15 +315,16 @@ fn outer_places(quotient: &Quotient) -> Vec<Place> {
     [ends(false), ends(true)].concat()
 }
 
-/// Weights in the order in which they are tried: one variable, then small ones that single out corners of a support.
+/// Weights in the order in which they are tried: single variables when there are few, then small weights that single out corners of
+/// a support.
 fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
     let unit = |v: usize| (0..parameters).map(|k| u32::from(k == v)).collect();
-    let mut vectors: Vec<Vec<u32>> = (0..parameters).map(unit).collect();
+    let mut vectors: Vec<Vec<u32>> = (0..parameters).filter(|_| parameters <= 3).map(unit).collect();
     let mut stream = Stream(1);
-    for height in 2..=6u64 {
-        for _ in 0..2 * parameters.min(4) {
+    for height in 2..=10u64 {
+        for _ in 0..12 {
             let mut weights: Vec<u32> = (0..parameters).map(|_| (stream.word() % height) as u32).collect();
-            weights[stream.word() as usize % parameters.max(1)] = 1;
+            weights[stream.word() as usize % parameters] = 1;
             if !vectors.contains(&weights) {
                 vectors.push(weights);
             }

@@ -4,8 +4,8 @@ use num_bigint::Sign;
 
 use super::learn::{Learned, learn};
 use super::pattern::{Functions, Pattern, factors_modulo};
-use super::prime::{Prime, Stream};
-use crate::number::{BigInt, BigRational, Rationals};
+use super::prime::{Prime, SmoothPrime, Stream};
+use crate::number::{BigInt, BigRational, Rationals, Zp};
 use crate::poly::{Fraction, Fractions, Monomial, Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -26,7 +26,7 @@ pub(super) fn interpolate(
     let mut residues = Residues::default();
     residues.push(learned.field, &normalised(learned.field, &supports, &learned.factors));
     let mut stream = Stream(7);
-    let mut primes = PrimesBelow::new(1 << 31);
+    let mut primes = Primes::new();
     loop {
         watch.check()?;
         if residues.is_worth_a_trial()
@@ -44,7 +44,7 @@ pub(super) fn interpolate(
 fn next_factors(
     functions: &impl Functions,
     patterns: &[Pattern],
-    primes: &mut PrimesBelow,
+    primes: &mut Primes,
     stream: &mut Stream,
     watch: &Watch,
 ) -> Result<(Prime, Vec<Vec<Vec<u64>>>)> {
@@ -64,7 +64,7 @@ fn holds(
     patterns: &[Pattern],
     supports: &[Support],
     values: &[BigRational],
-    primes: &mut PrimesBelow,
+    primes: &mut Primes,
     stream: &mut Stream,
     watch: &Watch,
 ) -> Result<bool> {
@@ -208,23 +208,28 @@ fn rational(value: BigInt, modulus: &BigInt, bound: &BigInt) -> Option<BigRation
     (t.magnitude() <= bound.magnitude() && t.sign() != Sign::NoSign).then(|| BigRational::new(b, t))
 }
 
-/// The primes below a bound, from the greatest.
-struct PrimesBelow {
-    next: u32,
+/// The primes below 2^31 from the greatest, those of [`SmoothPrime`] left out.
+struct Primes {
+    count: usize,
+    last: u32,
 }
 
-impl PrimesBelow {
-    fn new(bound: u32) -> Self {
-        PrimesBelow { next: bound }
+impl Primes {
+    /// The first ones, so that small problems need no test.
+    const FIRST: [u32; 16] = [
+        2147483629, 2147483587, 2147483579, 2147483563, 2147483549, 2147483543, 2147483497, 2147483489, 2147483477,
+        2147483423, 2147483399, 2147483353, 2147483323, 2147483269, 2147483249, 2147483237,
+    ];
+
+    fn new() -> Self {
+        Primes { count: 0, last: 0 }
     }
 
     fn next_prime(&mut self) -> Prime {
-        loop {
-            self.next -= 1;
-            let smooth = super::prime::SmoothPrime::all().iter().any(|prime| prime.field.p == u64::from(self.next));
-            if !smooth && crate::number::Zp::new(u64::from(self.next)).is_ok() {
-                return Prime::new(self.next);
-            }
-        }
+        let listed = Self::FIRST.get(self.count);
+        let is_next = |&n: &u32| Zp::new(u64::from(n)).is_ok() && !SmoothPrime::all().iter().any(|s| s.field.p == u64::from(n));
+        self.last = listed.copied().unwrap_or_else(|| (0..self.last).rev().find(is_next).unwrap_or(3));
+        self.count += 1;
+        Prime::new(self.last)
     }
 }

@@ -10,10 +10,9 @@ mod pattern;
 mod prime;
 mod sequence;
 mod system;
-mod trace;
 mod variables;
 
-use super::{Basis, engine};
+use super::Basis;
 use crate::number::{BigRational, Rationals, Ring as _};
 use crate::poly::{Fraction, Fractions, Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -66,7 +65,7 @@ pub fn basis(ring: &Ring, generators: &[Poly], options: &Options, watch: &Watch)
     let ideal = Ideal { ring, generators: &generators };
     let way = options.way.unwrap_or_else(|| choose(&ideal));
     let found = match way {
-        Way::Direct => engine::basis(ring, &generators, &engine::Options::default(), watch),
+        Way::Direct => super::basis(ring, &generators, &super::Options::default(), watch),
         Way::Variables => variables::basis_with_variables(&ideal, watch),
         Way::Interpolation => interpolated(&ideal, watch),
     };

@@ -3,7 +3,7 @@
 use super::lift::image;
 use super::pattern::Functions;
 use super::prime::{Prime, Stream};
-use super::trace::Trace;
+use crate::groebner::f4::Trace;
 use super::{Ideal, Ring};
 use crate::number::{BigRational, Ring as _, Zp};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, gcd};
