@@ -129,6 +129,16 @@ impl<F: Field> Fractions<F> {
         (!bottom.is_zero()).then(|| self.lowest_terms(top, bottom))
     }
 
+    /// `numerator / denominator`, which the caller knows to be coprime, with a monic denominator that is free of algebraic parameters.
+    pub fn coprime_fraction(
+        &self,
+        numerator: Polynomial<F::Element>,
+        denominator: Polynomial<F::Element>,
+    ) -> Fraction<F::Element> {
+        debug_assert!(self.fraction(&numerator, &denominator).is_some_and(|a| a.denominator == denominator));
+        Fraction { numerator, denominator }
+    }
+
     /// `f` with the sign of its root `variable` changed; `f` is reduced.
     fn conjugate(&self, f: &Polynomial<F::Element>, variable: usize) -> Polynomial<F::Element> {
         let parts = self.ring.coefficients_in(f, variable);

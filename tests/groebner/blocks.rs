@@ -53,8 +53,7 @@ pub fn nao_leg() -> Mechanism {
 
 /// The planar arm of NAO, (6.7.1)-(6.7.4).
 pub fn nao_arm() -> Mechanism {
-    let equations =
-        ["105*c2 + 1137/10*s4 - pz".into(), "105*s2 + 1137/10*c4 - py".into(), circle("2"), circle("4")];
+    let equations = ["105*c2 + 1137/10*s4 - pz".into(), "105*s2 + 1137/10*c4 - py".into(), circle("2"), circle("4")];
     mechanism("py pz", "c4 c2 s4 s2", Order::GrevLex, &equations, 2)
 }
 
@@ -93,7 +92,13 @@ fn puma(lengths: [&str; 4], parameters: &str) -> Mechanism {
         circle("2"),
         circle("3"),
     ];
-    mechanism(parameters, "c2 s2 c1 c3 s1 s3", Order::Block(vec![Block { size: 2, graded: true }, Block { size: 4, graded: true }]), &equations, 4)
+    mechanism(
+        parameters,
+        "c2 s2 c1 c3 s1 s3",
+        Order::Block(vec![Block { size: 2, graded: true }, Block { size: 4, graded: true }]),
+        &equations,
+        4,
+    )
 }
 
 /// PUMA with the lengths of Corke and Armstrong-Helouvry (ICRA 1994): a2, a3, d3, d4 in metres.
@@ -110,7 +115,8 @@ pub fn puma_symbolic() -> Mechanism {
 /// 3/5 and 5/13, the first offset is part of z, and the third twist does not matter. With the squared distance (Pieper 1968).
 fn generic_3r(lengths: [&str; 5], parameters: &str) -> Mechanism {
     let [a1, a2, a3, d2, d3] = lengths;
-    let (x, y, z) = (format!("{a2} + {a3}*c3"), format!("5/13*{a3}*s3 - 12/13*{d3}"), format!("{d2} + 12/13*{a3}*s3 + 5/13*{d3}"));
+    let (x, y, z) =
+        (format!("{a2} + {a3}*c3"), format!("5/13*{a3}*s3 - 12/13*{d3}"), format!("{d2} + 12/13*{a3}*s3 + 5/13*{d3}"));
     let along = format!("c2*({x}) - s2*({y})");
     let across = format!("s2*({x}) + c2*({y})");
     let squares = format!("{a2}^2 + {a3}^2 + {d2}^2 + {d3}^2 + 2*{a2}*{a3}*c3 + 2*{d2}*(12/13*{a3}*s3 + 5/13*{d3})");

@@ -4,6 +4,8 @@
 //! are sums of monomials of `v`; along a geometric sequence of `v` they are sums of powers (Ben-Or and Tiwari), whose bases give the
 //! exponents through logarithms: the prime is chosen so that these are cheap, and the exponents are the digits of one number.
 
+use std::collections::HashMap;
+
 use super::line::{Nodes, Quotient};
 use super::pattern::{Functions, Pattern, Place, Slot, distinct_units, points_on_lines};
 use super::prime::{Prime, SmoothPrime, Stream};
@@ -57,12 +59,21 @@ struct Search<'a, S: Functions> {
     stream: Stream,
     settled: Vec<Option<(Pattern, Vec<Vec<u64>>)>>,
     probe: (Vec<u64>, Vec<u64>),
+    /// Logarithms found so far: the same monomials come again and again.
+    logarithms: HashMap<u64, i64>,
 }
 
 impl<'a, S: Functions> Search<'a, S> {
     fn new(functions: &'a S, prime: SmoothPrime, seed: u64) -> Self {
         let settled = vec![None; functions.count()];
-        Search { functions, prime, stream: Stream(seed), settled, probe: Default::default() }
+        Search {
+            functions,
+            prime,
+            stream: Stream(seed),
+            settled,
+            probe: Default::default(),
+            logarithms: HashMap::new(),
+        }
     }
 
     /// Evaluates the functions at the point that later tests them.
@@ -225,12 +236,7 @@ impl<'a, S: Functions> Search<'a, S> {
     }
 
     /// The support when the coefficient at `normal` is a single monomial.
-    fn pattern(
-        &mut self,
-        lines: &Lines,
-        sequence: &[Quotient],
-        normal: Place,
-    ) -> Option<(Pattern, Vec<Vec<u64>>)> {
+    fn pattern(&mut self, lines: &Lines, sequence: &[Quotient], normal: Place) -> Option<(Pattern, Vec<Vec<u64>>)> {
         let field = self.prime.field;
         let scales = field.inverses(&sequence.iter().map(|line| normal.of(line)).collect::<Vec<_>>())?;
         let (mut slots, mut all_factors) = (Vec::new(), Vec::new());
@@ -256,9 +262,10 @@ impl<'a, S: Functions> Search<'a, S> {
     }
 
     /// The exponents of the monomial whose value at the bases is `root`; `step` is its weight.
-    fn exponents(&self, lines: &Lines, root: u64, step: i64) -> Vec<i32> {
+    fn exponents(&mut self, lines: &Lines, root: u64, step: i64) -> Vec<i32> {
         let order = (self.prime.field.p - 1) as i64;
-        let logarithm = self.prime.logarithm(root) as i64;
+        let prime = self.prime;
+        let logarithm = *self.logarithms.entry(root).or_insert_with(|| prime.logarithm(root) as i64);
         let mut rest = if logarithm > order / 2 { logarithm - order } else { logarithm };
         let pivot = pivot(&lines.weights);
         let mut exponents = vec![0i32; lines.weights.len()];

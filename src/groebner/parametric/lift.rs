@@ -1,6 +1,9 @@
 //! From residues modulo primes to rational functions over Q: Chinese remainders and rational reconstruction.
 
+use std::ops::{Add, Mul};
+
 use num_bigint::Sign;
+use num_traits::ToPrimitive;
 
 use super::learn::{Learned, learn};
 use super::pattern::{Functions, Pattern, factors_modulo};
@@ -20,6 +23,9 @@ pub(super) fn interpolate(
     field: &Fractions<Rationals>,
     watch: &Watch,
 ) -> Result<Vec<Fraction<BigRational>>> {
+    if functions.count() == 0 {
+        return Ok(Vec::new());
+    }
     let learned = learn(functions, watch)?;
     let Learned { patterns, .. } = &learned;
     let supports: Vec<Support> = patterns.iter().map(|p| Support::new(field.ring(), p)).collect::<Result<_>>()?;
@@ -33,7 +39,7 @@ pub(super) fn interpolate(
             && let Some(values) = residues.rationals()
             && holds(functions, patterns, &supports, &values, &mut primes, &mut stream, watch)?
         {
-            return supports.iter().zip(split(&supports, values)).map(|(s, v)| s.fraction(field, v)).collect();
+            return Ok(supports.iter().zip(split(&supports, values)).map(|(s, v)| s.fraction(field, v)).collect());
         }
         let (modulus, factors) = next_factors(functions, patterns, &mut primes, &mut stream, watch)?;
         residues.push(modulus, &normalised(modulus, &supports, &factors));
@@ -54,7 +60,8 @@ fn next_factors(
             return Ok((field, factors));
         }
     }
-    let text = "ten primes in a row do not fit the supports that the first prime gave; compute over the fractions instead";
+    let text =
+        "ten primes in a row do not fit the supports that the first prime gave; compute over the fractions instead";
     Err(Error::new(ErrorKind::Unsupported, text))
 }
 
@@ -88,6 +95,9 @@ fn holds(
 /// A rational number modulo a prime that does not divide its denominator; else 0.
 pub(super) fn image(field: Prime, q: &BigRational) -> u64 {
     let integer = |n: &BigInt| {
+        if let Some(small) = n.to_i64() {
+            return small.rem_euclid(field.p as i64) as u64;
+        }
         let digits = (n.magnitude() % field.p).to_u64_digits();
         let magnitude = digits.first().copied().unwrap_or(0);
         if n.sign() == Sign::Minus { field.neg(magnitude) } else { magnitude }
@@ -102,7 +112,6 @@ struct Support {
     monomials: Vec<(bool, Monomial)>,
     /// The greatest monomial of the denominator: its coefficient becomes one.
     lead: usize,
-    zero: bool,
 }
 
 impl Support {
@@ -120,23 +129,18 @@ impl Support {
             all.iter().map(|(top, e)| Ok((*top, monomial(e)?))).collect::<Result<_>>()?;
         let bottom = (0..monomials.len()).filter(|&i| !monomials[i].0);
         let lead = bottom.max_by(|&i, &j| ring.layout().compare(&monomials[i].1, &monomials[j].1)).unwrap_or(0);
-        let zero = !monomials.iter().any(|(top, _)| *top);
-        Ok(Support { monomials, lead, zero })
+        Ok(Support { monomials, lead })
     }
 
     /// The fraction with these coefficients.
-    fn fraction(&self, field: &Fractions<Rationals>, values: Vec<BigRational>) -> Result<Fraction<BigRational>> {
+    fn fraction(&self, field: &Fractions<Rationals>, values: Vec<BigRational>) -> Fraction<BigRational> {
         let ring = field.ring();
         let mut parts: [Vec<Term<BigRational>>; 2] = Default::default();
         for ((top, monomial), coefficient) in self.monomials.iter().zip(values) {
             parts[usize::from(*top)].push(Term { coefficient, monomial: monomial.clone() });
         }
         let [bottom, top]: [Polynomial<BigRational>; 2] = parts.map(|terms| ring.collect(terms));
-        let refused = || Error::new(ErrorKind::BadValue, "an interpolated denominator is zero");
-        if self.zero {
-            return Ok(field.embed(&top));
-        }
-        field.fraction(&top, &bottom).ok_or_else(refused)
+        field.coprime_fraction(top, bottom)
     }
 }
 
@@ -186,13 +190,20 @@ impl Residues {
 
     /// All numbers as small rationals; `None` when one is not small yet.
     fn rationals(&self) -> Option<Vec<BigRational>> {
+        if self.primes.len() <= 4 {
+            let modulus: u128 = self.primes.iter().map(|prime| u128::from(prime.p)).product();
+            let bound = (modulus / 2).isqrt();
+            return self.digits.iter().map(|digits| short_rational(self.value(digits), modulus, bound)).collect();
+        }
         let modulus: BigInt = self.primes.iter().map(|prime| BigInt::from(prime.p)).product();
         let bound = (&modulus >> 1usize).sqrt();
-        let value = |digits: &Vec<u64>| {
-            let pairs = digits.iter().zip(&self.primes).rev();
-            pairs.fold(BigInt::ZERO, |value, (&digit, prime)| value * prime.p + digit)
-        };
-        self.digits.iter().map(|digits| rational(value(digits), &modulus, &bound)).collect()
+        self.digits.iter().map(|digits| rational(self.value(digits), &modulus, &bound)).collect()
+    }
+
+    /// The number with these digits.
+    fn value<N: From<u64> + Mul<Output = N> + Add<Output = N>>(&self, digits: &[u64]) -> N {
+        let pairs = digits.iter().zip(&self.primes).rev();
+        pairs.fold(N::from(0), |value, (&digit, prime)| value * N::from(prime.p) + N::from(digit))
     }
 }
 
@@ -206,6 +217,18 @@ fn rational(value: BigInt, modulus: &BigInt, bound: &BigInt) -> Option<BigRation
         (s, t) = (t.clone(), s - quotient * t);
     }
     (t.magnitude() <= bound.magnitude() && t.sign() != Sign::NoSign).then(|| BigRational::new(b, t))
+}
+
+/// [`rational`] in machine words.
+fn short_rational(value: u128, modulus: u128, bound: u128) -> Option<BigRational> {
+    let (mut a, mut b, mut s, mut t) = (modulus, value, 0i128, 1i128);
+    while b > bound {
+        let quotient = a / b;
+        (a, b) = (b, a - quotient * b);
+        (s, t) = (t, s - quotient as i128 * t);
+    }
+    let numerator = BigInt::from(b) * t.signum();
+    (t != 0 && t.unsigned_abs() <= bound).then(|| BigRational::new(numerator, t.unsigned_abs().into()))
 }
 
 /// The primes below 2^31 from the greatest, those of [`SmoothPrime`] left out.
@@ -227,7 +250,8 @@ impl Primes {
 
     fn next_prime(&mut self) -> Prime {
         let listed = Self::FIRST.get(self.count);
-        let is_next = |&n: &u32| Zp::new(u64::from(n)).is_ok() && !SmoothPrime::all().iter().any(|s| s.field.p == u64::from(n));
+        let is_next =
+            |&n: &u32| Zp::new(u64::from(n)).is_ok() && !SmoothPrime::all().iter().any(|s| s.field.p == u64::from(n));
         self.last = listed.copied().unwrap_or_else(|| (0..self.last).rev().find(is_next).unwrap_or(3));
         self.count += 1;
         Prime::new(self.last)

@@ -144,8 +144,11 @@ impl SmoothPrime {
     pub fn all() -> [SmoothPrime; 2] {
         const FIRST: &[(u64, u32)] = &[(2, 27), (3, 1), (5, 1)];
         const SECOND: &[(u64, u32)] = &[(2, 25), (3, 2), (7, 1)];
-        [(2_013_265_921, 31, FIRST), (2_113_929_217, 5, SECOND)]
-            .map(|(p, generator, factors)| SmoothPrime { field: Prime::new(p), generator, factors })
+        [(2_013_265_921, 31, FIRST), (2_113_929_217, 5, SECOND)].map(|(p, generator, factors)| SmoothPrime {
+            field: Prime::new(p),
+            generator,
+            factors,
+        })
     }
 
     /// The exponent `n < p - 1` with `generator^n = a`, for nonzero `a` (Pohlig and Hellman 1978).

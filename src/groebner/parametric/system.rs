@@ -3,8 +3,8 @@
 use super::lift::image;
 use super::pattern::Functions;
 use super::prime::{Prime, Stream};
-use crate::groebner::f4::Trace;
 use super::{Ideal, Ring};
+use crate::groebner::f4::Trace;
 use crate::number::{BigRational, Ring as _, Zp};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, gcd};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -92,8 +92,8 @@ fn learn(
     watch: &Watch,
 ) -> Result<Option<(Trace, Vec<Vec<Monomial>>)>> {
     let zp = Zp::new(field.p)?;
-    let target = PolynomialRing::new(zp, ring.variables(), ring.layout().order().clone())?
-        .with_width(ring.layout().width());
+    let target =
+        PolynomialRing::new(zp, ring.variables(), ring.layout().order().clone())?.with_width(ring.layout().width());
     let mut images = Vec::new();
     for (f, values) in generators.iter().zip(values) {
         if values.iter().any(|lanes| lanes[0] == 0) {
@@ -171,9 +171,7 @@ impl Functions for System {
         for chunk in points.chunks(LANES) {
             watch.check()?;
             let lanes = self.trace.replay([field.p as u32; LANES], &evaluator.values(chunk), watch)?;
-            let flat = |basis: Vec<Vec<u32>>| {
-                basis.iter().flat_map(|f| f[1..].iter().map(|&c| u64::from(c))).collect()
-            };
+            let flat = |basis: Vec<Vec<u32>>| basis.iter().flat_map(|f| f[1..].iter().map(|&c| u64::from(c))).collect();
             results.extend(lanes.into_iter().take(chunk.len()).map(|lane| lane.map(flat)));
         }
         Ok(results)
