@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use super::line::{Nodes, Quotient};
-use super::pattern::{Functions, Pattern, Place, Slot, distinct_units, points_on_lines};
+use super::pattern::{Functions, Pattern, Place, Slot, distinct_units, points_on_lines, power_product};
 use super::prime::{Prime, SmoothPrime, Stream};
 use super::sequence::{distinct_roots, factors, minimal_polynomial};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -16,7 +16,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 const SHORTEST: usize = 4;
 const MOST_LINES: usize = 1 << 14;
 /// The most nodes on a line.
-const MOST_NODES: usize = 512;
+const MOST_NODES: usize = 256;
 
 /// What the first prime taught: a pattern and its factors for each function.
 #[derive(Clone, Debug)]
@@ -148,7 +148,7 @@ impl<'a, S: Functions> Search<'a, S> {
             return Ok(true);
         }
         let directions = (lines.offsets.as_slice(), lines.bases.as_slice());
-        let points = points_on_lines(nodes, self.prime.field, &lines.weights, directions, done..count);
+        let points = points_on_lines(&nodes.nodes, self.prime.field, &lines.weights, directions, done..count);
         let values = self.functions.values(self.prime.field, &points, watch)?;
         let Some(values) = values.into_iter().collect::<Option<Vec<_>>>() else { return Ok(false) };
         for line in values.chunks(nodes.count()) {
@@ -167,22 +167,26 @@ impl<'a, S: Functions> Search<'a, S> {
     /// The first line, with as many nodes as its degrees ask for.
     fn find_degrees(&mut self, lines: &mut Lines, watch: &Watch) -> Result<bool> {
         let field = self.prime.field;
-        let mut count = 8;
-        while count <= MOST_NODES {
-            let nodes = Nodes::new(field, distinct_units(field, &mut self.stream, count));
-            let points = points_on_lines(&nodes, field, &lines.weights, (&lines.offsets, &lines.bases), 0..1);
-            let values = self.functions.values(field, &points, watch)?;
-            let Some(values) = values.into_iter().collect::<Option<Vec<_>>>() else { return Ok(false) };
-            let function = |f: usize| nodes.quotient(&values.iter().map(|values| values[f]).collect::<Vec<_>>());
-            let quotients: Option<Vec<_>> = (0..self.functions.count()).map(function).collect();
-            if let Some(quotients) = quotients {
+        let all = distinct_units(field, &mut self.stream, MOST_NODES);
+        let (mut count, mut values) = (0, Vec::new());
+        while count < MOST_NODES {
+            let next = if count < 32 { count + 8 } else { count * 2 };
+            let points =
+                points_on_lines(&all[count..next], field, &lines.weights, (&lines.offsets, &lines.bases), 0..1);
+            for row in self.functions.values(field, &points, watch)? {
+                let Some(row) = row else { return Ok(false) };
+                values.push(row);
+            }
+            count = next;
+            let nodes = Nodes::new(field, all[..count].to_vec());
+            let function = |f: usize| nodes.quotient(&values.iter().map(|row: &Vec<u64>| row[f]).collect::<Vec<_>>());
+            if let Some(quotients) = (0..self.functions.count()).map(function).collect::<Option<Vec<_>>>() {
                 let size = |quotient: &Quotient| quotient.degrees().0 + quotient.degrees().1 + 1;
                 let needed = quotients.iter().map(size).max().unwrap_or(1);
-                lines.nodes = Some(Nodes::new(field, nodes.nodes[..needed].to_vec()));
+                lines.nodes = Some(Nodes::new(field, all[..needed].to_vec()));
                 lines.quotients = quotients.into_iter().map(|quotient| vec![quotient]).collect();
                 return Ok(true);
             }
-            count = if count < 32 { count + 8 } else { count * 2 };
         }
         Ok(false)
     }
@@ -239,24 +243,28 @@ impl<'a, S: Functions> Search<'a, S> {
     fn pattern(&mut self, lines: &Lines, sequence: &[Quotient], normal: Place) -> Option<(Pattern, Vec<Vec<u64>>)> {
         let field = self.prime.field;
         let scales = field.inverses(&sequence.iter().map(|line| normal.of(line)).collect::<Vec<_>>())?;
+        let sequence_at = |place: Place| -> Vec<u64> {
+            sequence.iter().zip(&scales).map(|(line, &scale)| field.mul(place.of(line), scale)).collect()
+        };
+        let candidates: Vec<(Place, Vec<u64>, Vec<u64>)> = places(&sequence[0])
+            .into_iter()
+            .map(|place| {
+                let values = sequence_at(place);
+                Some((place, minimal_polynomial(field, &values)?, values))
+            })
+            .collect::<Option<_>>()?;
         let (mut slots, mut all_factors) = (Vec::new(), Vec::new());
-        for place in places(&sequence[0]) {
-            let values: Vec<u64> =
-                sequence.iter().zip(&scales).map(|(line, &scale)| field.mul(place.of(line), scale)).collect();
-            let f = minimal_polynomial(field, &values)?;
-            let roots = distinct_roots(field, &f, &mut self.stream)?;
+        for (place, polynomial, values) in candidates {
+            let roots = distinct_roots(field, &polynomial, &mut self.stream)?;
             let step = place.power as i64 - normal.power as i64;
             let exponents: Vec<Vec<i32>> = roots.iter().map(|&root| self.exponents(lines, root, step)).collect();
-            let found = factors(field, &roots, &values)?;
-            let unscaled = found.iter().zip(&exponents).map(|(&factor, e)| {
-                let scale = super::pattern::power_product(field, &lines.offsets, e);
-                field.mul(factor, field.inverse(scale))
-            });
+            let unscaled = factors(field, &roots, &values)?
+                .into_iter()
+                .zip(&exponents)
+                .map(|(factor, e)| field.mul(factor, field.inverse(power_product(field, &lines.offsets, e))));
             all_factors.push(unscaled.collect());
             slots.push(Slot { place, exponents });
         }
-        slots.retain(|slot| !slot.exponents.is_empty());
-        all_factors.retain(|factors: &Vec<u64>| !factors.is_empty());
         let pattern = Pattern { weights: lines.weights.clone(), degrees: sequence[0].degrees(), normal, slots };
         Some((pattern, all_factors))
     }
@@ -328,7 +336,8 @@ fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
     let unit = |v: usize| (0..parameters).map(|k| u32::from(k == v)).collect();
     let mut vectors: Vec<Vec<u32>> = (0..parameters).filter(|_| parameters <= 3).map(unit).collect();
     let mut stream = Stream(1);
-    for height in 2..=10u64 {
+    let heights = if parameters <= 3 { 2..=10 } else { 4..=12u64 };
+    for height in heights {
         for _ in 0..12 {
             let mut weights: Vec<u32> = (0..parameters).map(|_| (stream.word() % height) as u32).collect();
             weights[stream.word() as usize % parameters] = 1;

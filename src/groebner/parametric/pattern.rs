@@ -98,7 +98,7 @@ pub(super) fn power_product(field: Prime, bases: &[u64], exponents: &[i32]) -> u
 
 /// The points of all nodes on the lines `range` with directions `offset[j] bases[j]^line`.
 pub(super) fn points_on_lines(
-    nodes: &Nodes,
+    nodes: &[u64],
     field: Prime,
     weights: &[u32],
     directions: (&[u64], &[u64]),
@@ -107,9 +107,9 @@ pub(super) fn points_on_lines(
     let (offsets, bases) = directions;
     let start = |(&offset, &base): (&u64, &u64)| field.mul(offset, field.pow(base, range.start as u64));
     let mut direction: Vec<u64> = offsets.iter().zip(bases).map(start).collect();
-    let mut points = Vec::with_capacity(range.len() * nodes.count());
+    let mut points = Vec::with_capacity(range.len() * nodes.len());
     for _ in range {
-        for &node in &nodes.nodes {
+        for &node in nodes {
             let coordinate = |(&v, &w): (&u64, &u32)| field.mul(v, field.pow(node, u64::from(w)));
             points.push(direction.iter().zip(weights).map(coordinate).collect());
         }
@@ -137,7 +137,7 @@ pub(super) fn factors_modulo(
         let nodes = Nodes::new(field, distinct_units(field, stream, count));
         let bases: Vec<u64> = weights.iter().map(|_| stream.unit(field)).collect();
         let ones = vec![1; bases.len()];
-        let points = points_on_lines(&nodes, field, weights, (&ones, &bases), 0..lines);
+        let points = points_on_lines(&nodes.nodes, field, weights, (&ones, &bases), 0..lines);
         let Some(values) = functions.values(field, &points, watch)?.into_iter().collect::<Option<Vec<_>>>() else {
             return Ok(None);
         };

@@ -157,7 +157,9 @@ impl SmoothPrime {
         let (mut result, mut modulus) = (0u64, 1u64);
         for &(prime, exponent) in self.factors {
             let power = prime.pow(exponent);
-            let residue = self.logarithm_in_part(a, prime, exponent);
+            let part = (self.field.p - 1) / power;
+            let bases = (self.field.pow(a, part), self.field.pow(self.generator, part));
+            let residue = self.logarithm_in_group(bases, prime, exponent);
             let steps = (residue + power - result % power) % power;
             let inverse = inverse_modulo(modulus % power, power);
             result += modulus * (steps * inverse % power);
@@ -167,27 +169,20 @@ impl SmoothPrime {
         result
     }
 
-    /// The logarithm modulo `prime^exponent`, digit by digit.
-    fn logarithm_in_part(&self, a: u64, prime: u64, exponent: u32) -> u64 {
+    /// The logarithm of `a` to the base `g` of order `prime^exponent`, by halves.
+    fn logarithm_in_group(&self, (a, g): (u64, u64), prime: u64, exponent: u32) -> u64 {
         let field = self.field;
-        let order = field.p - 1;
-        let root = field.pow(self.generator, order / prime);
-        let inverse = field.inverse(self.generator);
-        let (mut digits, mut weight) = (0, 1);
-        let mut rest = a;
-        for step in 1..=exponent {
-            let value = field.pow(rest, order / prime.pow(step));
-            let mut digit = 0;
-            let mut trial = 1;
-            while trial != value {
-                trial = field.mul(trial, root);
-                digit += 1;
-            }
-            rest = field.mul(rest, field.pow(inverse, digit * weight));
-            digits += digit * weight;
-            weight *= prime;
+        if exponent == 1 {
+            let powers = std::iter::successors(Some(1), |&power| Some(field.mul(power, g)));
+            return powers.take(prime as usize).position(|power| power == a).unwrap_or(0) as u64;
         }
-        digits
+        let low_size = exponent / 2;
+        let (low_power, high_power) = (prime.pow(exponent - low_size), prime.pow(low_size));
+        let low = self.logarithm_in_group((field.pow(a, low_power), field.pow(g, low_power)), prime, low_size);
+        let order = low_power * high_power;
+        let rest = field.mul(a, field.pow(g, order - low));
+        let high = self.logarithm_in_group((rest, field.pow(g, high_power)), prime, exponent - low_size);
+        low + high * high_power
     }
 }
 
