@@ -330,21 +330,28 @@ fn outer_places(quotient: &Quotient) -> Vec<Place> {
     [ends(false), ends(true)].concat()
 }
 
-/// Weights in the order in which they are tried: single variables when there are few, then small weights that single out corners of
-/// a support.
+/// Weights in the order in which they are tried: single variables when there are few; else different weights for all variables, which
+/// mostly single out a corner of every support; then larger ones at random.
 fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
-    let unit = |v: usize| (0..parameters).map(|k| u32::from(k == v)).collect();
-    let mut vectors: Vec<Vec<u32>> = (0..parameters).filter(|_| parameters <= 3).map(unit).collect();
     let mut stream = Stream(1);
-    let heights = if parameters <= 3 { 2..=10 } else { 4..=12u64 };
-    for height in heights {
-        for _ in 0..12 {
-            let mut weights: Vec<u32> = (0..parameters).map(|_| (stream.word() % height) as u32).collect();
-            weights[stream.word() as usize % parameters] = 1;
-            if !vectors.contains(&weights) {
-                vectors.push(weights);
-            }
-        }
+    if parameters <= 3 {
+        let unit = |v: usize| (0..parameters).map(|k| u32::from(k == v)).collect();
+        let random = |height: u64| random_weights(parameters, height, &mut stream);
+        return (0..parameters).map(unit).chain((2..=40).map(random)).collect();
     }
+    let permuted = |_| {
+        let mut weights: Vec<u32> = (0..parameters as u32).collect();
+        (1..parameters).rev().for_each(|k| weights.swap(k, stream.word() as usize % (k + 1)));
+        weights
+    };
+    let mut vectors: Vec<Vec<u32>> = (0..12).map(permuted).collect();
+    vectors.extend((4..=40).map(|height| random_weights(parameters, height, &mut stream)));
     vectors
+}
+
+/// Weights below `height`, one of them a one.
+fn random_weights(parameters: usize, height: u64, stream: &mut Stream) -> Vec<u32> {
+    let mut weights: Vec<u32> = (0..parameters).map(|_| (stream.word() % height) as u32).collect();
+    weights[stream.word() as usize % parameters] = 1;
+    weights
 }

@@ -158,12 +158,6 @@ pub(super) fn factors_modulo(
 
 /// `count` distinct nonzero elements.
 pub(super) fn distinct_units(field: Prime, stream: &mut Stream, count: usize) -> Vec<u64> {
-    let mut units = Vec::with_capacity(count);
-    while units.len() < count {
-        let unit = stream.unit(field);
-        if !units.contains(&unit) {
-            units.push(unit);
-        }
-    }
-    units
+    let first = 1 + stream.word() % (field.p - 1 - count as u64);
+    (first..first + count as u64).collect()
 }
