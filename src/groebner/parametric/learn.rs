@@ -93,14 +93,17 @@ impl<'a, S: Functions> Search<'a, S> {
     fn run(&mut self, watch: &Watch) -> Result<bool> {
         let mut waiting = weight_vectors(self.functions.parameters()).into_iter();
         let mut open: Vec<Lines> = Vec::new();
-        let mut longest = SHORTEST;
+        let mut longest = SHORTEST / 2;
         while !self.is_done() && longest <= MOST_LINES {
-            open.extend(self.next_promising(&mut waiting, watch)?);
             for (rank, lines) in open.iter_mut().enumerate() {
                 watch.report("interpolation", self.settled.iter().flatten().count(), self.settled.len());
-                if !self.is_done() && self.extend(lines, longest >> rank, watch)? {
+                let is_open = !self.is_done() && longest >> rank >= SHORTEST;
+                if is_open && self.extend(lines, longest >> rank, watch)? {
                     self.settle_all(lines, watch)?;
                 }
+            }
+            if !self.is_done() {
+                open.extend(self.next_promising(&mut waiting, watch)?);
             }
             longest *= 2;
         }

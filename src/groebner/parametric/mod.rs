@@ -34,7 +34,8 @@ pub enum Way {
 /// How [`basis`] works.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The way to take; chosen by the engine when `None`.
+    /// The way to take. `None`: interpolation where parameters have no relations, directly should they be too dense for it; else with
+    /// the parameters as variables.
     pub way: Option<Way>,
 }
 
@@ -63,18 +64,23 @@ struct Ideal<'a> {
 pub fn basis(ring: &Ring, generators: &[Poly], options: &Options, watch: &Watch) -> Result<Parametric> {
     let generators: Vec<Poly> = generators.iter().filter(|f| !f.is_zero()).cloned().collect();
     let ideal = Ideal { ring, generators: &generators };
-    let way = options.way.unwrap_or_else(|| choose(&ideal));
-    let found = match way {
-        Way::Direct => super::basis(ring, &generators, &super::Options::default(), watch),
-        Way::Variables => variables::basis_with_variables(&ideal, watch),
-        Way::Interpolation => interpolated(&ideal, watch),
-    };
-    Ok(Parametric { basis: found?, way, exact: way != Way::Interpolation })
+    match options.way {
+        Some(way) => by_way(&ideal, way, watch),
+        None if !is_free(&ideal) => by_way(&ideal, Way::Variables, watch),
+        None => match by_way(&ideal, Way::Interpolation, watch) {
+            Err(error) if error.kind() == ErrorKind::Unsupported => by_way(&ideal, Way::Direct, watch),
+            outcome => outcome,
+        },
+    }
 }
 
-/// Interpolation unless it does not apply.
-fn choose(ideal: &Ideal<'_>) -> Way {
-    if is_free(ideal) { Way::Interpolation } else { Way::Variables }
+fn by_way(ideal: &Ideal<'_>, way: Way, watch: &Watch) -> Result<Parametric> {
+    let found = match way {
+        Way::Direct => super::basis(ideal.ring, ideal.generators, &super::Options::default(), watch),
+        Way::Variables => variables::basis_with_variables(ideal, watch),
+        Way::Interpolation => interpolated(ideal, watch),
+    };
+    Ok(Parametric { basis: found?, way, exact: way != Way::Interpolation })
 }
 
 /// Whether there are parameters, and no relations between them.
