@@ -185,7 +185,7 @@ impl Residues {
     /// Trials become rarer as the numbers grow.
     fn is_worth_a_trial(&self) -> bool {
         let count = self.primes.len();
-        count <= 4 || count % (count / 4) == 0
+        count <= 4 || count.is_multiple_of(count / 4)
     }
 
     /// All numbers as small rationals; `None` when one is not small yet.

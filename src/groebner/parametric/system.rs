@@ -25,6 +25,8 @@ pub(super) struct System {
 type Equation = Vec<Coefficient>;
 /// Exponents of the parameters with their factor.
 type Coefficient = Vec<(Vec<u32>, BigRational)>;
+/// The same modulo a prime.
+type Residue = Vec<(Vec<u32>, u64)>;
 
 impl System {
     /// Clears denominators and learns the basis at a random point modulo a prime.
@@ -115,7 +117,7 @@ struct Evaluator {
     field: Prime,
     /// For each parameter the highest exponent that occurs.
     tops: Vec<u32>,
-    equations: Vec<Vec<Vec<(Vec<u32>, u64)>>>,
+    equations: Vec<Vec<Residue>>,
 }
 
 impl Evaluator {
@@ -133,7 +135,7 @@ impl Evaluator {
     /// The coefficients at up to [`LANES`] points; missing lanes repeat the first.
     fn values(&self, points: &[Vec<u64>]) -> Vec<Vec<[u32; LANES]>> {
         let powers: [Vec<Vec<u64>>; LANES] = std::array::from_fn(|lane| self.powers(&points[lane % points.len()]));
-        let value = |coefficient: &Vec<(Vec<u32>, u64)>| -> [u32; LANES] {
+        let value = |coefficient: &Residue| -> [u32; LANES] {
             std::array::from_fn(|lane| {
                 let sum = coefficient.iter().fold(0, |sum, (exponents, factor)| {
                     let nonzero = exponents.iter().enumerate().filter(|(_, e)| **e > 0);
