@@ -32,16 +32,20 @@ fn agree(ring: &PolynomialRing<Field>, generators: &[Poly], ways: &[Way]) -> Bas
 
 /// The image of the basis at a point modulo `p` equals the basis computed there.
 fn assert_specialises(found: &Basis<Field>, generators: &[Poly], p: u64, seed: u64) {
+    let count = found.ring.field().ring().variables().len() as u64;
+    let point: Vec<u64> = (1..=count).map(|k| (seed * 7919 + k * k * 104_729 + k) % p).collect();
+    assert_specialises_at(found, generators, p, &point);
+}
+
+fn assert_specialises_at(found: &Basis<Field>, generators: &[Poly], p: u64, point: &[u64]) {
     let zp = Zp::new(p).unwrap();
     let ring = &found.ring;
     let target = PolynomialRing::new(zp, ring.variables(), ring.layout().order().clone()).unwrap();
     let ground = ring.field().ring();
-    let point: Vec<u64> =
-        (1..=ground.variables().len() as u64).map(|k| (seed * 7919 + k * k * 104_729 + k) % p).collect();
     let number =
         |q: &BigRational| groebot::number::Field::from_rational(&zp, q).expect("no denominator is a multiple of p");
     let image = |f: &Poly| {
-        let value = |f: &_| ground.substitute(f, &zp, &point, number);
+        let value = |f: &_| ground.substitute(f, &zp, point, number);
         let coefficient = |c: &groebot::poly::Fraction<BigRational>| {
             Ok(zp.checked_div(&value(c.numerator()), &value(c.denominator())).expect("a lucky point"))
         };
@@ -110,8 +114,11 @@ fn orientation_given_by_related_parameters() {
     // The wrist (x - c, y - s) decides the second angle: 2*3*2*c2 = |wrist|^2 - 3^2 - 2^2.
     let cosine = read(&block.ring, "12*c2 - (x - c)^2 - (y - s)^2 + 13");
     assert!(found.contains(&cosine).unwrap());
-    assert!(groebner::buchberger::is_groebner_basis(&block.ring, &found.polynomials).unwrap());
-    assert!(block.generators.iter().all(|f| found.contains(f).unwrap()));
+    let (p, fifth) = (1_000_003, 600_002);
+    assert_eq!(5 * fifth % p, 1, "(3/5, 4/5) is a direction");
+    for (x, y) in [(17, 29), (401, 7), (123_456, 654_321)] {
+        assert_specialises_at(&found, &block.generators, p, &[x, y, 3 * fifth % p, 4 * fifth % p]);
+    }
     let refused = by(&block.ring, &block.generators, Way::Interpolation).unwrap_err();
     assert_eq!(refused.kind(), ErrorKind::Unsupported);
 }
