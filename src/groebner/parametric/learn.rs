@@ -337,7 +337,7 @@ fn outer_places(quotient: &Quotient) -> Vec<Place> {
 /// mostly single out a corner of every support; then larger ones at random.
 fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
     let mut stream = Stream(1);
-    if parameters <= 3 {
+    if parameters <= 2 {
         let unit = |v: usize| (0..parameters).map(|k| u32::from(k == v)).collect();
         let random = |height: u64| random_weights(parameters, height, &mut stream);
         return (0..parameters).map(unit).chain((2..=40).map(random)).collect();
