@@ -81,7 +81,7 @@ fn interpolated_blocks_specialise() {
 }
 
 #[test]
-#[ignore = "ten seconds"]
+#[ignore = "four seconds"]
 fn the_generic_arm_with_eight_parameters_specialises() {
     let block = blocks::generic_3r_symbolic();
     let watch = Watch::none().with_time(Duration::from_secs(60));
