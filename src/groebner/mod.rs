@@ -15,6 +15,7 @@ pub mod ideal;
 pub mod modular;
 mod pairs;
 mod prime_field;
+pub mod parametric;
 mod reduced;
 mod univariate_representation;
 pub mod verify;

@@ -86,6 +86,11 @@ impl<F: Field> Fractions<F> {
         self.relations.iter().any(|relation| relation.variable == variable)
     }
 
+    /// The relations: a parameter and the polynomial that its square equals.
+    pub fn squares(&self) -> impl Iterator<Item = (usize, &Polynomial<F::Element>)> {
+        self.relations.iter().map(|relation| (relation.variable, &relation.square))
+    }
+
     /// `f` modulo the relations: every algebraic parameter to the power 0 or 1.
     pub fn reduce(&self, f: &Polynomial<F::Element>) -> Polynomial<F::Element> {
         self.relations.iter().rev().fold(f.clone(), |f, relation| {
@@ -122,6 +127,16 @@ impl<F: Field> Fractions<F> {
             }
         }
         (!bottom.is_zero()).then(|| self.lowest_terms(top, bottom))
+    }
+
+    /// `numerator / denominator`, which the caller knows to be coprime, with a monic denominator that is free of algebraic parameters.
+    pub fn coprime_fraction(
+        &self,
+        numerator: Polynomial<F::Element>,
+        denominator: Polynomial<F::Element>,
+    ) -> Fraction<F::Element> {
+        debug_assert!(self.fraction(&numerator, &denominator).is_some_and(|a| a.denominator == denominator));
+        Fraction { numerator, denominator }
     }
 
     /// `f` with the sign of its root `variable` changed; `f` is reduced.

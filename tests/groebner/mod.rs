@@ -1,5 +1,6 @@
 //! Tests of `groebot::groebner`.
 
+mod blocks;
 mod claims;
 mod f4;
 mod families;
@@ -11,6 +12,7 @@ mod cover_points;
 mod known;
 mod limits;
 mod modular;
+mod parametric;
 mod random;
 mod systems;
 mod univariate_representation;

@@ -1,0 +1,259 @@
+//! From residues modulo primes to rational functions over Q: Chinese remainders and rational reconstruction.
+
+use std::ops::{Add, Mul};
+
+use num_bigint::Sign;
+use num_traits::ToPrimitive;
+
+use super::learn::{Learned, learn};
+use super::pattern::{Functions, Pattern, factors_modulo};
+use super::prime::{Prime, SmoothPrime, Stream};
+use crate::number::{BigInt, BigRational, Rationals, Zp};
+use crate::poly::{Fraction, Fractions, Monomial, Polynomial, PolynomialRing, Term};
+use crate::{Error, ErrorKind, Result, Watch};
+
+type Ground = PolynomialRing<Rationals>;
+
+/// The functions as elements of `field`, whose parameters are theirs.
+///
+/// # Errors
+/// As [`learn`]; [`ErrorKind::Unsupported`] when too many primes are unlucky; [`ErrorKind::Overflow`].
+pub(super) fn interpolate(
+    functions: &impl Functions,
+    field: &Fractions<Rationals>,
+    watch: &Watch,
+) -> Result<Vec<Fraction<BigRational>>> {
+    if functions.count() == 0 {
+        return Ok(Vec::new());
+    }
+    let learned = learn(functions, watch)?;
+    let Learned { patterns, .. } = &learned;
+    let supports: Vec<Support> = patterns.iter().map(|p| Support::new(field.ring(), p)).collect::<Result<_>>()?;
+    let mut residues = Residues::default();
+    residues.push(learned.field, &normalised(learned.field, &supports, &learned.factors));
+    let mut stream = Stream(7);
+    let mut primes = Primes::new();
+    loop {
+        watch.check()?;
+        if residues.is_worth_a_trial()
+            && let Some(values) = residues.rationals()
+            && holds(functions, patterns, &supports, &values, &mut primes, &mut stream, watch)?
+        {
+            return Ok(supports.iter().zip(split(&supports, values)).map(|(s, v)| s.fraction(field, v)).collect());
+        }
+        let (modulus, factors) = next_factors(functions, patterns, &mut primes, &mut stream, watch)?;
+        residues.push(modulus, &normalised(modulus, &supports, &factors));
+    }
+}
+
+/// The factors modulo the next lucky prime.
+fn next_factors(
+    functions: &impl Functions,
+    patterns: &[Pattern],
+    primes: &mut Primes,
+    stream: &mut Stream,
+    watch: &Watch,
+) -> Result<(Prime, Vec<Vec<Vec<u64>>>)> {
+    for _ in 0..10 {
+        let field = primes.next_prime();
+        if let Some(factors) = factors_modulo(functions, patterns, field, stream, watch)? {
+            return Ok((field, factors));
+        }
+    }
+    let text =
+        "ten primes in a row do not fit the supports that the first prime gave; compute over the fractions instead";
+    Err(Error::new(ErrorKind::Unsupported, text))
+}
+
+/// Whether the rational functions have the right values at a random point modulo a fresh prime.
+fn holds(
+    functions: &impl Functions,
+    patterns: &[Pattern],
+    supports: &[Support],
+    values: &[BigRational],
+    primes: &mut Primes,
+    stream: &mut Stream,
+    watch: &Watch,
+) -> Result<bool> {
+    let field = primes.next_prime();
+    let point: Vec<u64> = (0..functions.parameters()).map(|_| stream.unit(field)).collect();
+    let found = functions.values(field, std::slice::from_ref(&point), watch)?;
+    let Some(expected) = found.into_iter().next().flatten() else { return Ok(false) };
+    let mut rest = values.iter();
+    let mut right = true;
+    for ((pattern, support), &expected) in patterns.iter().zip(supports).zip(&expected) {
+        let images = rest.by_ref().take(support.monomials.len()).map(|q| image(field, q));
+        let mut images = images.collect::<Vec<_>>().into_iter();
+        let factors: Vec<Vec<u64>> =
+            pattern.slots.iter().map(|slot| images.by_ref().take(slot.exponents.len()).collect()).collect();
+        let (numerator, denominator) = pattern.value(field, &factors, &point);
+        right &= denominator != 0 && numerator == field.mul(denominator, expected);
+    }
+    Ok(right)
+}
+
+/// A rational number modulo a prime that does not divide its denominator; else 0.
+pub(super) fn image(field: Prime, q: &BigRational) -> u64 {
+    let integer = |n: &BigInt| {
+        if let Some(small) = n.to_i64() {
+            return small.rem_euclid(field.p as i64) as u64;
+        }
+        let digits = (n.magnitude() % field.p).to_u64_digits();
+        let magnitude = digits.first().copied().unwrap_or(0);
+        if n.sign() == Sign::Minus { field.neg(magnitude) } else { magnitude }
+    };
+    let (numerator, denominator) = (integer(q.numer()), integer(q.denom()));
+    if denominator == 1 { numerator } else { field.mul(numerator, field.inverse(denominator)) }
+}
+
+/// The monomials of one function, in the order of the factors of its pattern.
+struct Support {
+    /// Whether the monomial belongs to the numerator, and the monomial.
+    monomials: Vec<(bool, Monomial)>,
+    /// The greatest monomial of the denominator: its coefficient becomes one.
+    lead: usize,
+}
+
+impl Support {
+    /// Multiplies numerator and denominator by the least monomial that leaves no negative exponent.
+    fn new(ring: &Ground, pattern: &Pattern) -> Result<Self> {
+        let all: Vec<(bool, &Vec<i32>)> =
+            pattern.slots.iter().flat_map(|slot| slot.exponents.iter().map(|e| (slot.place.top, e))).collect();
+        let least = |v: usize| all.iter().map(|(_, e)| e[v]).min().unwrap_or(0);
+        let least: Vec<i32> = (0..ring.variables().len()).map(least).collect();
+        let monomial = |e: &[i32]| {
+            let exponents: Vec<u32> = e.iter().zip(&least).map(|(&e, &low)| (e - low) as u32).collect();
+            ring.monomial(&exponents)
+        };
+        let monomials: Vec<(bool, Monomial)> =
+            all.iter().map(|(top, e)| Ok((*top, monomial(e)?))).collect::<Result<_>>()?;
+        let bottom = (0..monomials.len()).filter(|&i| !monomials[i].0);
+        let lead = bottom.max_by(|&i, &j| ring.layout().compare(&monomials[i].1, &monomials[j].1)).unwrap_or(0);
+        Ok(Support { monomials, lead })
+    }
+
+    /// The fraction with these coefficients.
+    fn fraction(&self, field: &Fractions<Rationals>, values: Vec<BigRational>) -> Fraction<BigRational> {
+        let ring = field.ring();
+        let mut parts: [Vec<Term<BigRational>>; 2] = Default::default();
+        for ((top, monomial), coefficient) in self.monomials.iter().zip(values) {
+            parts[usize::from(*top)].push(Term { coefficient, monomial: monomial.clone() });
+        }
+        let [bottom, top]: [Polynomial<BigRational>; 2] = parts.map(|terms| ring.collect(terms));
+        field.coprime_fraction(top, bottom)
+    }
+}
+
+/// All factors in one row, each function with leading coefficient one in its denominator.
+fn normalised(field: Prime, supports: &[Support], factors: &[Vec<Vec<u64>>]) -> Vec<u64> {
+    let mut row = Vec::new();
+    for (support, factors) in supports.iter().zip(factors) {
+        let flat: Vec<u64> = factors.iter().flatten().copied().collect();
+        let inverse = field.inverse(flat[support.lead]);
+        row.extend(flat.iter().map(|&c| field.mul(c, inverse)));
+    }
+    row
+}
+
+/// The values of each function apart.
+fn split(supports: &[Support], values: Vec<BigRational>) -> Vec<Vec<BigRational>> {
+    let mut rest = values.into_iter();
+    supports.iter().map(|support| rest.by_ref().take(support.monomials.len()).collect()).collect()
+}
+
+/// A row of numbers by their residues, in mixed radix: digit `k` counts the product of the first `k` primes.
+#[derive(Default)]
+struct Residues {
+    primes: Vec<Prime>,
+    digits: Vec<Vec<u64>>,
+}
+
+impl Residues {
+    /// Takes the residues modulo one more prime (Garner, 1959).
+    fn push(&mut self, field: Prime, residues: &[u64]) {
+        self.digits.resize(residues.len(), Vec::new());
+        let product = self.primes.iter().fold(1, |product, prime| field.mul(product, prime.p % field.p));
+        let inverse = field.inverse(product);
+        for (digits, &residue) in self.digits.iter_mut().zip(residues) {
+            let known = digits.iter().zip(&self.primes).rev();
+            let value = known.fold(0, |value, (&digit, prime)| field.reduce(value * (prime.p % field.p) + digit));
+            digits.push(field.mul(field.sub(residue, value), inverse));
+        }
+        self.primes.push(field);
+    }
+
+    /// Trials become rarer as the numbers grow.
+    fn is_worth_a_trial(&self) -> bool {
+        let count = self.primes.len();
+        count <= 4 || count.is_multiple_of(count / 4)
+    }
+
+    /// All numbers as small rationals; `None` when one is not small yet.
+    fn rationals(&self) -> Option<Vec<BigRational>> {
+        if self.primes.len() <= 4 {
+            let modulus: u128 = self.primes.iter().map(|prime| u128::from(prime.p)).product();
+            let bound = (modulus / 2).isqrt();
+            return self.digits.iter().map(|digits| short_rational(self.value(digits), modulus, bound)).collect();
+        }
+        let modulus: BigInt = self.primes.iter().map(|prime| BigInt::from(prime.p)).product();
+        let bound = (&modulus >> 1usize).sqrt();
+        self.digits.iter().map(|digits| rational(self.value(digits), &modulus, &bound)).collect()
+    }
+
+    /// The number with these digits.
+    fn value<N: From<u64> + Mul<Output = N> + Add<Output = N>>(&self, digits: &[u64]) -> N {
+        let pairs = digits.iter().zip(&self.primes).rev();
+        pairs.fold(N::from(0), |value, (&digit, prime)| value * N::from(prime.p) + N::from(digit))
+    }
+}
+
+/// The rational number with numerator and denominator up to `bound` that is `value` modulo `modulus` (P. Wang, SYMSAC 1981).
+fn rational(value: BigInt, modulus: &BigInt, bound: &BigInt) -> Option<BigRational> {
+    let (mut a, mut b) = (modulus.clone(), value);
+    let (mut s, mut t) = (BigInt::ZERO, BigInt::from(1));
+    while b > *bound {
+        let quotient = &a / &b;
+        (a, b) = (b.clone(), a - &quotient * b);
+        (s, t) = (t.clone(), s - quotient * t);
+    }
+    (t.magnitude() <= bound.magnitude() && t.sign() != Sign::NoSign).then(|| BigRational::new(b, t))
+}
+
+/// [`rational`] in machine words.
+fn short_rational(value: u128, modulus: u128, bound: u128) -> Option<BigRational> {
+    let (mut a, mut b, mut s, mut t) = (modulus, value, 0i128, 1i128);
+    while b > bound {
+        let quotient = a / b;
+        (a, b) = (b, a - quotient * b);
+        (s, t) = (t, s - quotient as i128 * t);
+    }
+    let numerator = BigInt::from(b) * t.signum();
+    (t != 0 && t.unsigned_abs() <= bound).then(|| BigRational::new(numerator, t.unsigned_abs().into()))
+}
+
+/// The primes below 2^31 from the greatest, those of [`SmoothPrime`] left out.
+struct Primes {
+    count: usize,
+    last: u32,
+}
+
+impl Primes {
+    /// The first ones, so that small problems need no test.
+    const FIRST: [u32; 16] = [
+        2147483629, 2147483587, 2147483579, 2147483563, 2147483549, 2147483543, 2147483497, 2147483489, 2147483477,
+        2147483423, 2147483399, 2147483353, 2147483323, 2147483269, 2147483249, 2147483237,
+    ];
+
+    fn new() -> Self {
+        Primes { count: 0, last: 0 }
+    }
+
+    fn next_prime(&mut self) -> Prime {
+        let listed = Self::FIRST.get(self.count);
+        let is_next =
+            |&n: &u32| Zp::new(u64::from(n)).is_ok() && !SmoothPrime::all().iter().any(|s| s.field.p == u64::from(n));
+        self.last = listed.copied().unwrap_or_else(|| (0..self.last).rev().find(is_next).unwrap_or(3));
+        self.count += 1;
+        Prime::new(self.last)
+    }
+}

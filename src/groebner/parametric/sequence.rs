@@ -1,0 +1,133 @@
+//! Sums of powers: `a(n) = sum of c[i] * r[i]^n` from its first values, modulo a prime.
+//!
+//! M. Ben-Or and P. Tiwari, "A deterministic algorithm for sparse multivariate polynomial interpolation", STOC 1988, with the
+//! algorithms of Berlekamp and Massey and of Cantor and Zassenhaus.
+
+use super::line::{divide, divide_by_root, product_of_roots};
+use super::prime::{Prime, Stream};
+
+/// The monic polynomial whose roots are the bases `r[i]`, when it is determined with two values to spare.
+pub(super) fn minimal_polynomial(field: Prime, values: &[u64]) -> Option<Vec<u64>> {
+    let mut connection = connection_polynomial(field, values);
+    (2 * (connection.len() - 1) + 2 <= values.len()).then(|| {
+        connection.reverse();
+        connection
+    })
+}
+
+/// The shortest recurrence `sum of c[k] a(n - k) = 0` with `c[0] = 1` (J. Massey, IEEE Trans. Inf. Theory 15, 1969); its length
+/// is one more than the linear complexity.
+fn connection_polynomial(field: Prime, values: &[u64]) -> Vec<u64> {
+    let (mut current, mut previous) = (vec![1u64], vec![1u64]);
+    let (mut complexity, mut gap, mut previous_discrepancy) = (0, 1, 1);
+    for n in 0..values.len() {
+        let window = values[n - complexity..=n].iter().rev();
+        let discrepancy = field.dot(current.iter(), window);
+        if discrepancy == 0 {
+            gap += 1;
+            continue;
+        }
+        let factor = field.mul(discrepancy, field.inverse(previous_discrepancy));
+        let grows = 2 * complexity <= n;
+        let saved = grows.then(|| current.clone());
+        current.resize(current.len().max(previous.len() + gap), 0);
+        field.sub_multiple(&mut current[gap..], factor, &previous);
+        if let Some(saved) = saved {
+            complexity = n + 1 - complexity;
+            (previous, previous_discrepancy, gap) = (saved, discrepancy, 1);
+        } else {
+            gap += 1;
+        }
+    }
+    current.resize(complexity + 1, 0);
+    current
+}
+
+/// The roots of a monic polynomial, when it has as many distinct nonzero ones as its degree.
+pub(super) fn distinct_roots(field: Prime, f: &[u64], stream: &mut Stream) -> Option<Vec<u64>> {
+    if f[0] == 0 {
+        return None;
+    }
+    if f.len() > 2 && power_modulo(field, 0, field.p - 1, f) != [1] {
+        return None;
+    }
+    let mut roots = Vec::with_capacity(f.len() - 1);
+    split(field, f.to_vec(), stream, &mut roots);
+    Some(roots)
+}
+
+/// Splits a product of distinct linear factors at random (D. Cantor and H. Zassenhaus, Math. Comp. 36, 1981).
+fn split(field: Prime, f: Vec<u64>, stream: &mut Stream, roots: &mut Vec<u64>) {
+    match f.len() {
+        0 | 1 => {}
+        2 => roots.push(field.neg(f[0])),
+        _ => loop {
+            let mut half = power_modulo(field, stream.unit(field), (field.p - 1) / 2, &f);
+            half.resize(half.len().max(1), 0);
+            half[0] = field.sub(half[0], 1);
+            let factor = gcd(field, f.clone(), half);
+            if factor.len() > 1 && factor.len() < f.len() {
+                let mut rest = f;
+                let cofactor = divide(field, &mut rest, &factor);
+                split(field, factor, stream, roots);
+                return split(field, cofactor, stream, roots);
+            }
+        },
+    }
+}
+
+/// `(x + shift)^exponent` modulo the monic `f` of degree two or more.
+fn power_modulo(field: Prime, shift: u64, exponent: u64, f: &[u64]) -> Vec<u64> {
+    let mut power = vec![1u64];
+    for bit in (0..u64::BITS - exponent.leading_zeros()).rev() {
+        power = square(field, &power);
+        if exponent >> bit & 1 == 1 {
+            power.insert(0, 0);
+            for k in 1..power.len() {
+                power[k - 1] = field.reduce(power[k - 1] + shift * power[k]);
+            }
+        }
+        divide(field, &mut power, f);
+    }
+    power
+}
+
+fn square(field: Prime, f: &[u64]) -> Vec<u64> {
+    if f.is_empty() {
+        return Vec::new();
+    }
+    let top = f.len() - 1;
+    let coefficient = |k: usize| {
+        let range = k.saturating_sub(top)..=k.min(top);
+        field.dot(f[range.clone()].iter(), f[range].iter().rev())
+    };
+    (0..=2 * top).map(coefficient).collect()
+}
+
+/// The monic greatest common divisor.
+fn gcd(field: Prime, mut a: Vec<u64>, mut b: Vec<u64>) -> Vec<u64> {
+    while b.last() == Some(&0) {
+        b.pop();
+    }
+    while !b.is_empty() {
+        divide(field, &mut a, &b);
+        (a, b) = (b, a);
+    }
+    let inverse = field.inverse(a.last().copied().unwrap_or(1));
+    a.into_iter().map(|c| field.mul(c, inverse)).collect()
+}
+
+/// The factors `c[i]` for known distinct bases: a transposed Vandermonde system (E. Kaltofen and L. Yagati, ISSAC 1988); `None` when
+/// two bases are equal.
+pub(super) fn factors(field: Prime, bases: &[u64], values: &[u64]) -> Option<Vec<u64>> {
+    let master = product_of_roots(field, bases);
+    let degrees = 1..master.len() as u64;
+    let derivative: Vec<u64> = master[1..].iter().zip(degrees).map(|(&c, k)| field.mul(c, k)).collect();
+    let norms: Vec<u64> = bases.iter().map(|&base| field.horner(&derivative, base)).collect();
+    let inverses = field.inverses(&norms)?;
+    let solve = |(&base, inverse): (&u64, u64)| {
+        let quotient = divide_by_root(field, &master, base);
+        field.mul(field.dot(quotient.iter(), values.iter()), inverse)
+    };
+    Some(bases.iter().zip(inverses).map(solve).collect())
+}
