@@ -47,6 +47,9 @@ pub struct Arguments {
     /// Prove the basis and write the proof, by default beside FILE as NAME.certificate.json
     #[arg(long, value_name = "OUT", num_args = 0..=1, require_equals = true)]
     certificate: Option<Option<PathBuf>>,
+    /// Let nothing rest on primes or chance: prove the basis, or take exact steps alone
+    #[arg(long)]
+    prove: bool,
     /// The format of FILE
     #[arg(long, default_value = "auto", value_parser = formats(&["auto", "plain", "singular", "msolve"]))]
     format: Choice,
@@ -112,7 +115,7 @@ impl Arguments {
             system.heading = system.heading.modulo(p).map_err(|error| error.with_context("--characteristic"))?;
         }
         let format = self.output_format.and_then(|choice| choice.0).unwrap_or(given);
-        Question::new(system, self.order.clone(), &self.eliminate, format, self.certificate.is_some())
+        Question::new(system, self.order.clone(), &self.eliminate, format, self.certificate.is_some(), self.prove)
     }
 
     /// Where the certificate goes, if one is asked for.

@@ -1,10 +1,14 @@
 //! From a system of polynomials to its basis, as text: the question, the engine for each field, the answer.
 
+use std::fmt;
+
 use super::basis_certificate::prove;
-use crate::groebner::{Basis, Options, basis};
-use crate::number::{Field, Rationals, Zp};
+use crate::groebner::f4::MODULUS_LIMIT;
+use crate::groebner::modular::{self, Status};
+use crate::groebner::{Basis, Options, Settings, basis, basis_modulo_prime, f4_with, parametric};
+use crate::number::{BigRational, Field, Rationals, Zp};
 use crate::poly::system::{Format, Heading, PolynomialSystem};
-use crate::poly::{Block, Fractions, Order, Polynomial, PolynomialRing};
+use crate::poly::{Block, Fraction, Fractions, Order, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The most standard monomials that are counted.
@@ -20,6 +24,8 @@ pub struct Question {
     pub eliminated: Vec<String>,
     pub format: Format,
     pub certificate: bool,
+    /// Whether nothing may rest on chance.
+    pub prove: bool,
 }
 
 /// The basis, printed, and what it says about the ideal.
@@ -28,6 +34,7 @@ pub struct Answer {
     pub text: String,
     /// The proof as JSON, when it was asked for.
     pub certificate: Option<String>,
+    verdict: Verdict,
     heading: Heading,
     /// Exponents of the leading monomials.
     leads: Vec<Vec<u32>>,
@@ -35,18 +42,107 @@ pub struct Answer {
     free: Option<Vec<String>>,
 }
 
-/// An engine over the field `F`: the reduced basis, with cofactors when the options ask for them.
-type Engine<F> =
-    fn(&PolynomialRing<F>, &[Polynomial<<F as crate::number::Ring>::Element>], &Options, &Watch) -> Result<Basis<F>>;
+/// How sure a basis is.
+#[derive(Clone, Copy)]
+enum Verdict {
+    /// Cofactors, which were multiplied out, prove it.
+    Proved,
+    /// Every step was exact.
+    Exact,
+    /// It agrees with a computation modulo a prime that it was not made from.
+    Probable,
+    /// F4: complete but for a chance below 2^-50 a block of rows (--prove goes without) for each block of rows.
+    BeyondChance,
+}
+
+/// What an engine finds.
+type Found<F> = Result<(Basis<F>, Verdict)>;
+
+/// What is asked of an engine beside the reduced basis.
+#[derive(Clone, Copy)]
+struct Rigour {
+    /// The cofactors that express the basis in the generators.
+    cofactors: bool,
+    /// A proof, or exact steps alone.
+    prove: bool,
+}
+
+/// An engine over the field `F`.
+type Engine<F> = fn(&PolynomialRing<F>, &[Polynomial<<F as crate::number::Ring>::Element>], Rigour, &Watch) -> Found<F>;
 
 /// Computes with the engine of the system's field.
 fn compute(question: &Question, watch: &Watch) -> Result<Answer> {
     let Heading { characteristic, parameters, .. } = &question.working;
     match (*characteristic, parameters.is_empty()) {
-        (0, true) => question.over(Rationals, basis, watch),
-        (0, false) => question.over(Fractions::new(Rationals, parameters)?, basis, watch),
-        (p, true) => question.over(Zp::new(p)?, basis, watch),
-        (p, false) => question.over(Fractions::new(Zp::new(p)?, parameters)?, basis, watch),
+        (0, true) => question.over(Rationals, over_the_rationals, watch),
+        (0, false) => question.over(Fractions::new(Rationals, parameters)?, with_parameters, watch),
+        (p, true) => question.over(Zp::new(p)?, modulo_a_prime, watch),
+        (p, false) => question.over(Fractions::new(Zp::new(p)?, parameters)?, by_buchberger, watch),
+    }
+}
+
+fn by_buchberger<F: Field>(
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    rigour: Rigour,
+    watch: &Watch,
+) -> Found<F> {
+    let options = Options { cofactors: rigour.cofactors, ..Options::default() };
+    Ok((basis(ring, generators, &options, watch)?, Verdict::Exact))
+}
+
+fn modulo_a_prime(
+    ring: &PolynomialRing<Zp>,
+    generators: &[Polynomial<u64>],
+    rigour: Rigour,
+    watch: &Watch,
+) -> Found<Zp> {
+    if rigour.cofactors || (rigour.prove && ring.field().modulus() >= MODULUS_LIMIT) {
+        return by_buchberger(ring, generators, rigour, watch);
+    }
+    if rigour.prove {
+        let row_by_row = Settings { combinations: false, ..Settings::default() };
+        return Ok((f4_with(ring, generators, row_by_row, watch)?, Verdict::Exact));
+    }
+    Ok((basis_modulo_prime(ring, generators, watch)?, Verdict::BeyondChance))
+}
+
+fn over_the_rationals(
+    ring: &PolynomialRing<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    rigour: Rigour,
+    watch: &Watch,
+) -> Found<Rationals> {
+    let options = Options { cofactors: rigour.cofactors, ..Options::default() };
+    let mut found = modular::basis(ring, generators, &options, watch)?;
+    if rigour.prove && found.status == Status::Probable {
+        found.status = modular::prove(&found, ring, generators, watch)?;
+    }
+    let verdict = if found.status == Status::Proved { Verdict::Proved } else { Verdict::Probable };
+    Ok((found.basis, verdict))
+}
+
+fn with_parameters(
+    ring: &PolynomialRing<Fractions<Rationals>>,
+    generators: &[Polynomial<Fraction<BigRational>>],
+    rigour: Rigour,
+    watch: &Watch,
+) -> Found<Fractions<Rationals>> {
+    if rigour.cofactors || rigour.prove {
+        return by_buchberger(ring, generators, rigour, watch);
+    }
+    let found = parametric::basis(ring, generators, &parametric::Options::default(), watch)?;
+    Ok((found.basis, if found.exact { Verdict::Exact } else { Verdict::Probable }))
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Verdict::Proved => "proved",
+            Verdict::Exact => "exact",
+            Verdict::Probable => "probable: agrees with a further prime (--prove proves it)",
+            Verdict::BeyondChance => "complete but for a chance below 2^-50 a block of rows (--prove goes without)",
+        })
     }
 }
 
@@ -62,6 +158,7 @@ impl Question {
         eliminated: &[String],
         format: Format,
         certificate: bool,
+        prove: bool,
     ) -> Result<Question> {
         check_eliminated(&system.heading, eliminated)?;
         let kept = system.heading.variables.iter().filter(|name| !eliminated.contains(name));
@@ -74,7 +171,7 @@ impl Question {
         let target = target.with_order(order).map_err(|error| error.with_context("--order"))?;
         let working = working_heading(&target, eliminated);
         target.print(format, &target.ring(Rationals)?, &[])?;
-        Ok(Question { system, working, target, eliminated: eliminated.to_vec(), format, certificate })
+        Ok(Question { system, working, target, eliminated: eliminated.to_vec(), format, certificate, prove })
     }
 
     /// Computes the basis.
@@ -88,8 +185,8 @@ impl Question {
     fn over<F: Field>(&self, field: F, engine: Engine<F>, watch: &Watch) -> Result<Answer> {
         let ring = self.working.ring(field)?;
         let generators = self.system.expand(&ring, watch)?;
-        let options = Options { cofactors: self.certificate, ..Options::default() };
-        let found = engine(&ring, &generators, &options, watch)?;
+        let rigour = Rigour { cofactors: self.certificate, prove: self.prove };
+        let (found, verdict) = engine(&ring, &generators, rigour, watch)?;
         let certificate = self.certificate.then(|| prove(self, &ring, &generators, &found)).transpose()?;
         watch.check()?;
         let kept = self.kept(found)?;
@@ -97,6 +194,7 @@ impl Question {
         let names = |free: Vec<usize>| free.into_iter().map(|v| self.target.variables[v].clone()).collect();
         Ok(Answer {
             text: self.target.print(self.format, &kept.ring, &kept.polynomials)?,
+            verdict: if certificate.is_some() { Verdict::Proved } else { verdict },
             certificate,
             heading: self.target.clone(),
             leads: kept.leading_monomials().into_iter().map(|m| layout.exponents(m)).collect(),
@@ -159,8 +257,7 @@ impl Answer {
         let field = if *characteristic == 0 { "Q".to_owned() } else { format!("GF({characteristic})") };
         let field = if parameters.is_empty() { field } else { format!("{field}({})", parameters.join(", ")) };
         let elements = if self.leads.len() == 1 { "element" } else { "elements" };
-        let proved = if self.certificate.is_some() { ", proved" } else { "" };
-        format!("{} {elements} over {field}, {order}{proved}; {}", self.leads.len(), self.ideal())
+        format!("{} {elements} over {field}, {order}; {}; {}", self.leads.len(), self.ideal(), self.verdict)
     }
 
     fn ideal(&self) -> String {

@@ -5,8 +5,8 @@
 
 use crate::groebner::{Options, Strategy, basis, normal_form};
 use crate::number::{Field, Ring};
-use crate::poly::{Order, Polynomial, PolynomialRing, gcd, square_free_factors};
-use crate::{Result, Watch};
+use crate::poly::{Order, Polynomial, PolynomialRing, factor, gcd, square_free_factors};
+use crate::{ErrorKind, Result, Watch};
 
 /// The reduced basis of an ideal; empty for zero, `[1]` for all.
 pub(super) type Ideal<E> = Vec<Polynomial<E>>;
@@ -45,14 +45,22 @@ impl<'a, F: Field> Ideals<'a, F> {
     /// Distinct monic factors with the same zeros as `f`, as irreducible as the factorisation of `poly` makes them: the one place
     /// where the cover asks for factors.
     pub fn factors(&self, f: &Polynomial<F::Element>) -> Result<Vec<Polynomial<F::Element>>> {
+        if self.ring.as_constant(f).is_some() {
+            return Ok(Vec::new());
+        }
+        match factor(&self.ring, f, self.watch) {
+            Ok(found) => Ok(found.factors.into_iter().map(|(factor, _)| factor).collect()),
+            Err(error) if error.kind() == ErrorKind::Unsupported => self.separable_factors(f),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Square-free factors over fields without a factorisation into irreducible ones.
+    fn separable_factors(&self, f: &Polynomial<F::Element>) -> Result<Vec<Polynomial<F::Element>>> {
         self.watch.check()?;
         let characteristic = self.ring.field().characteristic();
         let separable = characteristic == 0 || characteristic > u64::from(self.ring.degree(f));
-        Ok(match self.ring.as_constant(f) {
-            Some(_) => Vec::new(),
-            None if separable => square_free_factors(&self.ring, f),
-            None => vec![self.ring.monic(f)],
-        })
+        Ok(if separable { square_free_factors(&self.ring, f) } else { vec![self.ring.monic(f)] })
     }
 
     /// Whether the ideal is the whole ring: its zero set is empty.
