@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-use super::Outcome;
 use super::basis_answer::{Answer, Question};
 use super::console;
 use super::progress::{Limits, Session, mebibytes, seconds};
+use super::{Outcome, basis_cover};
 use crate::files::write_atomically;
 use crate::poly::Order;
 use crate::poly::system::{Format, MAX_SYSTEM_LENGTH, PolynomialSystem, parse_order};
@@ -24,6 +24,7 @@ const EXAMPLES: &str = "Examples:
   groebot basis surface.txt --eliminate s,t -o surface.basis
   groebot basis circles.sing --characteristic 32003 --time 60 --memory 2000
   groebot basis circles.txt --certificate=circles.json       with cofactors: the basis is in the ideal
+  groebot basis leg.txt --cover                              where the parameters change the basis, in words
 
 docs/basis_files.md describes the three formats and the certificate.";
 
@@ -47,6 +48,9 @@ pub struct Arguments {
     /// Prove the basis and write the proof, by default beside FILE as NAME.certificate.json
     #[arg(long, value_name = "OUT", num_args = 0..=1, require_equals = true)]
     certificate: Option<Option<PathBuf>>,
+    /// Tell the basis at every value of the parameters: strata of the parameter space, in words, proved
+    #[arg(long, conflicts_with_all = ["certificate", "eliminate", "output_format", "prove"])]
+    cover: bool,
     /// Let nothing rest on primes or chance: prove the basis, or take exact steps alone
     #[arg(long)]
     prove: bool,
@@ -90,6 +94,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let limits = Limits { time: arguments.time, memory: arguments.memory, quiet: arguments.quiet, terms: None };
     let session = Session::start(limits)?;
     let start = Instant::now();
+    if arguments.cover {
+        return tell_cover(arguments, &session, start);
+    }
     let question = arguments.question().map_err(|error| error.in_file(shown(&arguments.file)))?;
     let proof_file = arguments.proof_file()?;
     let answer = question.answer(&session.watch).map_err(|error| in_file(error, &arguments.file))?;
@@ -106,14 +113,40 @@ pub fn run(arguments: &Arguments) -> Outcome {
     Ok(())
 }
 
+/// Computes the cover, writes it, and tells about it.
+fn tell_cover(arguments: &Arguments, session: &Session, start: Instant) -> Outcome {
+    let tell = || {
+        let (system, _) = arguments.system()?;
+        let order = arguments.order.clone().unwrap_or_else(|| system.heading.order.clone());
+        let heading = system.heading.with_order(order).map_err(|error| error.with_context("--order"))?;
+        basis_cover::tell(&system, &heading, &session.watch)
+    };
+    let (text, summary) = tell().map_err(|error| in_file(error, &arguments.file))?;
+    match &arguments.out {
+        Some(path) => write_files(&[(path.clone(), text)], &session.watch)?,
+        None => console::print(&text)?,
+    }
+    if !arguments.quiet {
+        // There is no one left to tell about a closed standard error.
+        let _ = writeln!(io::stderr(), "{summary}; {:.2} s", start.elapsed().as_secs_f64());
+    }
+    Ok(())
+}
+
 impl Arguments {
-    fn question(&self) -> Result<Question> {
+    /// The system in the file, over the field that was asked for, and the format of the file.
+    fn system(&self) -> Result<(PolynomialSystem, Format)> {
         let bytes = read_bytes(&self.file)?;
         let given = self.format.0.unwrap_or_else(|| PolynomialSystem::format_of(&String::from_utf8_lossy(&bytes)));
         let mut system = PolynomialSystem::read_bytes(&bytes, Some(given))?;
         if let Some(p) = self.characteristic {
             system.heading = system.heading.modulo(p).map_err(|error| error.with_context("--characteristic"))?;
         }
+        Ok((system, given))
+    }
+
+    fn question(&self) -> Result<Question> {
+        let (system, given) = self.system()?;
         let format = self.output_format.and_then(|choice| choice.0).unwrap_or(given);
         Question::new(system, self.order.clone(), &self.eliminate, format, self.certificate.is_some(), self.prove)
     }

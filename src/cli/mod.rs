@@ -8,6 +8,7 @@ mod answers;
 mod basis;
 mod basis_answer;
 mod basis_certificate;
+mod basis_cover;
 mod check;
 mod console;
 mod derive;
