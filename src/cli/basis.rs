@@ -118,7 +118,7 @@ fn tell_cover(arguments: &Arguments, session: &Session, start: Instant) -> Outco
     let tell = || {
         let (system, _) = arguments.system()?;
         let order = arguments.order.clone().unwrap_or_else(|| system.heading.order.clone());
-        let heading = system.heading.with_order(order).map_err(|error| error.with_context("--order"))?;
+        let heading = system.heading.clone().with_order(order).map_err(|error| error.with_context("--order"))?;
         basis_cover::tell(&system, &heading, &session.watch)
     };
     let (text, summary) = tell().map_err(|error| in_file(error, &arguments.file))?;
