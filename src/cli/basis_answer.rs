@@ -90,7 +90,7 @@ impl Question {
         let generators = self.system.expand(&ring, watch)?;
         let options = Options { cofactors: self.certificate, ..Options::default() };
         let found = engine(&ring, &generators, &options, watch)?;
-        let certificate = self.certificate.then(|| prove(self, &ring, &generators, &found)).transpose()?;
+        let certificate = self.certificate.then(|| prove(self, &ring, &generators, &found, watch)).transpose()?;
         watch.check()?;
         let kept = self.kept(found)?;
         let layout = kept.ring.layout();
