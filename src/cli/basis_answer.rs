@@ -187,7 +187,7 @@ impl Question {
         let generators = self.system.expand(&ring, watch)?;
         let rigour = Rigour { cofactors: self.certificate, prove: self.prove };
         let (found, verdict) = engine(&ring, &generators, rigour, watch)?;
-        let certificate = self.certificate.then(|| prove(self, &ring, &generators, &found)).transpose()?;
+        let certificate = self.certificate.then(|| prove(self, &ring, &generators, &found, watch)).transpose()?;
         watch.check()?;
         let kept = self.kept(found)?;
         let layout = kept.ring.layout();

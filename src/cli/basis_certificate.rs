@@ -7,7 +7,7 @@ use crate::groebner::Basis;
 use crate::groebner::verify::{Claim, verify};
 use crate::number::{Field, Ring, Style};
 use crate::poly::{Polynomial, PolynomialRing};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// `basis` is the reduced Groebner basis of the ideal of `generators`, and `basis[i]` is the sum over j of
 /// `cofactors[i][j] * generators[j]`. docs/basis_files.md describes it.
@@ -27,16 +27,17 @@ struct Certificate<'a> {
 /// Proves `found` without the engine, then writes the proof.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] when it is no basis of `generators`; [`ErrorKind::Overflow`].
+/// [`ErrorKind::Certificate`] when it is no basis of `generators`; [`ErrorKind::Overflow`]; what `watch` stops with.
 pub fn prove<F: Field>(
     question: &Question,
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
     found: &Basis<F>,
+    watch: &Watch,
 ) -> Result<String> {
     let generators: Vec<_> = generators.iter().map(|f| ring.transfer(f, &found.ring)).collect::<Result<_>>()?;
     let claim = Claim { generators: &generators, basis: &found.polynomials, cofactors: &found.cofactors };
-    verify(&found.ring, &claim)?;
+    verify(&found.ring, &claim, watch)?;
     let texts = |list: &[Polynomial<F::Element>]| list.iter().map(|f| found.ring.format(f, Style::Text)).collect();
     let heading = &question.working;
     let certificate = Certificate {

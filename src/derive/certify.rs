@@ -1,11 +1,11 @@
 //! Proofs of bases: cofactors found by the engine, checked by [`crate::groebner::verify`] before anything uses them.
 
 use super::setting::{Coefficients, Poly, Setting, Unknowns};
-use crate::Result;
 use crate::groebner::verify::{Claim, Proof, verify};
 use crate::groebner::{Basis, divide};
 use crate::number::Ring;
 use crate::poly::Order;
+use crate::{Result, Watch};
 
 /// A reduced Groebner basis of a setting's equations with the cofactors that prove it, already verified.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +38,11 @@ impl Certified {
     pub fn verify(&self, setting: &Setting) -> Result<Proof> {
         let ring = self.ring(setting)?;
         let generators = setting.generators(&ring)?;
-        verify(&ring, &Claim { generators: &generators, basis: &self.basis, cofactors: &self.cofactors })
+        verify(
+            &ring,
+            &Claim { generators: &generators, basis: &self.basis, cofactors: &self.cofactors },
+            &Watch::none(),
+        )
     }
 }
 
@@ -47,12 +51,14 @@ pub(super) fn certified(
     graded: &Basis<Coefficients>,
     target: &Basis<Coefficients>,
     generators: &[Poly],
+    watch: &Watch,
 ) -> Result<Certified> {
     let ring = &target.ring;
     let cofactors = target.polynomials.iter().map(|g| express(graded, target, g, generators.len()));
     let cofactors: Vec<Vec<Poly>> = cofactors.collect::<Result<_>>()?;
     let generators: Vec<Poly> = generators.iter().map(|f| graded.ring.transfer(f, ring)).collect::<Result<_>>()?;
-    let proof = verify(ring, &Claim { generators: &generators, basis: &target.polynomials, cofactors: &cofactors })?;
+    let proof =
+        verify(ring, &Claim { generators: &generators, basis: &target.polynomials, cofactors: &cofactors }, watch)?;
     Ok(Certified {
         order: ring.variables().to_vec(),
         graded: *ring.layout().order() == Order::GrevLex,

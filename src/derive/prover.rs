@@ -49,7 +49,7 @@ impl Engine<'_> {
         };
         let graded = generic_basis(setting, &ring, &generators, self.watch)?;
         match graded.independent_variables() {
-            None => Ok(Outcome::Inconsistent(Box::new(certify::certified(&graded, &graded, &generators)?))),
+            None => Ok(Outcome::Inconsistent(Box::new(certify::certified(&graded, &graded, &generators, self.watch)?))),
             Some(free) if free.is_empty() => self.solved(setting, &graded, &generators, parent),
             Some(free) => self.family(setting, &graded, &generators, &free),
         }
@@ -76,7 +76,7 @@ impl Engine<'_> {
             Orders::Searched if !inherited => super::plan::best_order(setting, &quotient, self.watch)?,
             _ => lex,
         };
-        let certified = certify::certified(graded, &lex, generators)?;
+        let certified = certify::certified(graded, &lex, generators, self.watch)?;
         let triangular = triangularise(&lex.ring, &lex.polynomials)?;
         Ok(Outcome::Solved(Box::new(Solved { certified, triangular, inherited })))
     }
@@ -90,7 +90,7 @@ impl Engine<'_> {
         free: &[usize],
     ) -> Result<Outcome> {
         let joints = joints_of(self.system, &graded.ring, free);
-        let certified = certify::certified(graded, graded, generators)?;
+        let certified = certify::certified(graded, graded, generators, self.watch)?;
         let member = member_setting(self.system, setting, &joints);
         let outcome = self.outcome(&member, None)?;
         let member = Box::new(Node::leaf(MEMBER, member, outcome));

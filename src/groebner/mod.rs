@@ -1,7 +1,22 @@
-//! Groebner bases over any field.
+//! Groebner bases over any field, and what is computed from them.
 //!
-//! [`buchberger`] is the algorithm of NAO section 6.3, word for word; [`basis`] is the one to use. [`ideal`] asks questions of
-//! a basis; [`verify`] proves one without trusting the engine.
+//! Which front door for what:
+//!
+//! | question | function | the answer is |
+//! | --- | --- | --- |
+//! | a basis over any field, with cofactors if asked | [`basis()`] | exact; Buchberger's algorithm with criteria |
+//! | a basis modulo a prime, in any order | [`basis_modulo_prime`] | [`f4()`], then [`change_order`]; wrong with a chance below 2^-50 a block of rows |
+//! | a basis over Q | [`modular::basis`] | [`modular::Status::Probable`]; [`modular::prove`] settles it |
+//! | a basis over the rational functions of parameters | [`parametric::basis`] | for generic parameters; exact or tested, as it says |
+//! | a basis for every value of the parameters | [`cover::cover`] | a list of strata; [`cover::check`] proves it |
+//! | another order, elimination, a minimal polynomial | [`change_order`], [`Quotient`], [`WordQuotient`] | exact; dimension zero only |
+//! | elimination in any dimension | [`ideal::eliminate`] | exact |
+//! | dimension, degree, number of solutions | [`Basis::hilbert_series`], [`Basis::quotient_dimension`] | exact |
+//! | all complex solutions as roots of one polynomial | [`univariate_representation()`] | proved over Q, given the basis |
+//! | all real solutions in boxes | [`crate::real::solve`] | proved |
+//!
+//! [`buchberger`] is the algorithm of NAO section 6.3, word for word: the reference. [`verify`] proves a basis without trusting
+//! any engine. `docs/groebner.md` tells what each guarantee rests on.
 
 pub mod buchberger;
 pub mod cover;

@@ -4,7 +4,7 @@
 
 use crate::number::{Field, Ring};
 use crate::poly::{Monomial, Polynomial, PolynomialRing};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// What is claimed: `basis` is the reduced Groebner basis of the ideal of `generators`, and
 /// `basis[i] = sum over j of cofactors[i][j] * generators[j]`.
@@ -33,17 +33,17 @@ pub struct Proof {
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] with the first element, generator or pair for which the claim fails;
-/// [`ErrorKind::Overflow`].
-pub fn verify<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>) -> Result<Proof> {
+/// [`ErrorKind::Overflow`]; what `watch` stops with.
+pub fn verify<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>, watch: &Watch) -> Result<Proof> {
     check_forms(ring, claim)?;
-    check_reduced(ring, claim.basis)?;
-    check_cofactors(ring, claim)?;
+    check_reduced(ring, claim.basis, watch)?;
+    check_cofactors(ring, claim, watch)?;
     for (index, f) in claim.generators.iter().enumerate() {
-        if !remainder(ring, f, claim.basis)?.is_zero() {
+        if !remainder(ring, f, claim.basis, watch)?.is_zero() {
             return Err(refuse(format!("generator {} does not reduce to zero by the basis", index + 1)));
         }
     }
-    let pairs = check_pairs(ring, claim.basis)?;
+    let pairs = check_pairs(ring, claim.basis, watch)?;
     Ok(Proof { cofactor_rows: claim.basis.len(), generators: claim.generators.len(), pairs })
 }
 
@@ -69,8 +69,9 @@ fn check_forms<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>
 }
 
 /// Monic, and no term divisible by the leading monomial of another element.
-fn check_reduced<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Element>]) -> Result<()> {
+fn check_reduced<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Element>], watch: &Watch) -> Result<()> {
     for (index, g) in basis.iter().enumerate() {
+        watch.check()?;
         if !g.leading().is_some_and(|term| ring.field().is_one(&term.coefficient)) {
             return Err(refuse(format!("basis element {} is not monic", index + 1)));
         }
@@ -88,7 +89,7 @@ fn lead<E>(f: &Polynomial<E>) -> Result<&Monomial> {
     f.leading().map(|term| &term.monomial).ok_or_else(|| refuse("a basis element is zero".to_owned()))
 }
 
-fn check_cofactors<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>) -> Result<()> {
+fn check_cofactors<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>, watch: &Watch) -> Result<()> {
     if claim.cofactors.len() != claim.basis.len() {
         let text = format!("{} rows of cofactors for {} basis elements", claim.cofactors.len(), claim.basis.len());
         return Err(refuse(text));
@@ -99,8 +100,10 @@ fn check_cofactors<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Elem
                 format!("element {} has {} cofactors for {} generators", index + 1, row.len(), claim.generators.len());
             return Err(refuse(text));
         }
+        watch.report("cofactors", index, claim.basis.len() - index);
         let mut sum = ring.zero();
         for (cofactor, f) in row.iter().zip(claim.generators) {
+            watch.check()?;
             sum = ring.add(&sum, &ring.checked_mul(cofactor, f)?);
         }
         if sum != *g {
@@ -110,18 +113,19 @@ fn check_cofactors<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Elem
     Ok(())
 }
 
-fn check_pairs<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Element>]) -> Result<usize> {
+fn check_pairs<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Element>], watch: &Watch) -> Result<usize> {
     let one = ring.field().one();
-    let mut pairs = 0;
+    let (mut pairs, all) = (0, basis.len() * basis.len().saturating_sub(1) / 2);
     for (i, f) in basis.iter().enumerate() {
         for (j, g) in basis.iter().enumerate().skip(i + 1) {
+            watch.report("S-pairs", pairs, all - pairs);
             let lcm = ring.lcm(lead(f)?, lead(g)?)?;
             let lift = |h: &Polynomial<F::Element>| -> Result<_> {
                 let factor = ring.layout().checked_div(&lcm, lead(h)?).expect("a multiple is divisible");
                 ring.mul_term(h, &one, &factor)
             };
             let difference = ring.sub(&lift(f)?, &lift(g)?);
-            if !remainder(ring, &difference, basis)?.is_zero() {
+            if !remainder(ring, &difference, basis, watch)?.is_zero() {
                 return Err(refuse(format!(
                     "the S-pair of basis elements {} and {} does not reduce to zero",
                     i + 1,
@@ -139,9 +143,11 @@ fn remainder<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
     basis: &[Polynomial<F::Element>],
+    watch: &Watch,
 ) -> Result<Polynomial<F::Element>> {
     let (mut rest, mut kept) = (f.clone(), ring.zero());
     'terms: while let Some(top) = rest.leading().cloned() {
+        watch.check()?;
         for g in basis {
             if let Some(factor) = ring.layout().checked_div(&top.monomial, lead(g)?) {
                 rest = ring.sub(&rest, &ring.mul_term(g, &top.coefficient, &factor)?);

@@ -30,7 +30,7 @@ impl<F: Field> Owned<F> {
 
     fn verify(&self) -> groebot::Result<Proof> {
         let claim = Claim { generators: &self.generators, basis: &self.basis, cofactors: &self.cofactors };
-        verify(&self.ring, &claim)
+        verify(&self.ring, &claim, &Watch::none())
     }
 
     /// Refused as a certificate, with `place` in the message.
@@ -162,6 +162,6 @@ fn the_zero_and_the_unit_ideal_are_proved() {
         let generators: Vec<_> = texts.iter().map(|text| read(&ring, text)).collect();
         let found = basis(&ring, &generators, &options, &Watch::none()).unwrap();
         let claim = Claim { generators: &generators, basis: &found.polynomials, cofactors: &found.cofactors };
-        assert_eq!(verify(&ring, &claim).unwrap().cofactor_rows, size, "{texts:?}");
+        assert_eq!(verify(&ring, &claim, &Watch::none()).unwrap().cofactor_rows, size, "{texts:?}");
     }
 }

@@ -302,7 +302,7 @@ impl Check for Proved<'_> {
         let options = Options { strategy: Strategy::Normal, cofactors: true };
         let found = basis(&ring, &generators, &options, &Watch::none()).unwrap();
         let claim = Claim { generators: &generators, basis: &found.polynomials, cofactors: &found.cofactors };
-        let proof = verify(&ring, &claim).unwrap_or_else(|error| panic!("{}: {error}", case.file));
+        let proof = verify(&ring, &claim, &Watch::none()).unwrap_or_else(|error| panic!("{}: {error}", case.file));
         let size = found.polynomials.len();
         assert_eq!((proof.cofactor_rows, proof.generators), (size, generators.len()), "{}", case.file);
         assert_eq!(proof.pairs, size * size.saturating_sub(1) / 2, "{}", case.file);

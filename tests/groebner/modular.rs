@@ -104,7 +104,7 @@ proptest! {
         let found = modular::basis(&ring, &generators, &options, &Watch::none()).unwrap();
         prop_assert_eq!(found.status, Status::Proved);
         let claim = Claim { generators: &generators, basis: &found.basis.polynomials, cofactors: &found.basis.cofactors };
-        verify(&ring, &claim).unwrap();
+        verify(&ring, &claim, &Watch::none()).unwrap();
         prop_assert!(proved(&found, &ring, &generators));
     }
 }

@@ -31,7 +31,7 @@ fn agree<F: Field>(field: F, order: Order, generators: &[Sparse]) -> bool {
     assert!(is_groebner_basis(&ring, &normal.polynomials).unwrap());
     for found in [&normal, &sugar] {
         let claim = Claim { generators: &generators, basis: &found.polynomials, cofactors: &found.cofactors };
-        verify(&ring, &claim).unwrap();
+        verify(&ring, &claim, &Watch::none()).unwrap();
     }
     if let Ok(reference) = buchberger(&ring, &generators, &Watch::none().with_time(Duration::from_millis(200))) {
         let reduces = |f, by: &[_]| normal_form(&ring, f, by).unwrap().is_zero();

@@ -137,3 +137,31 @@ fn what_cannot_be_factored_is_refused() {
     let refused = factor(&ring, &read(&ring, "x^2 - a^2"), &Watch::none());
     assert_eq!(refused.unwrap_err().kind(), ErrorKind::Unsupported);
 }
+
+/// Irreducible polynomials that split whenever one certain variable gets a number: all elements of these fields are cubes, in
+/// GF(2) and its extensions of odd degree, in GF(5), and in GF(32003). Singular 4.4: `factorize` finds one factor each.
+#[test]
+fn irreducible_although_every_image_splits() {
+    for (p, text) in [
+        (2, "x^6*y^2 + z^3"),
+        (5, "x^3*y + z^3"),
+        (32003, "x^6*y + z^3"),
+        (5, "3*x^12*y^3*z^3 + 3*x^11*z^6 + 2*x^8 + x*y + 2"),
+        (32003, "3*x^13*y^3 + 2*z^18 + 3*x^5*y"),
+    ] {
+        let ring = PolynomialRing::new(Zp::new(p).unwrap(), &["x", "y", "z"], Order::GrevLex).unwrap();
+        let f = ring.monic(&read(&ring, text));
+        assert_eq!(factored(&ring, &f).factors, [(f, 1)], "{text} modulo {p}");
+    }
+}
+
+/// The degrees are above those of the extensions of GF(5) that have tables. Singular 4.4: `factorize` finds these factors.
+#[test]
+fn degrees_above_those_of_the_extensions() {
+    let ring = PolynomialRing::new(Zp::new(5).unwrap(), &["x", "y", "z"], Order::GrevLex).unwrap();
+    let known = ["x", "3*z + 4", "3*x^12*y^3*z^3 + 3*x^11*z^6 + 2*x^8 + x*y + 2", "z", "2*y*z^14 + 3*y^7 + z^5 + 4*y"];
+    let known = known.map(|text| ring.monic(&read(&ring, text)));
+    let found = factored(&ring, &known.iter().fold(ring.one(), |product, f| ring.mul(&product, f)));
+    assert_eq!(found.factors.len(), known.len());
+    assert!(known.iter().all(|f| found.factors.contains(&(f.clone(), 1))));
+}

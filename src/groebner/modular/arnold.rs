@@ -40,7 +40,7 @@ pub fn prove(
     let generators = transferred(ring, generators, &basis.ring)?;
     if !basis.cofactors.is_empty() {
         let claim = Claim { generators: &generators, basis: &basis.polynomials, cofactors: &basis.cofactors };
-        return verify(&basis.ring, &claim).map(|_| Status::Proved);
+        return verify(&basis.ring, &claim, watch).map(|_| Status::Proved);
     }
     check_reduced(&basis.ring, &basis.polynomials)?;
     if *basis.ring.layout().order() == Order::GrevLex && generators.iter().all(|f| is_homogeneous(&basis.ring, f)) {

@@ -75,7 +75,7 @@ pub fn basis(
             let (primes, confirmed_by) = (lift.primes(), p);
             let basis = lift.into_basis(&system, watch)?;
             let found = Modular { basis, status: Status::Probable, primes, unlucky: ballot.unlucky(), confirmed_by };
-            return if options.cofactors { proved_by_cofactors(found, generators) } else { Ok(found) };
+            return if options.cofactors { proved_by_cofactors(found, generators, watch) } else { Ok(found) };
         }
         lifted = ballot.enter(system.learn(p, options, watch)?).lift(&system, &mut primes, watch)?;
     }
@@ -83,8 +83,12 @@ pub fn basis(
 }
 
 /// The same, proved: cofactors multiply out, generators and S-pairs reduce to zero.
-fn proved_by_cofactors(found: Modular, generators: &[Polynomial<num_rational::BigRational>]) -> Result<Modular> {
+fn proved_by_cofactors(
+    found: Modular,
+    generators: &[Polynomial<num_rational::BigRational>],
+    watch: &Watch,
+) -> Result<Modular> {
     let Basis { polynomials, cofactors, .. } = &found.basis;
-    verify(&found.basis.ring, &Claim { generators, basis: polynomials, cofactors })?;
+    verify(&found.basis.ring, &Claim { generators, basis: polynomials, cofactors }, watch)?;
     Ok(Modular { status: Status::Proved, ..found })
 }

@@ -1,5 +1,6 @@
 //! Splitting polynomials into coprime square-free factors, as the strata of a parametric basis need them.
 
+use crate::Watch;
 use crate::number::{Field, Ring};
 use crate::poly::gcd::{content, gcd, split_monomial};
 use crate::poly::ring::{Polynomial, PolynomialRing};
@@ -19,7 +20,7 @@ pub fn square_free_factors<F: Field>(
     factors.extend(variables.clone().filter(|&v| ring.degree_in(&power, v) > 0).map(|v| ring.variable(v)));
     let mut rest = ring.monic(&rest);
     for v in variables.filter(|&v| ring.degree_in(f, v) > 0) {
-        let content = content(ring, &rest, v);
+        let content = content(ring, &rest, v, &Watch::none()).expect("nothing stops it");
         if ring.as_constant(&content).is_none() {
             factors.extend(square_free_factors(ring, &content));
             rest = ring.exact_div(&rest, &content).expect("a content divides");

@@ -35,7 +35,8 @@ impl<'a, K: WordField> Lifting<'a, K> {
         anchor: Vec<u64>,
     ) -> Option<Self> {
         let others = others.to_vec();
-        let search = Search::new(field, packing);
+        let nothing_stops = Watch::none();
+        let search = Search::new(field, packing, &nothing_stops);
         let levels = search.restrictions(f, &others, &anchor);
         let leads = search.restrictions(&f.leading_in(packing, main), &others, &anchor);
         let lifting = Lifting { field, packing, main, others, anchor, levels, leads };
@@ -82,10 +83,12 @@ impl<'a, K: WordField> Lifting<'a, K> {
                 None => return Ok(None),
             }
         }
-        let mut search = Search::new(self.field, self.packing);
+        let mut search = Search::new(self.field, self.packing, watch);
         let lead = &self.leads[self.others.len()];
         let primitive = known.iter().map(|h| Some(search.primitive_part(h, lead, self.main)?.monic(self.field)));
-        Ok(primitive.collect())
+        let primitive = primitive.collect();
+        watch.check()?;
+        Ok(primitive)
     }
 
     /// The scaled factors in one more variable.

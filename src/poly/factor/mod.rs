@@ -19,7 +19,7 @@ use num_traits::One;
 
 use self::over_finite::split_over_prime;
 use self::over_integers::split_over_integers;
-use super::gcd::{content, gcd};
+use super::gcd::{content, gcd_within};
 use super::ring::{Polynomial, PolynomialRing};
 use super::words::convert;
 use crate::number::{BigRational, Field, Ring, Style};
@@ -49,7 +49,7 @@ impl<E: Clone> Factorisation<E> {
 /// The irreducible factors of a nonzero `f` over Q or GF(p).
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for zero; [`ErrorKind::Unsupported`] over other fields; [`ErrorKind::Overflow`] when the
+/// [`ErrorKind::BadValue`] for zero; [`ErrorKind::Unsupported`] over other fields, and over one with too few points for the degrees of `f`; [`ErrorKind::Overflow`] when the
 /// exponents of a term do not fit 128 bits; what `watch` stops with.
 pub fn factor<F: Field>(
     ring: &PolynomialRing<F>,
@@ -63,7 +63,7 @@ pub fn factor<F: Field>(
         return Err(unsupported());
     }
     let mut factors = Vec::new();
-    for (part, multiplicity) in square_free::powers(ring, f) {
+    for (part, multiplicity) in square_free::powers(ring, f, watch)? {
         watch.check()?;
         factors.extend(irreducible_factors(ring, &part, watch)?.into_iter().map(|factor| (factor, multiplicity)));
     }
@@ -80,10 +80,10 @@ fn irreducible_factors<F: Field>(
     watch: &Watch,
 ) -> Result<Vec<Polynomial<F::Element>>> {
     let Some(main) = main_variable(ring, f) else { return Ok(Vec::new()) };
-    let content = content(ring, f, main);
+    let content = content(ring, f, main, watch)?;
     let mut factors = irreducible_factors(ring, &content, watch)?;
     let f = ring.monic(&ring.exact_div(f, &content).expect("a content divides"));
-    let inseparable = inseparable_part(ring, &f, main);
+    let inseparable = inseparable_part(ring, &f, main, watch)?;
     factors.extend(irreducible_factors(ring, &inseparable, watch)?);
     let f = ring.monic(&ring.exact_div(&f, &inseparable).expect("a gcd divides"));
     if ring.degree_in(&f, main) == 1 {
@@ -99,12 +99,13 @@ fn inseparable_part<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
     variable: usize,
-) -> Polynomial<F::Element> {
+    watch: &Watch,
+) -> Result<Polynomial<F::Element>> {
     let p = ring.field().characteristic();
     if p == 0 || p > u64::from(ring.degree_in(f, variable)) {
-        return ring.one();
+        return Ok(ring.one());
     }
-    gcd(ring, f, &ring.derivative(f, variable))
+    gcd_within(ring, f, &ring.derivative(f, variable), watch)
 }
 
 /// Of the variables in which `f` has a derivative the one of degree one, or else with the shortest leading coefficient;

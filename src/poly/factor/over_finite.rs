@@ -1,7 +1,7 @@
 //! Factors of a square-free polynomial over GF(p), in one or several variables.
 //!
-//! Where GF(p) has too few points the work is done over GF(p^k) for a prime `k` above a degree of the polynomial: a
-//! polynomial that is irreducible over GF(p) splits into conjugates of equal degrees, so none of them splits there.
+//! Where GF(p) has too few points the work is done over GF(p^k) for a prime `k`, best above a degree of the polynomial: one
+//! that is irreducible over GF(p) either stays so or splits into `k` conjugates. Factors that are not over GF(p) are refused.
 
 use super::finite;
 use super::lift::Lifting;
@@ -24,8 +24,9 @@ pub fn split_over_prime(p: u64, packing: &Packing, f: &Flat, main: usize, watch:
         return Ok(factors);
     }
     let degree = present.iter().map(|&v| f.degree_in(packing, v)).min().unwrap_or(0);
-    let extensions = (degree + 1..).filter(|&k| is_prime(k)).map_while(|k| Extension::new(p, k));
-    for field in extensions {
+    let above = (degree + 1..).filter(|&k| is_prime(k)).map_while(|k| Extension::new(p, k));
+    let below = (2..=degree).rev().filter(|&k| is_prime(k)).filter_map(|k| Extension::new(p, k));
+    for field in above.chain(below) {
         if let Some(factors) = split_in(&field, packing, f, main, watch)? {
             return Ok(factors);
         }
@@ -39,6 +40,8 @@ fn is_prime(k: u32) -> bool {
 }
 
 /// The factors by points of one field; `None` when all points that were tried are unlucky.
+///
+/// Each point begins with another variable: `x^3 + y^3 z` splits at every point of `z` where all elements are cubes.
 fn split_in<K: WordField>(
     field: &K,
     packing: &Packing,
@@ -46,10 +49,12 @@ fn split_in<K: WordField>(
     main: usize,
     watch: &Watch,
 ) -> Result<Option<Vec<Flat>>> {
-    let others: Vec<usize> = (0..packing.variables()).filter(|&v| v != main && f.degree_in(packing, v) > 0).collect();
+    let mut others: Vec<usize> =
+        (0..packing.variables()).filter(|&v| v != main && f.degree_in(packing, v) > 0).collect();
     let mut random = Random::new(2);
     for _ in 0..POINTS {
         watch.check()?;
+        others.rotate_left(1);
         let anchor = others.iter().map(|_| random.below(field.size())).collect();
         let Some(lifting) = Lifting::new(field, packing, f, main, &others, anchor) else { continue };
         let line = finite::factors(field, &lifting.line(), watch)?;

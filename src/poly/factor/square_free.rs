@@ -1,21 +1,25 @@
 //! Square-free decomposition by derivatives (Musser 1975), in any characteristic.
 
 use crate::number::{Field, Ring};
-use crate::poly::gcd::{common, gcd, split_monomial};
+use crate::poly::gcd::{common_within, gcd_within, split_monomial};
 use crate::poly::{Polynomial, PolynomialRing, Term};
+use crate::{Result, Watch};
 
 /// Polynomials with their multiplicities.
 type Powers<F> = Vec<(Polynomial<<F as Ring>::Element>, u32)>;
 
 /// Square-free, pairwise coprime, non-constant polynomials with multiplicities, whose powers multiply to `f` up to a
 /// constant, over a prime field or one of characteristic zero.
-pub fn powers<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) -> Powers<F> {
+///
+/// # Errors
+/// What `watch` stops with.
+pub fn powers<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, watch: &Watch) -> Result<Powers<F>> {
     let (monomial, rest) = split_monomial(ring, f);
     let exponents = (0..ring.variables().len()).map(|v| (ring.variable(v), ring.degree_in(&monomial, v)));
     let mut parts: Vec<_> = exponents.filter(|(_, exponent)| *exponent > 0).collect();
     let (mut rest, mut scale) = (rest, 1);
     while ring.as_constant(&rest).is_none() {
-        let (found, repeated) = powers_by_derivatives(ring, &rest);
+        let (found, repeated) = powers_by_derivatives(ring, &rest, watch)?;
         parts.extend(found.into_iter().map(|(part, n)| (part, n * scale)));
         if ring.as_constant(&repeated).is_some() {
             break;
@@ -24,27 +28,29 @@ pub fn powers<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) ->
         rest = root(ring, &repeated, p);
         scale *= p;
     }
-    parts
+    Ok(parts)
 }
 
 /// The parts whose multiplicity the characteristic does not divide, and the rest: a power of the characteristic.
 fn powers_by_derivatives<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
-) -> (Powers<F>, Polynomial<F::Element>) {
-    let variables = (0..ring.variables().len()).filter(|&v| ring.degree_in(f, v) > 0);
-    let mut repeated = variables.fold(f.clone(), |shared, v| gcd(ring, &shared, &ring.derivative(f, v)));
+    watch: &Watch,
+) -> Result<(Powers<F>, Polynomial<F::Element>)> {
+    let mut variables = (0..ring.variables().len()).filter(|&v| ring.degree_in(f, v) > 0);
+    let mut repeated =
+        variables.try_fold(f.clone(), |shared, v| gcd_within(ring, &shared, &ring.derivative(f, v), watch))?;
     let mut distinct = ring.exact_div(f, &repeated).expect("a gcd divides");
     let (mut parts, mut multiplicity) = (Vec::new(), 1);
     while ring.as_constant(&distinct).is_none() {
-        let shared = common(ring, &distinct, &repeated);
+        let shared = common_within(ring, &distinct, &repeated, watch)?;
         if ring.as_constant(&shared.left).is_none() {
             parts.push((ring.monic(&shared.left), multiplicity));
         }
         (distinct, repeated) = (shared.gcd, shared.right);
         multiplicity += 1;
     }
-    (parts, repeated)
+    Ok((parts, repeated))
 }
 
 /// The `p`-th root of a `p`-th power over GF(p).

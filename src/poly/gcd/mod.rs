@@ -11,6 +11,7 @@ use self::modular::Search;
 use super::ring::{Polynomial, PolynomialRing};
 use super::words::{Extension, Flat, Packing, Prime, convert};
 use crate::number::{Field, PrimeElement, Ring};
+use crate::{Result, Watch};
 
 pub(super) use reference::split_monomial;
 
@@ -31,7 +32,17 @@ pub fn gcd<F: Field>(
     f: &Polynomial<F::Element>,
     g: &Polynomial<F::Element>,
 ) -> Polynomial<F::Element> {
-    common(ring, f, g).gcd
+    gcd_within(ring, f, g, &Watch::none()).expect("nothing stops it")
+}
+
+/// [`gcd`], until `watch` stops it.
+pub(super) fn gcd_within<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
+    watch: &Watch,
+) -> Result<Polynomial<F::Element>> {
+    Ok(common_within(ring, f, g, watch)?.gcd)
 }
 
 /// The monic greatest common divisor of `f` and `g`, not both zero, and its cofactors.
@@ -40,11 +51,23 @@ pub(super) fn common<F: Field>(
     f: &Polynomial<F::Element>,
     g: &Polynomial<F::Element>,
 ) -> Common<Polynomial<F::Element>> {
-    trivial(ring, f, g).or_else(|| by_images(ring, f, g)).unwrap_or_else(|| {
-        let gcd = reference::gcd(ring, f, g);
-        let [left, right] = [f, g].map(|part| ring.exact_div(part, &gcd).expect("a gcd divides"));
-        Common { gcd, left, right }
-    })
+    common_within(ring, f, g, &Watch::none()).expect("nothing stops it")
+}
+
+/// [`common`], until `watch` stops it; the remainder sequences of small fields do not ask it.
+pub(super) fn common_within<F: Field>(
+    ring: &PolynomialRing<F>,
+    f: &Polynomial<F::Element>,
+    g: &Polynomial<F::Element>,
+    watch: &Watch,
+) -> Result<Common<Polynomial<F::Element>>> {
+    if let Some(found) = trivial(ring, f, g).or_else(|| by_images(ring, f, g, watch)) {
+        return Ok(found);
+    }
+    watch.check()?;
+    let gcd = reference::gcd(ring, f, g);
+    let [left, right] = [f, g].map(|part| ring.exact_div(part, &gcd).expect("a gcd divides"));
+    Ok(Common { gcd, left, right })
 }
 
 /// The gcd of the coefficients of `f` as a polynomial in `variable`.
@@ -52,17 +75,18 @@ pub(super) fn content<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
     variable: usize,
-) -> Polynomial<F::Element> {
+    watch: &Watch,
+) -> Result<Polynomial<F::Element>> {
     let mut coefficients = ring.coefficients_in(f, variable);
     coefficients.sort_by_key(|c| c.terms().len());
     let mut content = ring.zero();
     for coefficient in &coefficients {
-        content = gcd(ring, &content, coefficient);
+        content = gcd_within(ring, &content, coefficient, watch)?;
         if ring.is_one(&content) {
             break;
         }
     }
-    content
+    Ok(content)
 }
 
 /// The answer where one of the two is zero or constant, or both are equal.
@@ -90,24 +114,25 @@ fn by_images<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
     g: &Polynomial<F::Element>,
+    watch: &Watch,
 ) -> Option<Common<Polynomial<F::Element>>> {
     let first = ring.field().prime_element(&f.leading()?.coefficient)?;
     let packing = convert::packing(ring, &[f, g])?;
     match first {
-        PrimeElement::Rational(_) => rational::common_in(ring, &packing, f, g),
+        PrimeElement::Rational(_) => rational::common_in(ring, &packing, f, g, watch),
         PrimeElement::Residue(_) => {
             let [a, b] = [convert::to_flat(ring, &packing, f)?, convert::to_flat(ring, &packing, g)?];
-            let found = over_prime(ring.field().characteristic(), &packing, &a, &b)?;
+            let found = over_prime(ring.field().characteristic(), &packing, [&a, &b], watch)?;
             Some(in_ring(ring, &packing, found))
         }
     }
 }
 
 /// The answer over GF(p). A gcd stays the same in an extension of the field.
-fn over_prime(p: u64, packing: &Packing, f: &Flat, g: &Flat) -> Option<Common<Flat>> {
+fn over_prime(p: u64, packing: &Packing, [f, g]: [&Flat; 2], watch: &Watch) -> Option<Common<Flat>> {
     POINTS.iter().find_map(|&points| match (1..).find(|&k| p.saturating_pow(k) >= points)? {
-        1 => Search::new(&Prime::new(p), packing).repeated(f, g),
-        degree => Search::new(&Extension::new(p, degree)?, packing).repeated(f, g),
+        1 => Search::new(&Prime::new(p), packing, watch).repeated(f, g),
+        degree => Search::new(&Extension::new(p, degree)?, packing, watch).repeated(f, g),
     })
 }
 

@@ -6,6 +6,7 @@
 //! interpolation (Brown 1971). Nothing is believed: the result divides both, and its degrees are upper bounds.
 
 use super::Common;
+use crate::Watch;
 use crate::poly::words::dense::{self, Dense};
 use crate::poly::words::skeleton::{Nodes, Orbit, Rows, Skeleton, base_point, value_at};
 use crate::poly::words::{Flat, Packing, Random, WordField};
@@ -18,12 +19,13 @@ pub struct Search<'a, K> {
     field: &'a K,
     packing: &'a Packing,
     random: Random,
+    watch: &'a Watch,
 }
 
 impl<'a, K: WordField> Search<'a, K> {
-    /// The search over `field` with exponents in `packing`.
-    pub fn new(field: &'a K, packing: &'a Packing) -> Self {
-        Search { field, packing, random: Random::new(0) }
+    /// The search over `field` with exponents in `packing`; it finds nothing any more once `watch` stops it.
+    pub fn new(field: &'a K, packing: &'a Packing, watch: &'a Watch) -> Self {
+        Search { field, packing, random: Random::new(0), watch }
     }
 
     /// [`Search::common`] with some more choices of points.
@@ -33,6 +35,7 @@ impl<'a, K: WordField> Search<'a, K> {
 
     /// The monic gcd of two nonzero polynomials and its cofactors; `None` when the points were unlucky.
     pub fn common(&mut self, f: &Flat, g: &Flat) -> Option<Common<Flat>> {
+        self.watch.check().ok()?;
         if f.is_constant() || g.is_constant() {
             return Some(coprime(f, g));
         }
@@ -186,7 +189,11 @@ impl<'a, K: WordField> Search<'a, K> {
         let count = bounds[inner] + scale.degree_in(packing, inner) + 1;
         let nodes = Nodes::new(field, &mut self.random, count as usize)?;
         let degrees = [f.degree_in(packing, main), g.degree_in(packing, main), bounds[main]];
-        let mut image = || gcd_rows(field, &nodes, orbits.each_mut().map(|orbit| orbit.advance(field)), degrees);
+        let watch = self.watch;
+        let mut image = || {
+            watch.check().ok()?;
+            gcd_rows(field, &nodes, orbits.each_mut().map(|orbit| orbit.advance(field)), degrees)
+        };
         let images = (0..skeleton.points()).map(|_| image()).collect::<Option<Vec<_>>>()?;
         Some(skeleton.solve(field, packing, &images, [main, inner]))
     }

@@ -5,6 +5,7 @@ use num_traits::One;
 
 use super::Common;
 use super::modular::Search;
+use crate::Watch;
 use crate::number::{BigInt, BigRational, Field};
 use crate::poly::words::{Images, Integral, Packing, Prime, convert, primes};
 use crate::poly::{Polynomial, PolynomialRing};
@@ -18,10 +19,11 @@ pub fn common_in<F: Field>(
     packing: &Packing,
     f: &Polynomial<F::Element>,
     g: &Polynomial<F::Element>,
+    watch: &Watch,
 ) -> Option<Common<Polynomial<F::Element>>> {
     let (f_integral, f_content) = convert::to_integral(ring, packing, f)?;
     let (g_integral, g_content) = convert::to_integral(ring, packing, g)?;
-    let found = common(packing, &f_integral, &g_integral)?;
+    let found = common(packing, &f_integral, &g_integral, watch)?;
     if found.gcd.is_constant() {
         return Some(Common { gcd: ring.constant(ring.field().one()), left: f.clone(), right: g.clone() });
     }
@@ -34,7 +36,7 @@ pub fn common_in<F: Field>(
 }
 
 /// The primitive gcd of two primitive polynomials and its cofactors.
-pub fn common(packing: &Packing, f: &Integral, g: &Integral) -> Option<Common<Integral>> {
+pub fn common(packing: &Packing, f: &Integral, g: &Integral, watch: &Watch) -> Option<Common<Integral>> {
     let (mut images, mut lead) = (Images::default(), u128::MAX);
     for p in primes().take(PRIMES) {
         let field = Prime::new(p);
@@ -42,7 +44,7 @@ pub fn common(packing: &Packing, f: &Integral, g: &Integral) -> Option<Common<In
         if f_image.keys.first() != f.keys.first() || g_image.keys.first() != g.keys.first() {
             continue;
         }
-        let image = Search::new(&field, packing).repeated(&f_image, &g_image)?.gcd;
+        let image = Search::new(&field, packing, watch).repeated(&f_image, &g_image)?.gcd;
         if image.is_constant() {
             let one = Integral { keys: vec![0], values: vec![BigInt::one()] };
             return Some(Common { gcd: one, left: f.clone(), right: g.clone() });
