@@ -57,11 +57,7 @@ pub(super) fn graded<F: Field>(ring: &PolynomialRing<F>) -> Result<PolynomialRin
 ///
 /// # Errors
 /// Those of [`change_order`].
-pub(super) fn reordered(
-    graded: &Basis<Zp>,
-    target: &PolynomialRing<Zp>,
-    watch: &Watch,
-) -> Result<Option<Basis<Zp>>> {
+pub(super) fn reordered(graded: &Basis<Zp>, target: &PolynomialRing<Zp>, watch: &Watch) -> Result<Option<Basis<Zp>>> {
     match graded.require_zero_dimensional() {
         Ok(()) => in_some_width(graded, target, watch).map(Some),
         Err(error) if error.kind() == ErrorKind::Inconsistent => {

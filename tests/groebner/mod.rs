@@ -12,6 +12,7 @@ mod cover_points;
 mod known;
 mod limits;
 mod modular;
+mod modular_by_degree;
 mod parametric;
 mod random;
 mod systems;

@@ -8,6 +8,9 @@ use crate::number::{BigRational, Rationals, Ring};
 use crate::poly::{Polynomial, PolynomialRing, Term, Width};
 use crate::{Result, Watch};
 
+/// The number of primes grows by one in so many before the next attempt to lift.
+const PATIENCE: usize = 16;
+
 /// Every prime that was learned afresh has one vote.
 #[derive(Default)]
 pub(super) struct Ballot {
@@ -80,8 +83,11 @@ impl Candidate {
                 let Seen { shape, width, .. } = &self.learned.seen;
                 return Ok(Some(Lift { vectors, shape: shape.clone(), width: *width, primes: self.primes.len() }));
             }
-            if self.gather(input, primes, watch)? == 0 {
-                return Ok(None);
+            let enough = self.primes.len() + (self.primes.len() / PATIENCE).max(1);
+            while self.primes.len() < enough {
+                if self.gather(input, primes, watch)? == 0 {
+                    return Ok(None);
+                }
             }
         }
     }

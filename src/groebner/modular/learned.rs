@@ -97,12 +97,7 @@ impl Input {
 
 impl Learned {
     /// The images modulo further primes; `None` where the computation goes another way.
-    pub(super) fn images(
-        &self,
-        input: &Input,
-        primes: [u32; LANES],
-        watch: &Watch,
-    ) -> Result<[Option<Image>; LANES]> {
+    pub(super) fn images(&self, input: &Input, primes: [u32; LANES], watch: &Watch) -> Result<[Option<Image>; LANES]> {
         match (&self.way, &input.graded) {
             (Way::Replay(trace), _) => trace.replay(primes, &input.system.lanes(primes), watch),
             (Way::Reorder(way), Some(graded)) => {
@@ -133,7 +128,8 @@ impl Shape {
 /// The coefficients of `f` on `support`, both greatest first and with the same leading monomial.
 fn on_support(f: &Polynomial<u64>, support: &[Monomial]) -> Option<Vec<u32>> {
     let mut terms = f.terms().iter().peekable();
-    let coefficient = |m: &Monomial| terms.next_if(|term| term.monomial == *m).map_or(0, |term| term.coefficient as u32);
+    let coefficient =
+        |m: &Monomial| terms.next_if(|term| term.monomial == *m).map_or(0, |term| term.coefficient as u32);
     let row: Vec<u32> = support.iter().map(coefficient).collect();
     (terms.next().is_none() && row.first() != Some(&0)).then_some(row)
 }

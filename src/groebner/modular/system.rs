@@ -81,10 +81,7 @@ impl System {
     ///
     /// # Errors
     /// [`ErrorKind::Overflow`] when a degree does not fit.
-    pub(super) fn graded(
-        ring: &PolynomialRing<Rationals>,
-        generators: &[Polynomial<BigRational>],
-    ) -> Result<Self> {
+    pub(super) fn graded(ring: &PolynomialRing<Rationals>, generators: &[Polynomial<BigRational>]) -> Result<Self> {
         let graded = graded(ring)?;
         let generators = generators.iter().map(|f| ring.transfer(f, &graded)).collect::<Result<Vec<_>>>()?;
         Ok(System::new(&graded, &generators))
