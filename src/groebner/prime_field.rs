@@ -1,7 +1,7 @@
 //! The fastest way to a reduced basis over a prime field, in any order.
 
 use super::{Basis, Options, basis, change_order, f4};
-use crate::number::Zp;
+use crate::number::{Field, Ring, Zp};
 use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::{ErrorKind, Result, Watch};
 
@@ -19,7 +19,7 @@ pub fn basis_modulo_prime(
     let fast = if *ring.layout().order() == Order::GrevLex {
         f4(ring, generators, watch)
     } else {
-        by_change_of_order(ring, generators, watch)
+        by_degree_first(ring, generators, watch)
     };
     match fast {
         Err(error) if matches!(error.kind(), ErrorKind::BadValue | ErrorKind::Overflow) => {
@@ -29,15 +29,50 @@ pub fn basis_modulo_prime(
     }
 }
 
-fn by_change_of_order(ring: &PolynomialRing<Zp>, generators: &[Polynomial<u64>], watch: &Watch) -> Result<Basis<Zp>> {
-    let graded = PolynomialRing::new(*ring.field(), ring.variables(), Order::GrevLex)?;
+/// The reduced basis in the order of `ring`, through the graded one where that helps.
+///
+/// # Errors
+/// Those of [`f4`] and [`change_order`].
+pub(super) fn by_degree_first(
+    ring: &PolynomialRing<Zp>,
+    generators: &[Polynomial<u64>],
+    watch: &Watch,
+) -> Result<Basis<Zp>> {
+    let graded = graded(ring)?;
     let images = generators.iter().map(|f| ring.transfer(f, &graded)).collect::<Result<Vec<_>>>()?;
-    let by_degree = f4(&graded, &images, watch)?;
-    match by_degree.require_zero_dimensional() {
-        Ok(()) => change_order(&by_degree, ring, watch),
+    match reordered(&f4(&graded, &images, watch)?, ring, watch)? {
+        Some(found) => Ok(found),
+        None => f4(ring, generators, watch),
+    }
+}
+
+/// The same ring in the graded reverse order.
+pub(super) fn graded<F: Field>(ring: &PolynomialRing<F>) -> Result<PolynomialRing<F>> {
+    let plain = PolynomialRing::new(ring.field().clone(), ring.variables(), Order::GrevLex)?;
+    Ok(plain.with_width(ring.layout().width()))
+}
+
+/// The reduced basis in the order of `target` from the graded one, in lanes as wide as needed; `None` when the ideal is
+/// positive-dimensional.
+///
+/// # Errors
+/// Those of [`change_order`].
+pub(super) fn reordered(graded: &Basis<Zp>, target: &PolynomialRing<Zp>, watch: &Watch) -> Result<Option<Basis<Zp>>> {
+    match graded.require_zero_dimensional() {
+        Ok(()) => in_some_width(graded, target, watch).map(Some),
         Err(error) if error.kind() == ErrorKind::Inconsistent => {
-            Ok(Basis { ring: ring.clone(), polynomials: vec![crate::number::Ring::one(ring)], cofactors: Vec::new() })
+            Ok(Some(Basis { ring: target.clone(), polynomials: vec![target.one()], cofactors: Vec::new() }))
         }
-        Err(_) => f4(ring, generators, watch),
+        Err(_) => Ok(None),
+    }
+}
+
+fn in_some_width(graded: &Basis<Zp>, target: &PolynomialRing<Zp>, watch: &Watch) -> Result<Basis<Zp>> {
+    match (change_order(graded, target, watch), target.layout().width().wider()) {
+        (Err(error), Some(wider)) if error.kind() == ErrorKind::Overflow => {
+            let width = wider.max(graded.ring.layout().width());
+            in_some_width(&graded.clone().with_width(width)?, &target.with_width(wider), watch)
+        }
+        (outcome, _) => outcome,
     }
 }

@@ -8,11 +8,11 @@ mod solution;
 use std::sync::Arc;
 
 pub use self::solution::{Enclosure, RealSolution};
-use crate::groebner::{self, Basis, univariate_representation};
+use crate::groebner::{self, Basis, modular, univariate_representation};
 use crate::number::{BigRational, Rationals};
 use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::roots::isolate_square_free;
-use crate::{Result, Watch};
+use crate::{ErrorKind, Result, Watch};
 
 /// How precisely to solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,9 +45,27 @@ pub fn solve(
     let graded = PolynomialRing::new(Rationals, ring.variables(), Order::GrevLex)?;
     let graded = graded.with_width(ring.layout().width());
     let generators: Vec<_> = generators.iter().map(|f| ring.transfer(f, &graded)).collect::<Result<_>>()?;
-    let basis = groebner::basis(&graded, &generators, &groebner::Options::default(), watch)?;
+    let basis = proved_basis(&graded, &generators, watch)?;
     let generators: Vec<_> = generators.iter().map(|f| graded.transfer(f, &basis.ring)).collect::<Result<_>>()?;
     solve_basis(&basis, &generators, options, watch)
+}
+
+/// The reduced basis without doubt: by primes and a proof, or by the engine over Q where primes do not serve.
+fn proved_basis(
+    ring: &PolynomialRing<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<Basis<Rationals>> {
+    let options = groebner::Options::default();
+    let by_primes = modular::basis(ring, generators, &options, watch);
+    let proved = by_primes.and_then(|found| modular::prove(&found, ring, generators, watch).map(|_| found.basis));
+    match proved {
+        Err(error) if error.kind() != ErrorKind::Cancelled => {
+            watch.check()?;
+            groebner::basis(ring, generators, &options, watch)
+        }
+        outcome => outcome,
+    }
 }
 
 /// As [`solve`], given the reduced Groebner basis, in any order, of the ideal of `generators`, which are in the basis' ring.

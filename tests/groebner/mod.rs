@@ -12,6 +12,7 @@ mod homogeneous;
 mod known;
 mod limits;
 mod modular;
+mod modular_by_degree;
 mod parametric;
 mod random;
 mod systems;

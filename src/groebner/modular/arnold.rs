@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::super::hilbert::is_homogeneous;
 use super::super::verify::{Claim, verify};
-use super::super::{Options, dehomogenise, f4, homogenise};
+use super::super::{Basis, Options, dehomogenise, f4, homogenise};
 use super::system::{Integral, System, refuse};
 use super::vanish::Divisors;
 use super::{Modular, Status};
@@ -21,9 +21,9 @@ use crate::{Result, Watch};
 /// 2. Over Q, `F` and the S-pairs of `H` reduce to zero by `H`; modulo one prime, the leading monomials of `H` are those of the ideal
 ///    of `F`. Then `<H> = <F>` (Arnold 2003): the Hilbert function of `F` modulo the prime bounds that of `F` over Q from
 ///    above, that of `H` bounds it from below.
-/// 3. With the last variable put to one, `H` is a basis `B` of the ideal of the generators in graded reverse order. The
-///    elements of `found` reduce to zero by `B`. In graded reverse order they have the same leading monomials; in another order,
-///    their S-pairs and the generators reduce to zero by them.
+/// 3. With the last variable put to one, `H` is a basis `B` of the ideal of the generators in graded reverse order. In that order, the
+///    elements of `found` reduce to zero by `B` and have the same leading monomials. In another order, the generators and the
+///    S-pairs of `found` reduce to zero by `found`; its elements do by `B`, or the quotient rings have the same finite dimension.
 ///
 /// What reduces to zero over Q does so by a bound on its coefficients and enough primes. All that is taken on trust is that the
 /// polynomials which F4 finds modulo the prime of step 2 lie in the ideal there: they are sums of multiples of its input.
@@ -176,22 +176,44 @@ fn prove_by(
     generators: &[Polynomial<BigRational>],
     watch: &Watch,
 ) -> Result<Status> {
-    let width = ring.layout().width().max(graded.ring.layout().width());
-    let target = graded.ring.with_width(width);
-    let by = transferred(&graded.ring, &graded.basis, &target)?;
-    let elements = transferred(ring, basis, &target)?;
-    let mut divisors = Divisors::new(&target, &by);
-    divisors.prove_all(&integral(&elements), watch).map_err(|error| error.with_context("a basis element"))?;
     if *ring.layout().order() == Order::GrevLex {
-        let leads = |list: &[Polynomial<BigRational>]| list.iter().map(|f| lead(f).clone()).collect::<HashSet<_>>();
-        return if leads(&by) == leads(&elements) {
-            Ok(Status::Proved)
-        } else {
-            Err(refuse("a leading monomial is missing"))
-        };
+        prove_members(graded, ring, basis, watch)?;
+        let same = leads(&graded.ring, &graded.basis) == leads(ring, basis);
+        return if same { Ok(Status::Proved) } else { Err(refuse("a leading monomial is missing")) };
+    }
+    let dimension = dimension(ring, basis);
+    if dimension.is_none() {
+        prove_members(graded, ring, basis, watch)?;
+    } else if dimension != self::dimension(&graded.ring, &graded.basis) {
+        return Err(refuse("the quotient ring has another dimension"));
     }
     let mut divisors = Divisors::new(ring, basis);
     divisors.prove_all(&integral(generators), watch).map_err(|error| error.with_context("a generator"))?;
     divisors.prove_basis(watch)?;
     Ok(Status::Proved)
+}
+
+/// The exponents of the leading monomials.
+fn leads(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRational>]) -> HashSet<Vec<u32>> {
+    basis.iter().map(|f| ring.layout().exponents(lead(f))).collect()
+}
+
+/// The number of standard monomials, if finite.
+fn dimension(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRational>]) -> Option<usize> {
+    Basis { ring: ring.clone(), polynomials: basis.to_vec(), cofactors: Vec::new() }.quotient_dimension()
+}
+
+/// The elements of `basis` lie in the ideal of the graded one.
+fn prove_members(
+    graded: &Graded,
+    ring: &PolynomialRing<Rationals>,
+    basis: &[Polynomial<BigRational>],
+    watch: &Watch,
+) -> Result<()> {
+    let width = ring.layout().width().max(graded.ring.layout().width());
+    let target = graded.ring.with_width(width);
+    let by = transferred(&graded.ring, &graded.basis, &target)?;
+    let elements = transferred(ring, basis, &target)?;
+    let mut divisors = Divisors::new(&target, &by);
+    divisors.prove_all(&integral(&elements), watch).map_err(|error| error.with_context("a basis element"))
 }

@@ -1,12 +1,15 @@
 //! Candidates for the shape of the basis, the images that each has gathered, and the lift of one to Q.
 
 use super::super::Basis;
-use super::learned::{Image, LANES, Learned, Seen, Shape};
+use super::learned::{Image, Input, LANES, Learned, Seen, Shape};
 use super::system::{System, no_primes};
 use super::vectors::{Tables, Vector};
 use crate::number::{BigRational, Rationals, Ring};
 use crate::poly::{Polynomial, PolynomialRing, Term, Width};
 use crate::{Result, Watch};
+
+/// The number of primes grows by one in so many before the next attempt to lift.
+const PATIENCE: usize = 16;
 
 /// Every prime that was learned afresh has one vote.
 #[derive(Default)]
@@ -34,12 +37,13 @@ pub(super) struct Lift {
 }
 
 impl Ballot {
-    /// Counts the vote; the candidate with most votes, the latest of several.
+    /// Counts the vote, whose way replaces an earlier one to the same shape; the candidate with most votes, the latest of several.
     pub(super) fn enter(&mut self, learned: Learned) -> &mut Candidate {
         match self.candidates.iter_mut().find(|candidate| candidate.learned.seen.shape == learned.seen.shape) {
             Some(candidate) => {
                 candidate.votes += 1;
-                candidate.take(learned.seen.prime, learned.seen.image);
+                candidate.take(learned.seen.prime, learned.seen.image.clone());
+                candidate.learned = learned;
             }
             None => self.candidates.push(Candidate::new(learned)),
         }
@@ -70,7 +74,7 @@ impl Candidate {
     /// Gathers images until the coefficients stand over Q; `None` when a whole batch of primes goes another way.
     pub(super) fn lift(
         &mut self,
-        system: &System<'_>,
+        input: &Input,
         primes: &mut impl Iterator<Item = u32>,
         watch: &Watch,
     ) -> Result<Option<Lift>> {
@@ -79,14 +83,17 @@ impl Candidate {
                 let Seen { shape, width, .. } = &self.learned.seen;
                 return Ok(Some(Lift { vectors, shape: shape.clone(), width: *width, primes: self.primes.len() }));
             }
-            if self.gather(system, primes, watch)? == 0 {
-                return Ok(None);
+            let enough = self.primes.len() + (self.primes.len() / PATIENCE).max(1);
+            while self.primes.len() < enough {
+                if self.gather(input, primes, watch)? == 0 {
+                    return Ok(None);
+                }
             }
         }
     }
 
     /// Takes the images modulo the next primes; how many there are.
-    fn gather(&mut self, system: &System<'_>, primes: &mut impl Iterator<Item = u32>, watch: &Watch) -> Result<usize> {
+    fn gather(&mut self, input: &Input, primes: &mut impl Iterator<Item = u32>, watch: &Watch) -> Result<usize> {
         watch.check()?;
         watch.report("primes", self.primes.len(), self.learned.seen.shape.supports.len() - self.witnesses.len());
         let mut batch = [0; LANES];
@@ -94,7 +101,7 @@ impl Candidate {
             *p = primes.next().ok_or_else(no_primes)?;
         }
         let before = self.primes.len();
-        for (p, image) in batch.into_iter().zip(self.learned.images(system, batch, watch)?) {
+        for (p, image) in batch.into_iter().zip(self.learned.images(input, batch, watch)?) {
             match image {
                 Some(image) => self.take(p, image),
                 None => self.unlucky += 1,
@@ -146,7 +153,7 @@ impl Lift {
     }
 
     /// The basis over Q.
-    pub(super) fn into_basis(self, system: &System<'_>, watch: &Watch) -> Result<Basis<Rationals>> {
+    pub(super) fn into_basis(self, system: &System, watch: &Watch) -> Result<Basis<Rationals>> {
         let ring = system.ring.with_width(self.width);
         let mut polynomials = Vec::with_capacity(self.vectors.len());
         for (vector, support) in self.vectors.iter().zip(&self.shape.supports) {
@@ -168,7 +175,7 @@ impl Lift {
 /// The cofactors of the generators as they were given, from those of their integral multiples.
 fn widen(
     ring: &PolynomialRing<Rationals>,
-    system: &System<'_>,
+    system: &System,
     row: &[Polynomial<BigRational>],
 ) -> Vec<Polynomial<BigRational>> {
     let mut wide = vec![ring.zero(); system.given];

@@ -1,9 +1,11 @@
 //! What one prime teaches: the basis there, its shape, and how to compute it modulo other primes.
 
+use super::super::prime_field::by_degree_first;
 use super::super::{Basis, Options, Trace, basis, f4};
+use super::by_degree::ByDegree;
 use super::system::System;
-use crate::number::Zp;
-use crate::poly::{Monomial, Polynomial, Width};
+use crate::number::{BigRational, Rationals, Zp};
+use crate::poly::{Monomial, Order, Polynomial, PolynomialRing, Width};
 use crate::{Result, Watch};
 
 /// How many primes a replay takes at once.
@@ -39,50 +41,97 @@ pub(super) struct Learned {
 enum Way {
     /// By the trace of the first.
     Replay(Trace),
+    /// By the trace of the first graded basis, and a change of order.
+    Reorder(ByDegree),
     /// Afresh, with cofactors: the choices of the engine depend on monomials alone.
-    Afresh(Options),
+    Afresh,
 }
 
-impl System<'_> {
+/// The generators of a basis, and how to compute it.
+pub(super) struct Input {
+    pub system: System,
+    /// The generators by degree, where the basis may be reached from the graded one.
+    graded: Option<System>,
+    options: Options,
+}
+
+impl Input {
+    /// # Errors
+    /// [`Overflow`](crate::ErrorKind::Overflow) when a degree does not fit.
+    pub(super) fn new(
+        ring: &PolynomialRing<Rationals>,
+        generators: &[Polynomial<BigRational>],
+        options: &Options,
+    ) -> Result<Self> {
+        let in_order = options.cofactors || *ring.layout().order() == Order::GrevLex;
+        let graded = if in_order { None } else { Some(System::graded(ring, generators)?) };
+        Ok(Input { system: System::new(ring, generators), graded, options: *options })
+    }
+
     /// The basis modulo `p`, and the way to it.
-    pub(super) fn learn(&self, p: u32, options: &Options, watch: &Watch) -> Result<Learned> {
-        if options.cofactors {
-            return Ok(Learned { seen: self.look(p, options, watch)?, way: Way::Afresh(*options) });
+    pub(super) fn learn(&self, p: u32, watch: &Watch) -> Result<Learned> {
+        if self.options.cofactors {
+            return Ok(Learned { seen: self.look(p, watch)?, way: Way::Afresh });
         }
-        let (ring, generators) = self.image(p)?;
+        let (ring, generators) = self.system.image(p)?;
+        if let Some(graded) = &self.graded
+            && let Some((found, way)) = ByDegree::learn(graded, &ring, watch)?
+        {
+            return Ok(Learned { seen: Seen::new(p, &found), way: Way::Reorder(way) });
+        }
         let (found, trace) = Trace::learn(&ring, &generators, watch)?;
         Ok(Learned { seen: Seen::new(p, &found), way: Way::Replay(trace) })
     }
 
     /// The basis modulo `p` alone.
-    pub(super) fn look(&self, p: u32, options: &Options, watch: &Watch) -> Result<Seen> {
-        let (ring, generators) = self.image(p)?;
-        let found =
-            if options.cofactors { basis(&ring, &generators, options, watch)? } else { f4(&ring, &generators, watch)? };
+    pub(super) fn look(&self, p: u32, watch: &Watch) -> Result<Seen> {
+        let (ring, generators) = self.system.image(p)?;
+        let found = match (&self.graded, self.options.cofactors) {
+            (_, true) => basis(&ring, &generators, &self.options, watch)?,
+            (Some(_), _) => by_degree_first(&ring, &generators, watch)?,
+            (None, _) => f4(&ring, &generators, watch)?,
+        };
         Ok(Seen::new(p, &found))
     }
 }
 
 impl Learned {
     /// The images modulo further primes; `None` where the computation goes another way.
-    pub(super) fn images(
-        &self,
-        system: &System<'_>,
-        primes: [u32; LANES],
-        watch: &Watch,
-    ) -> Result<[Option<Image>; LANES]> {
-        match &self.way {
-            Way::Replay(trace) => trace.replay(primes, &system.lanes(primes), watch),
-            Way::Afresh(options) => {
+    pub(super) fn images(&self, input: &Input, primes: [u32; LANES], watch: &Watch) -> Result<[Option<Image>; LANES]> {
+        match (&self.way, &input.graded) {
+            (Way::Replay(trace), _) => trace.replay(primes, &input.system.lanes(primes), watch),
+            (Way::Reorder(way), Some(graded)) => {
+                let lanes = way.replay(graded, &input.system.ring, primes, watch)?;
+                Ok(lanes.map(|found| found.and_then(|found| self.seen.shape.image(&found))))
+            }
+            _ => {
                 let mut images = [const { None }; LANES];
                 for (image, &p) in images.iter_mut().zip(&primes) {
-                    let other = system.look(p, options, watch)?;
+                    let other = input.look(p, watch)?;
                     *image = (other.shape == self.seen.shape).then_some(other.image);
                 }
                 Ok(images)
             }
         }
     }
+}
+
+impl Shape {
+    /// The coefficients of `basis` on the supports; `None` when it has other leading monomials, or a term elsewhere.
+    fn image(&self, basis: &Basis<Zp>) -> Option<Image> {
+        let fits = basis.polynomials.len() == self.supports.len();
+        let rows = basis.polynomials.iter().zip(&self.supports).map(|(f, support)| on_support(f, support));
+        if fits { rows.collect() } else { None }
+    }
+}
+
+/// The coefficients of `f` on `support`, both greatest first and with the same leading monomial.
+fn on_support(f: &Polynomial<u64>, support: &[Monomial]) -> Option<Vec<u32>> {
+    let mut terms = f.terms().iter().peekable();
+    let coefficient =
+        |m: &Monomial| terms.next_if(|term| term.monomial == *m).map_or(0, |term| term.coefficient as u32);
+    let row: Vec<u32> = support.iter().map(coefficient).collect();
+    (terms.next().is_none() && row.first() != Some(&0)).then_some(row)
 }
 
 impl Seen {

@@ -6,6 +6,7 @@
 //! whether the result is only probable; [`prove`] settles that.
 
 mod arnold;
+mod by_degree;
 mod candidate;
 mod learned;
 mod matrix;
@@ -22,7 +23,8 @@ use crate::number::Rationals;
 use crate::poly::{Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 use candidate::{Ballot, Lift};
-use system::{System, no_primes};
+use learned::Input;
+use system::no_primes;
 
 /// What is known of a basis that came from primes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +54,8 @@ pub struct Modular {
 ///
 /// The result is [`Status::Probable`]: it agrees with the basis modulo a prime that it was not made from. That prime and the one
 /// that the computation is learned from are scattered over those of 31 bits; until they agree, further ones are
-/// learned from, each with one vote on what the monomials of the basis are. With [`Options::cofactors`] the cofactors are rebuilt in the
+/// learned from, each with one vote on what the monomials of the basis are. In other orders than the graded reverse one, the basis of a
+/// zero-dimensional ideal comes from the graded one modulo each prime, by [`super::change_order`]. With [`Options::cofactors`] the cofactors are rebuilt in the
 /// same way, [`verify`] proves the basis by them, and the result is [`Status::Proved`]; that is for small systems.
 ///
 /// # Errors
@@ -63,21 +66,22 @@ pub fn basis(
     options: &Options,
     watch: &Watch,
 ) -> Result<Modular> {
-    let system = System::new(ring, generators);
+    let input = Input::new(ring, generators, options)?;
+    let system = &input.system;
     let mut primes = system.primes();
     let mut ballot = Ballot::default();
     let mut lifted: Option<Lift> = None;
     for round in 0.. {
         let p = system.scattered_prime(round)?;
         if let Some(lift) = lifted
-            && lift.agrees_with(&system.look(p, options, watch)?)
+            && lift.agrees_with(&input.look(p, watch)?)
         {
             let (primes, confirmed_by) = (lift.primes(), p);
-            let basis = lift.into_basis(&system, watch)?;
+            let basis = lift.into_basis(system, watch)?;
             let found = Modular { basis, status: Status::Probable, primes, unlucky: ballot.unlucky(), confirmed_by };
             return if options.cofactors { proved_by_cofactors(found, generators, watch) } else { Ok(found) };
         }
-        lifted = ballot.enter(system.learn(p, options, watch)?).lift(&system, &mut primes, watch)?;
+        lifted = ballot.enter(input.learn(p, watch)?).lift(&input, &mut primes, watch)?;
     }
     Err(no_primes())
 }

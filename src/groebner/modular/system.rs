@@ -5,13 +5,14 @@ use std::collections::HashMap;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
+use super::super::prime_field::graded;
 use crate::number::{BigInt, BigRational, Rationals, Zp, primes_below, residue};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result};
 
 /// The generators that are not zero, as primitive polynomials over the integers.
-pub(super) struct System<'a> {
-    pub ring: &'a PolynomialRing<Rationals>,
+pub(super) struct System {
+    pub ring: PolynomialRing<Rationals>,
     pub generators: Vec<Integral>,
     /// The number of generators given, zeros included.
     pub given: usize,
@@ -69,11 +70,21 @@ impl Integral {
     }
 }
 
-impl<'a> System<'a> {
-    pub(super) fn new(ring: &'a PolynomialRing<Rationals>, generators: &[Polynomial<BigRational>]) -> Self {
+impl System {
+    pub(super) fn new(ring: &PolynomialRing<Rationals>, generators: &[Polynomial<BigRational>]) -> Self {
         let nonzero = generators.iter().enumerate().filter(|(_, f)| !f.is_zero());
         let integral = nonzero.map(|(index, f)| Integral::new(index, f)).collect();
-        System { ring, generators: integral, given: generators.len() }
+        System { ring: ring.clone(), generators: integral, given: generators.len() }
+    }
+
+    /// The same generators in the graded reverse order.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Overflow`] when a degree does not fit.
+    pub(super) fn graded(ring: &PolynomialRing<Rationals>, generators: &[Polynomial<BigRational>]) -> Result<Self> {
+        let graded = graded(ring)?;
+        let generators = generators.iter().map(|f| ring.transfer(f, &graded)).collect::<Result<Vec<_>>>()?;
+        Ok(System::new(&graded, &generators))
     }
 
     /// The primes below 2^31 that divide no coefficient, in descending order.
@@ -99,7 +110,7 @@ impl<'a> System<'a> {
 
     /// The ring and the generators modulo a prime.
     pub(super) fn image(&self, p: u32) -> Result<(PolynomialRing<Zp>, Vec<Polynomial<u64>>)> {
-        let ring = modulo(self.ring, p)?;
+        let ring = modulo(&self.ring, p)?;
         let images = self.generators.iter().map(|f| f.image(&ring)).collect();
         Ok((ring, images))
     }
