@@ -1,41 +1,82 @@
-//! groebot's contestant: the reduced basis of a file in msolve's format (see `program.rs`).
+//! groebot's contestant: the reduced basis of a file in msolve's format (see `program.rs`), and over Q the proof of it.
 
 mod program;
 
-use groebot::Watch;
-use groebot::groebner::{Basis, Options, Quotient, Strategy, basis};
-use groebot::number::{Field, Rationals, Ring, Style, Zp};
+use std::time::Duration;
+
+use groebot::groebner::{Basis, Options, basis_modulo_prime, modular, parametric};
+use groebot::number::{BigRational, Field, Rationals, Ring, Style, Zp};
 use groebot::poly::{Fractions, Order, Polynomial, PolynomialRing, parse};
+use groebot::{ErrorKind, Watch};
 
 use program::{Arguments, Result};
 
 fn main() -> Result<()> {
     let arguments = Arguments::read()?;
-    let parameters = &arguments.input.parameters;
-    match (arguments.input.characteristic, parameters.is_empty()) {
-        (0, true) => run(&arguments, Rationals),
-        (p, true) => run(&arguments, Zp::new(p)?),
-        (0, false) => run(&arguments, Fractions::new(Rationals, parameters)?),
-        (p, false) => run(&arguments, Fractions::new(Zp::new(p)?, parameters)?),
+    match (arguments.input.characteristic, arguments.input.parameters.is_empty()) {
+        (0, true) => over_rationals(&arguments),
+        (p, true) => modulo_prime(&arguments, p),
+        (0, false) => with_parameters(&arguments),
+        (_, false) => Err("no parameters in positive characteristic".into()),
     }
 }
 
-fn run<F: Field>(arguments: &Arguments, field: F) -> Result<()> {
-    let ring = PolynomialRing::new(field, &arguments.input.variables, Order::GrevLex)?;
-    let texts = &arguments.input.polynomials;
+/// F4, and from there a change of order to lex.
+fn modulo_prime(arguments: &Arguments, p: u64) -> Result<()> {
+    let (ring, generators) = read(arguments, Zp::new(p)?)?;
+    let found = arguments.measure(|| Ok(basis_modulo_prime(&ring, &generators, &Watch::none())?))?;
+    show(arguments, &found);
+    Ok(())
+}
+
+/// Many primes; the proof has a clock of its own.
+fn over_rationals(arguments: &Arguments) -> Result<()> {
+    let (ring, generators) = read(arguments, Rationals)?;
+    let compute = || Ok(modular::basis(&ring, &generators, &Options::default(), &Watch::none())?);
+    let found = arguments.measure(compute)?;
+    if let Some(limit) = arguments.proof {
+        prove(&found, &ring, &generators, limit)?;
+    }
+    show(arguments, &found.basis);
+    Ok(())
+}
+
+fn prove(
+    found: &modular::Modular,
+    ring: &PolynomialRing<Rationals>,
+    generators: &[Polynomial<BigRational>],
+    limit: Duration,
+) -> Result<()> {
+    let before = program::processor_time()?;
+    match modular::prove(found, ring, generators, &Watch::none().with_time(limit)) {
+        Ok(_) => program::report("proof", program::seconds(program::processor_time()? - before)),
+        Err(error) if error.kind() == ErrorKind::Budget => {
+            program::report("proof", format_args!(">{}", limit.as_secs()));
+        }
+        Err(error) => return Err(error.into()),
+    }
+    Ok(())
+}
+
+/// The way that the engine chooses, in the order itself.
+fn with_parameters(arguments: &Arguments) -> Result<()> {
+    let (ring, generators) = read(arguments, Fractions::new(Rationals, &arguments.input.parameters)?)?;
+    let compute = || Ok(parametric::basis(&ring, &generators, &parametric::Options::default(), &Watch::none())?);
+    let found = arguments.measure(compute)?;
+    show(arguments, &found.basis);
+    Ok(())
+}
+
+type Ideal<F> = (PolynomialRing<F>, Vec<Polynomial<<F as Ring>::Element>>);
+
+fn read<F: Field>(arguments: &Arguments, field: F) -> Result<Ideal<F>> {
+    let order = if arguments.lex { Order::Lex } else { Order::GrevLex };
+    let ring = PolynomialRing::new(field, &arguments.input.variables, order)?;
     let read = |text: &String| parse(text).and_then(|tree| tree.evaluate(&ring));
-    let generators = texts.iter().map(read).collect::<groebot::Result<Vec<_>>>()?;
-    let show = |basis: &Basis<F>| Ok(basis.polynomials.iter().map(|f| basis.ring.format(f, Style::Text)).collect());
-    arguments.measure(|| ours(&ring, &generators, arguments.lex), show)
+    let generators = arguments.input.polynomials.iter().map(read).collect::<groebot::Result<_>>()?;
+    Ok((ring, generators))
 }
 
-/// The engine under test: the reduced basis in grevlex, or from there in lex.
-fn ours<F: Field>(ring: &PolynomialRing<F>, generators: &[Polynomial<F::Element>], lex: bool) -> Result<Basis<F>> {
-    let options = Options { strategy: Strategy::Sugar, cofactors: false };
-    let graded = basis(ring, generators, &options, &Watch::none())?;
-    if !lex {
-        return Ok(graded);
-    }
-    let target = PolynomialRing::new(ring.field().clone(), ring.variables(), Order::Lex)?;
-    Ok(Quotient::new(&graded)?.basis_in(&target, &Watch::none())?)
+fn show<F: Field>(arguments: &Arguments, basis: &Basis<F>) {
+    arguments.show(|| basis.polynomials.iter().map(|f| basis.ring.format(f, Style::Text)));
 }

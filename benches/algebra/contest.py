@@ -21,7 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BINARIES = ROOT / "target" / "release"
 PEERS = ["msolve", "giac", "singular", "crate"]
 TIMES = ["ours_s", *(f"{name}_s" for name in PEERS)]
-COLUMNS = ["system", "field", "order", *TIMES, "best_peer", "ratio", "ours_mb", "best_peer_mb", "notes"]
+COLUMNS = ["system", "field", "order", *TIMES, "proof_s", "best_peer", "ratio", "ours_mb", "best_peer_mb", "notes"]
 
 
 def main():
@@ -50,7 +50,9 @@ def options():
     parser.add_argument("--peers", type=lambda text: text.split(","), default=PEERS, help="default: " + ",".join(PEERS))
     parser.add_argument("--without-ours", action="store_true")
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--once", type=float, default=5, help="a contestant over so many seconds plays one round")
     parser.add_argument("--limit", type=float, default=120, help="seconds of one run")
+    parser.add_argument("--limit-of-ours", type=float, help="another limit for groebot")
     parser.add_argument("--core", type=int, default=1, help="the processor that all run on")
     parser.add_argument("--no-check", action="store_true", help="do not compare the answers with the corpus")
     parser.add_argument("--output", type=pathlib.Path, help="a CSV file")
@@ -68,11 +70,11 @@ def matches(problem, arguments):
 
 
 def contest(problem, players, arguments):
-    """The results of every player, round by round; one that fails or answers wrongly plays no further round."""
+    """The results of every player, round by round; one that fails, is slow or answers wrongly plays no further round."""
     results = {name: [] for name, player in players.items() if player.accepts(problem)}
     for turn in range(arguments.rounds):
         for name, found in results.items():
-            if all(result.seconds is not None for result in found):
+            if all(result.seconds is not None and result.seconds < arguments.once for result in found):
                 check = turn == 0 and problem.known_hash is not None and not arguments.no_check
                 found.append(checked(problem, players[name].run(problem, check)))
     return results
@@ -91,10 +93,11 @@ def row(problem, results):
     times = {f"{name}_s": text(medians[name] or results[name][-1].note) for name in results}
     peers = {name: seconds for name, seconds in medians.items() if name != "ours" and seconds}
     best = min(peers, key=peers.get) if peers else ""
+    proof = text(results["ours"][0].proof) if "ours" in results else ""
     memory = lambda name: text(max(r.memory_kb for r in results[name]) / 1024) if name in results else ""
     ratio = text(medians["ours"] / peers[best]) if best and medians.get("ours") else ""
     made = {"system": problem.system, "field": problem.field, "order": problem.order, "notes": notes(results), **times}
-    made |= {"best_peer": best, "ratio": ratio, "ours_mb": memory("ours"), "best_peer_mb": memory(best)}
+    made |= {"proof_s": proof, "best_peer": best, "ratio": ratio, "ours_mb": memory("ours"), "best_peer_mb": memory(best)}
     return {column: made.get(column, "") for column in COLUMNS}
 
 

@@ -17,12 +17,14 @@ INFINITE = "[1,"
 
 @dataclass
 class Result:
-    """One run; `seconds` is None with the reason in `note`. `basis`: expanded texts, if asked for and printed."""
+    """One run; `seconds` is None with the reason in `note`. `basis`: expanded texts, if asked for and printed. `proof`: seconds of
+    the proof, or why there is none."""
 
     seconds: float | None
     memory_kb: int = 0
     note: str = ""
     basis: list | None = None
+    proof: float | str = ""
 
 
 @dataclass
@@ -65,16 +67,45 @@ class Rust(Contestant):
     def accepts(self, problem):
         return True
 
-    def once(self, problem, with_answer=False):
+    def run(self, problem, with_answer=False):
+        return self.reported(problem, ["--print"] * with_answer)
+
+    def reported(self, problem, options):
+        """What the program says of itself; its memory is that of the first computation."""
         with tempfile.NamedTemporaryFile("w", suffix=".ms") as file:
             file.write(problem.msolve_text())
             file.flush()
-            words = [self.program, file.name, "--order", problem.order, "--seconds", "0.3"]
-            outcome = self.process(words + ["--print"] * with_answer)
+            outcome = self.process([self.program, file.name, "--order", problem.order, "--seconds", "0.3", *options])
         head, _, tail = outcome.output.partition("basis\n")
         facts = dict(line.split(" ") for line in head.splitlines())
-        outcome.memory_kb = int(facts.get("memory_kb", outcome.memory_kb))
-        return float(facts["median"]) if "median" in facts else None, outcome, tail.splitlines() if with_answer else None
+        memory = int(facts.get("memory_kb", outcome.memory_kb))
+        if outcome.stopped or "seconds" not in facts:
+            return Result(None, memory, outcome.stopped or "failed")
+        basis = tail.splitlines() if "--print" in options else None
+        proof = facts.get("proof", "")
+        return Result(float(facts["seconds"]), memory, basis=basis, proof=float(proof) if proof[:1].isdigit() else proof)
+
+
+@dataclass
+class Ours(Rust):
+    """groebot; over Q it proves the basis once, with a limit of its own."""
+
+    proof_limit: float = 20
+    proofs: dict = field(default_factory=dict)
+
+    def run(self, problem, with_answer=False):
+        result = super().run(problem, with_answer)
+        if problem.field == "Q" and result.seconds is not None:
+            if problem not in self.proofs:
+                self.proofs[problem] = self.proof_of(problem)
+            result.proof = self.proofs[problem]
+        return result
+
+    def proof_of(self, problem):
+        """In a process of its own, whose limit counts from the start of the proof."""
+        limits = self.limit + self.proof_limit
+        result = Ours(self.program, self.core, limits).reported(problem, ["--prove", str(self.proof_limit)])
+        return result.note if result.seconds is None else result.proof
 
 
 class Msolve(Contestant):
@@ -195,7 +226,7 @@ def roster(arguments):
     """All contestants by name; ours comes first."""
     common = (arguments.core, arguments.limit)
     return {
-        "ours": Rust(arguments.ours, *common),
+        "ours": Ours(arguments.ours, arguments.core, arguments.limit_of_ours or arguments.limit),
         "msolve": Msolve(arguments.msolve, *common),
         "giac": Giac(arguments.giac, *common),
         "singular": Singular("Singular", *common),

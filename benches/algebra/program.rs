@@ -1,7 +1,8 @@
 //! What the contestants written in Rust share: their arguments, their input, the clock and the report.
 //!
-//! `PROGRAM FILE [--order grevlex|lex] [--seconds S] [--print]` reads a file in msolve's format, computes its basis again and again
-//! for `S` seconds (once at least) and prints `min`, `median` \[s\], `memory_kb` (the peak) and, if asked, the basis.
+//! `PROGRAM FILE [--order grevlex|lex] [--seconds S] [--prove S] [--print]` reads a file in msolve's format, computes its basis again
+//! and again for `S` seconds (once at least) and prints the mean of the processor time (`seconds`), `memory_kb` (the peak), `proof` \[s\] or
+//! what it exceeds where there is one, and, if asked, the basis.
 
 use std::fmt::Display;
 use std::time::{Duration, Instant};
@@ -21,6 +22,8 @@ pub struct Input {
 pub struct Arguments {
     pub input: Input,
     pub lex: bool,
+    /// The limit of time for a proof, if one is wanted.
+    pub proof: Option<Duration>,
     budget: Duration,
     print: bool,
 }
@@ -29,14 +32,15 @@ impl Arguments {
     /// Reads the command line and the file that it names.
     pub fn read() -> Result<Self> {
         let mut words = std::env::args().skip(1);
-        let file = words.next().ok_or("usage: FILE [--order grevlex|lex] [--seconds S] [--print]")?;
+        let file = words.next().ok_or("usage: FILE [--order grevlex|lex] [--seconds S] [--prove S] [--print]")?;
         let input = Input::parse(&std::fs::read_to_string(&file)?)?;
-        let mut found = Arguments { input, lex: false, budget: Duration::ZERO, print: false };
+        let mut found = Arguments { input, lex: false, proof: None, budget: Duration::ZERO, print: false };
         while let Some(word) = words.next() {
             let mut value = || words.next().ok_or_else(|| format!("{word} needs a value"));
             match word.as_str() {
                 "--order" => found.lex = value()? == "lex",
                 "--seconds" => found.budget = Duration::try_from_secs_f64(value()?.parse()?)?,
+                "--prove" => found.proof = Some(Duration::try_from_secs_f64(value()?.parse()?)?),
                 "--print" => found.print = true,
                 _ => return Err(format!("unknown argument {word}").into()),
             }
@@ -44,31 +48,43 @@ impl Arguments {
         Ok(found)
     }
 
-    /// Runs `compute` until the budget is spent, prints the times and, if asked, the basis as `show` writes it.
-    pub fn measure<T>(&self, compute: impl Fn() -> Result<T>, show: impl Fn(&T) -> Result<Vec<String>>) -> Result<()> {
-        let start = Instant::now();
-        let basis = compute()?;
-        let mut times = vec![start.elapsed()];
+    /// Runs `compute` until the budget is spent; reports the mean of the processor times, and the peak of memory of the first run,
+    /// whose result it gives.
+    pub fn measure<T>(&self, compute: impl Fn() -> Result<T>) -> Result<T> {
+        let (start, before) = (Instant::now(), processor_time()?);
+        let found = compute()?;
         let memory = peak_memory()?;
+        let mut runs = 1;
         while start.elapsed() < self.budget {
-            let again = Instant::now();
             std::hint::black_box(compute()?);
-            times.push(again.elapsed());
+            runs += 1;
         }
-        times.sort();
-        let seconds = |time: Duration| format!("{:.9}", time.as_secs_f64());
-        report("min", seconds(times[0]));
-        report("median", seconds(times[times.len() / 2]));
+        report("seconds", seconds((processor_time()? - before) / runs));
         report("memory_kb", memory);
+        Ok(found)
+    }
+
+    /// Prints the basis, if asked, as the last of all.
+    pub fn show<Lines: Iterator<Item = String>>(&self, lines: impl FnOnce() -> Lines) {
         if self.print {
             println!("basis");
-            show(&basis)?.iter().for_each(|line| println!("{line}"));
+            lines().for_each(|line| println!("{line}"));
         }
-        Ok(())
     }
 }
 
-fn report(key: &str, value: impl Display) {
+/// The processor time of this thread (Linux). The kernel brings it up to date some hundred times a second.
+pub fn processor_time() -> Result<Duration> {
+    let fields = std::fs::read_to_string("/proc/thread-self/schedstat")?;
+    let nanoseconds = fields.split(' ').next().ok_or("/proc/thread-self/schedstat is empty")?;
+    Ok(Duration::from_nanos(nanoseconds.parse()?))
+}
+
+pub fn seconds(time: Duration) -> String {
+    format!("{:.9}", time.as_secs_f64())
+}
+
+pub fn report(key: &str, value: impl Display) {
     println!("{key} {value}");
 }
 

@@ -5,8 +5,9 @@
     answers.py --again [NAME]      computes everything again
     answers.py --check [NAME]      the same without writing: fails if a file differs
     ... --field Q --order lex      only these answers
+    ... --limit 30                 seconds of processor time for one answer
 
-What goes over LIMIT seconds of processor time or MEMORY bytes is listed in `input/absent.toml`, so that another machine gives the
+What goes over the limit of time or MEMORY bytes is listed in `input/absent.toml`, so that another machine gives the
 same files: those answers are not tried again. README.md explains the format.
 """
 
@@ -27,16 +28,14 @@ import singular  # noqa: E402
 
 sys.set_int_max_str_digits(0)
 
-LIMIT = 120
 MEMORY = 4 << 30
-BOUNDED = ["nice", "-n", "10", "prlimit", f"--cpu={LIMIT}", f"--as={MEMORY}"]
 FIELDS = ["GF(32003)", "GF(2147483647)", "Q"]
 ORDERS = ["grevlex", "lex"]
 ABSENT = HERE / "input" / "absent.toml"
 
 
 class Unfinished(Exception):
-    """Singular went over a limit."""
+    """Singular went over a limit; the text says which."""
 
 
 def main():
@@ -63,6 +62,7 @@ def arguments():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--field", choices=FIELDS)
     parser.add_argument("--order", choices=ORDERS)
+    parser.add_argument("--limit", type=int, default=120)
     return parser.parse_args()
 
 
@@ -113,9 +113,9 @@ def entry(system, field, order, known, asked):
     if known is None and reason is None:
         if asked.field in (None, field) and asked.order in (None, order):
             try:
-                known = answer(system, field, order)
-            except Unfinished:
-                reason = f"Singular needs more than {LIMIT} s or {MEMORY >> 30} GB"
+                known = answer(system, field, order, asked.limit)
+            except Unfinished as limits:
+                reason = f"Singular needs {limits}"
                 note_absence(system["name"], head, reason)
         else:
             reason = "not tried"
@@ -135,13 +135,13 @@ def note_absence(name, asked, reason):
     ABSENT.write_text("\n".join([head, *tables]))
 
 
-def answer(system, field, order):
+def answer(system, field, order, limit):
     """The facts of one basis, after they have passed the literature's."""
     p = 0 if field == "Q" else int(field[3:-1])
     generators = [polynomials.read(text, system["variables"], p) for text in system["generators"]]
     texts = [polynomials.show(f, system["variables"]) for f in generators]
     method = system.get("method", "slimgb" if p else "std")
-    printed = run(script(system["variables"], texts, p, order, method))
+    printed = run(script(system["variables"], texts, p, order, method), limit)
     dimension, degree, how, *basis = printed
     found = {"dimension": int(dimension), "degree": int(degree) if dimension != "-1" else 0}
     confirm(system, field, found)
@@ -178,14 +178,15 @@ if (krull == 0) {{ how = how + ", fglm"; G = fglm(r, G); }}
 else {{ how = "std"; G = std(imap(r, G)); }}"""
 
 
-def run(commands):
-    """The lines that the script writes; an output without its last line was cut off and is refused."""
+def run(commands, limit):
+    """Within `limit` seconds: the lines that the script writes; an output without its last line was cut off and is refused."""
     with tempfile.NamedTemporaryFile("r", suffix=".txt") as file:
         text = f'string target = "{file.name}";\n{commands}'
-        done = subprocess.run([*BOUNDED, *singular.PROGRAM], input=text, capture_output=True, text=True)
+        bounded = ["nice", "-n", "10", "prlimit", f"--cpu={limit}", f"--as={MEMORY}"]
+        done = subprocess.run([*bounded, *singular.PROGRAM], input=text, capture_output=True, text=True)
         lines = file.read().splitlines()
     if done.returncode != 0 or "no more memory" in done.stdout + done.stderr:
-        raise Unfinished
+        raise Unfinished(f"more than {limit} s or {MEMORY >> 30} GB")
     if "? " in done.stdout or not lines or lines.pop() != "end":
         raise RuntimeError(f"Singular failed: {done.stdout[-2000:]}\n{done.stderr[-2000:]}")
     return lines
