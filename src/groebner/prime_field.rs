@@ -5,8 +5,8 @@ use crate::number::{Field, Ring, Zp};
 use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::{ErrorKind, Result, Watch};
 
-/// The reduced Groebner basis of the ideal of `generators` modulo a prime, in the order of `ring`: by [`f4`] in the graded
-/// reverse order, and from there by [`change_order`] when the ideal is zero-dimensional, else by [`f4`] in the order itself.
+/// The reduced Groebner basis of the ideal of `generators` modulo a prime, in the order of `ring`: by [`f4()`] in the graded
+/// reverse order, and from there by [`change_order`] when the ideal is zero-dimensional, else by [`f4()`] in the order itself.
 /// Primes beyond those of F4, and more variables than its keys hold, go to [`basis`].
 ///
 /// # Errors
@@ -32,7 +32,7 @@ pub fn basis_modulo_prime(
 /// The reduced basis in the order of `ring`, through the graded one where that helps.
 ///
 /// # Errors
-/// Those of [`f4`] and [`change_order`].
+/// Those of [`f4()`] and [`change_order`].
 pub(super) fn by_degree_first(
     ring: &PolynomialRing<Zp>,
     generators: &[Polynomial<u64>],
