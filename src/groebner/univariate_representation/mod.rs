@@ -22,7 +22,7 @@ use self::modular::{Modular, QuotientModulo};
 use self::shape::Shape;
 use self::staircase::{Border, Staircase};
 use super::Basis;
-use crate::number::{BigRational, Rationals, Zp};
+use crate::number::{BigRational, Rationals, primes_below};
 use crate::poly::univariate::Univariate;
 use crate::poly::{Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -92,7 +92,7 @@ fn foreign_basis() -> Error {
 
 /// The primes below `2^31`, greatest first.
 fn primes() -> impl Iterator<Item = u32> {
-    (3..1u32 << 31).rev().filter(|&p| Zp::new(u64::from(p)).is_ok())
+    primes_below(1 << 31).map(|p| p as u32)
 }
 
 fn modulo(staircase: &Staircase, border: &Border, prime: u32, form: &[i64], watch: &Watch) -> Result<Option<Modular>> {

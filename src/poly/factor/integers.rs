@@ -34,7 +34,7 @@ pub fn factors(f: &Integers, watch: &Watch) -> Result<Vec<Integers>> {
     let inverse = inverse_modulo(&f[f.len() - 1], &modulus);
     let monic = reduced(&f.iter().map(|c| c * &inverse).collect::<Vec<_>>(), &modulus);
     let mut lifted = Vec::new();
-    lift(&field, &monic, &local, steps, &mut lifted);
+    lift(&field, &monic, &local, steps, &mut lifted, watch)?;
     recombine(f.clone(), &lifted, &modulus, watch)
 }
 
@@ -104,10 +104,17 @@ fn to_integers(f: &[u64]) -> Integers {
 }
 
 /// Lifts the monic `local` factors of the monic `f` from `p` to `p^(2^steps)`, halving the factors each time.
-fn lift(field: &Prime, f: &Integers, local: &[Dense], steps: u32, lifted: &mut Vec<Integers>) {
+fn lift(
+    field: &Prime,
+    f: &Integers,
+    local: &[Dense],
+    steps: u32,
+    lifted: &mut Vec<Integers>,
+    watch: &Watch,
+) -> Result<()> {
     if local.len() == 1 {
         lifted.push(f.clone());
-        return;
+        return Ok(());
     }
     let (left, right) = local.split_at(local.len() / 2);
     let [g, h] = [left, right].map(|part| part.iter().fold(vec![1], |product, u| dense::mul(field, &product, u)));
@@ -117,11 +124,12 @@ fn lift(field: &Prime, f: &Integers, local: &[Dense], steps: u32, lifted: &mut V
     let [mut g, mut h, mut s, mut t] = [g, h, s, t].map(|part| to_integers(&part));
     let mut modulus = BigInt::from(field.modulus());
     for _ in 0..steps {
+        watch.check()?;
         modulus = &modulus * &modulus;
         [g, h, s, t] = hensel_step(f, [g, h, s, t], &modulus);
     }
-    lift(field, &g, left, steps, lifted);
-    lift(field, &h, right, steps, lifted);
+    lift(field, &g, left, steps, lifted, watch)?;
+    lift(field, &h, right, steps, lifted, watch)
 }
 
 /// Algorithm 15.10: from `f = g h` and `s g + t h = 1` modulo `m` to the same modulo `m^2 = modulus`.
