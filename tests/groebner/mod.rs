@@ -2,13 +2,13 @@
 
 mod blocks;
 mod claims;
-mod cover;
-mod cover_points;
 mod f4;
 mod families;
 mod fglm;
 mod hilbert;
 mod homogeneous;
+mod cover;
+mod cover_points;
 mod known;
 mod limits;
 mod modular;
