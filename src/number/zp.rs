@@ -26,6 +26,12 @@ impl Zp {
         Err(Error::new(ErrorKind::BadValue, format!("{p} is not a prime below 2^61; give one, such as 2147483647")))
     }
 
+    /// GF(p) for a prime `p` below [`Zp::LIMIT`] that is known to be one.
+    pub(crate) fn known_prime(p: u64) -> Self {
+        debug_assert!(p < Self::LIMIT && is_prime(p));
+        Zp { p }
+    }
+
     /// The modulus.
     pub fn modulus(&self) -> u64 {
         self.p

@@ -163,14 +163,14 @@ fn split(supports: &[Support], values: Vec<BigRational>) -> Vec<Vec<BigRational>
 
 /// A row of numbers by their residues, in mixed radix: digit `k` counts the product of the first `k` primes.
 #[derive(Default)]
-struct Residues {
+pub(super) struct Residues {
     primes: Vec<Prime>,
     digits: Vec<Vec<u64>>,
 }
 
 impl Residues {
     /// Takes the residues modulo one more prime (Garner, 1959).
-    fn push(&mut self, field: Prime, residues: &[u64]) {
+    pub fn push(&mut self, field: Prime, residues: &[u64]) {
         self.digits.resize(residues.len(), Vec::new());
         let product = self.primes.iter().fold(1, |product, prime| field.mul(product, prime.p % field.p));
         let inverse = field.inverse(product);
@@ -183,9 +183,37 @@ impl Residues {
     }
 
     /// Trials become rarer as the numbers grow.
-    fn is_worth_a_trial(&self) -> bool {
+    pub fn is_worth_a_trial(&self) -> bool {
         let count = self.primes.len();
         count <= 4 || count.is_multiple_of(count / 4)
+    }
+
+    /// The number of primes so far.
+    pub fn count(&self) -> usize {
+        self.primes.len()
+    }
+
+    /// All numbers as rationals that are `seen` modulo another prime, each from as few primes as it takes; `None` when one is
+    /// not small yet.
+    pub fn rationals_like(&self, field: Prime, seen: &[u64]) -> Option<Vec<BigRational>> {
+        if self.primes.len() > 4 {
+            let values = self.rationals()?;
+            let agrees = values.iter().zip(seen).all(|(value, &seen)| image(field, value) == seen);
+            return agrees.then_some(values);
+        }
+        let bounds: Vec<(u128, u128)> = (1..=self.primes.len())
+            .map(|count| self.primes[..count].iter().map(|prime| u128::from(prime.p)).product())
+            .map(|modulus: u128| (modulus, (modulus / 2).isqrt()))
+            .collect();
+        let number = |(digits, &seen): (&Vec<u64>, &u64)| {
+            bounds.iter().enumerate().find_map(|(last, &(modulus, bound))| {
+                let (n, d) = short_fraction(self.value(&digits[..=last]), modulus, bound)?;
+                let later = (last + 1..digits.len()).map(|k| (self.primes[k], self.residue(&digits[..=k])));
+                let agrees = later.chain([(field, seen)]).all(|(field, residue)| is_residue(field, residue, n, d));
+                agrees.then(|| BigRational::new_raw(n.into(), d.into()))
+            })
+        };
+        self.digits.iter().zip(seen).map(number).collect()
     }
 
     /// All numbers as small rationals; `None` when one is not small yet.
@@ -198,6 +226,13 @@ impl Residues {
         let modulus: BigInt = self.primes.iter().map(|prime| BigInt::from(prime.p)).product();
         let bound = (&modulus >> 1usize).sqrt();
         self.digits.iter().map(|digits| rational(self.value(digits), &modulus, &bound)).collect()
+    }
+
+    /// The number with these digits modulo the prime of the last one.
+    fn residue(&self, digits: &[u64]) -> u64 {
+        let field = self.primes[digits.len() - 1];
+        let pairs = digits.iter().zip(&self.primes).rev();
+        pairs.fold(0, |value, (&digit, prime)| field.reduce(value * (prime.p % field.p) + digit))
     }
 
     /// The number with these digits.
@@ -221,18 +256,28 @@ fn rational(value: BigInt, modulus: &BigInt, bound: &BigInt) -> Option<BigRation
 
 /// [`rational`] in machine words.
 fn short_rational(value: u128, modulus: u128, bound: u128) -> Option<BigRational> {
-    let (mut a, mut b, mut s, mut t) = (modulus, value, 0i128, 1i128);
+    short_fraction(value, modulus, bound).map(|(n, d)| BigRational::new(n.into(), d.into()))
+}
+
+/// Numerator and denominator of [`rational`] for a modulus below 2^124.
+fn short_fraction(value: u128, modulus: u128, bound: u128) -> Option<(i64, i64)> {
+    let (mut a, mut b, mut s, mut t) = (modulus, value, 0i64, 1i64);
     while b > bound {
-        let quotient = a / b;
+        let quotient = if a >> 64 == 0 { u128::from(a as u64 / b as u64) } else { a / b };
         (a, b) = (b, a - quotient * b);
-        (s, t) = (t, s - quotient as i128 * t);
+        (s, t) = (t, s - quotient as i64 * t);
     }
-    let numerator = BigInt::from(b) * t.signum();
-    (t != 0 && t.unsigned_abs() <= bound).then(|| BigRational::new(numerator, t.unsigned_abs().into()))
+    (t != 0 && u128::from(t.unsigned_abs()) <= bound).then(|| (b as i64 * t.signum(), t.abs()))
+}
+
+/// Whether `n / d` is in lowest terms as far as the prime can tell, and `residue` modulo it.
+fn is_residue(field: Prime, residue: u64, n: i64, d: i64) -> bool {
+    let small = |n: i64| n.rem_euclid(field.p as i64) as u64;
+    small(d) != 0 && field.mul(small(d), residue) == small(n)
 }
 
 /// The primes below 2^31 from the greatest, those of [`SmoothPrime`] left out.
-struct Primes {
+pub(super) struct Primes {
     count: usize,
     last: u32,
 }
@@ -244,11 +289,11 @@ impl Primes {
         2147483423, 2147483399, 2147483353, 2147483323, 2147483269, 2147483249, 2147483237,
     ];
 
-    fn new() -> Self {
+    pub fn new() -> Self {
         Primes { count: 0, last: 0 }
     }
 
-    fn next_prime(&mut self) -> Prime {
+    pub fn next_prime(&mut self) -> Prime {
         let listed = Self::FIRST.get(self.count);
         let is_next =
             |&n: &u32| Zp::new(u64::from(n)).is_ok() && !SmoothPrime::all().iter().any(|s| s.field.p == u64::from(n));

@@ -1,11 +1,14 @@
-//! Bases over the rational functions of parameters, by one of three ways that agree: [`basis`] is the entry.
+//! Bases over the rational functions of parameters, by one of four ways that agree: [`basis`] is the entry.
 //!
-//! Directly over the field of fractions; with the parameters as the variables of a lowest block; or by evaluation at many points
-//! modulo primes and interpolation of the coefficients. `docs/parametric_bases.md` tells how they work and how one is chosen.
+//! Directly over the field of fractions; with the parameters as the variables of a lowest block, over Q or modulo primes; or by
+//! evaluation at many points modulo primes and interpolation of the coefficients. `docs/parametric_bases.md` tells how they work and how one is chosen.
 
+mod assemble;
+mod flat;
 mod learn;
 mod lift;
 mod line;
+mod modular;
 mod pattern;
 mod prime;
 mod sequence;
@@ -27,15 +30,20 @@ pub enum Way {
     Direct,
     /// One basis over Q with the parameters as variables of the lowest block.
     Variables,
+    /// The same modulo primes, by F4; its coefficients are rebuilt.
+    Modular,
     /// Evaluation at many points modulo primes, and interpolation of each coefficient. Parameters must be free of relations.
     Interpolation,
 }
 
+/// A system whose computation modulo a prime takes more terms than these goes to interpolation, where it takes none of them.
+const FEW_TERMS: usize = 20_000;
+
 /// How [`basis`] works.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The way to take. `None`: interpolation where parameters have no relations, directly should they be too dense for it; else with
-    /// the parameters as variables.
+    /// The way to take. `None`: modulo primes with the parameters as variables as long as that takes few terms or parameters have
+    /// relations; else interpolation; directly should the coefficients be too dense for it.
     pub way: Option<Way>,
 }
 
@@ -46,7 +54,7 @@ pub struct Parametric {
     pub basis: Basis<Fractions<Rationals>>,
     /// The way that was taken.
     pub way: Way,
-    /// Whether every step was exact. An interpolated basis is not: it has passed the test at a random point modulo another prime.
+    /// Whether every step was exact. A basis that was interpolated or rebuilt is not: it has passed the test modulo another prime.
     pub exact: bool,
 }
 
@@ -66,21 +74,36 @@ pub fn basis(ring: &Ring, generators: &[Poly], options: &Options, watch: &Watch)
     let ideal = Ideal { ring, generators: &generators };
     match options.way {
         Some(way) => by_way(&ideal, way, watch),
-        None if !is_free(&ideal) => by_way(&ideal, Way::Variables, watch),
-        None => match by_way(&ideal, Way::Interpolation, watch) {
-            Err(error) if error.kind() == ErrorKind::Unsupported => by_way(&ideal, Way::Direct, watch),
-            outcome => outcome,
-        },
+        None if ring.field().ring().variables().is_empty() => by_way(&ideal, Way::Variables, watch),
+        None => by_the_fastest(&ideal, watch),
     }
+}
+
+/// Small systems and those with relations modulo primes, the others by interpolation; the exact ways stand behind them.
+fn by_the_fastest(ideal: &Ideal<'_>, watch: &Watch) -> Result<Parametric> {
+    let free = is_free(ideal);
+    let is_bounded = free && watch.check_terms(FEW_TERMS).is_ok();
+    let brief = if is_bounded { watch.clone().with_terms(FEW_TERMS) } else { watch.clone() };
+    let mut outcome = by_way(ideal, Way::Modular, &brief);
+    if is_bounded && ends_with(&outcome, ErrorKind::Budget) {
+        outcome = by_way(ideal, Way::Interpolation, watch);
+    }
+    let is_refused = ends_with(&outcome, ErrorKind::Unsupported) || ends_with(&outcome, ErrorKind::Overflow);
+    if is_refused { by_way(ideal, if free { Way::Direct } else { Way::Variables }, watch) } else { outcome }
+}
+
+fn ends_with(outcome: &Result<Parametric>, kind: ErrorKind) -> bool {
+    outcome.as_ref().is_err_and(|error| error.kind() == kind)
 }
 
 fn by_way(ideal: &Ideal<'_>, way: Way, watch: &Watch) -> Result<Parametric> {
     let found = match way {
         Way::Direct => super::basis(ideal.ring, ideal.generators, &super::Options::default(), watch),
         Way::Variables => variables::basis_with_variables(ideal, watch),
+        Way::Modular => modular::rebuilt_basis(ideal, watch),
         Way::Interpolation => interpolated(ideal, watch),
     };
-    Ok(Parametric { basis: found?, way, exact: way != Way::Interpolation })
+    Ok(Parametric { basis: found?, way, exact: matches!(way, Way::Direct | Way::Variables) })
 }
 
 /// Whether there are parameters, and no relations between them.

@@ -105,7 +105,7 @@ fn square(field: Prime, f: &[u64]) -> Vec<u64> {
 }
 
 /// The monic greatest common divisor.
-fn gcd(field: Prime, mut a: Vec<u64>, mut b: Vec<u64>) -> Vec<u64> {
+pub(super) fn gcd(field: Prime, mut a: Vec<u64>, mut b: Vec<u64>) -> Vec<u64> {
     while b.last() == Some(&0) {
         b.pop();
     }

@@ -1,0 +1,218 @@
+//! Elements over Q in unknowns and parameters, read over the rational functions of the parameters.
+
+use std::collections::VecDeque;
+
+use super::lift::image;
+use super::prime::{Prime, Stream};
+use super::variables::reduced;
+use super::{Poly, Ring, sequence};
+use crate::groebner::Basis;
+use crate::number::{BigRational, Rationals, Ring as _, Zp};
+use crate::poly::{Fractions, Monomial, Polynomial, PolynomialRing, Term, gcd};
+use crate::{Result, Watch};
+
+type Ground = Polynomial<BigRational>;
+/// A polynomial in the unknowns, greatest monomials first.
+type Parts = Vec<(Monomial, Ground)>;
+
+/// The monomials of one element: for each monomial of the unknowns, greatest first, those of the parameters.
+pub(super) struct Element {
+    parts: Vec<(Vec<u32>, Vec<Monomial>)>,
+}
+
+impl Element {
+    /// The support of `f`.
+    pub fn new(ring: &Ring, flat: &PolynomialRing<Zp>, f: &Polynomial<u64>) -> Result<Self> {
+        let count = ring.variables().len();
+        let mut parts: Vec<(Vec<u32>, Vec<Monomial>)> = Vec::with_capacity(f.terms().len());
+        for term in f.terms() {
+            let mut exponents = flat.layout().exponents(&term.monomial);
+            let monomial = ring.field().ring().monomial(&exponents[count..])?;
+            exponents.truncate(count);
+            match parts.last_mut().filter(|(unknowns, _)| *unknowns == exponents) {
+                Some((_, monomials)) => monomials.push(monomial),
+                None => parts.push((exponents, vec![monomial])),
+            }
+        }
+        Ok(Element { parts })
+    }
+
+    /// The element with these coefficients.
+    fn with_values(self, ring: &Ring, values: &mut impl Iterator<Item = BigRational>) -> Result<Parts> {
+        let part = |(exponents, monomials): (Vec<u32>, Vec<Monomial>)| {
+            let terms = monomials.into_iter().zip(values.by_ref());
+            let terms = terms.map(|(monomial, coefficient)| Term { coefficient, monomial });
+            Ok((ring.monomial(&exponents)?, ring.field().ring().descending(terms.collect())))
+        };
+        self.parts.into_iter().map(part).collect()
+    }
+}
+
+/// The reduced basis of elements with these coefficients, smallest first.
+pub(super) fn assemble(
+    ring: &Ring,
+    elements: impl Iterator<Item = Result<Element>>,
+    values: Vec<BigRational>,
+    watch: &Watch,
+) -> Result<Basis<Fractions<Rationals>>> {
+    let mut values = values.into_iter();
+    let elements = elements.map(|element| element?.with_values(ring, &mut values)).collect::<Result<Vec<Parts>>>()?;
+    if ring.field().squares().next().is_some() {
+        let polynomials = elements.into_iter().map(|parts| embedded(ring, parts)).filter(|f| !f.is_zero());
+        return reduced(ring, polynomials.collect(), watch);
+    }
+    if elements.iter().any(|parts| parts[0].0 == ring.layout().one()) {
+        return Ok(Basis { ring: ring.clone(), polynomials: vec![ring.one()], cofactors: Vec::new() });
+    }
+    let mut done: Vec<Parts> = Vec::with_capacity(elements.len());
+    for parts in elements {
+        watch.check()?;
+        done.push(reduce_tail(ring, parts, &done)?);
+    }
+    let line = Line::new(ring);
+    let polynomials = done.into_iter().map(|parts| line.divide_by_first(ring, parts)).collect();
+    Ok(Basis { ring: ring.clone(), polynomials, cofactors: Vec::new() })
+}
+
+fn embedded(ring: &Ring, parts: Parts) -> Poly {
+    ring.collect(parts.into_iter().map(|(monomial, c)| Term { coefficient: ring.field().embed(&c), monomial }))
+}
+
+/// Reduces the tail of `f` by the elements `smaller` without fractions: `f` is multiplied instead.
+fn reduce_tail(ring: &Ring, f: Parts, smaller: &[Parts]) -> Result<Parts> {
+    let layout = ring.layout();
+    let mut done: Parts = Vec::with_capacity(f.len());
+    let mut rest: VecDeque<(Monomial, Ground)> = f.into();
+    let mut is_scaled = false;
+    while let Some((monomial, c)) = rest.pop_front() {
+        let reducer = smaller.iter().find(|g| layout.divides(&g[0].0, &monomial)).filter(|_| !done.is_empty());
+        let Some(reducer) = reducer else {
+            done.push((monomial, c));
+            continue;
+        };
+        let (scale, factor) = cross_factors(ring, &reducer[0].1, c);
+        if let Some(scale) = &scale {
+            let multiply = |(_, c): &mut (Monomial, Ground)| *c = ring.field().ring().mul(c, scale);
+            done.iter_mut().chain(&mut rest).for_each(multiply);
+            is_scaled = true;
+        }
+        let shift = layout.checked_div(&monomial, &reducer[0].0).expect("it divides");
+        for (other, c) in &reducer[1..] {
+            let product = layout.checked_mul(other, &shift).expect("a smaller monomial of the same ring");
+            subtract(ring, &mut rest, product, &ring.field().ring().checked_mul(c, &factor)?);
+        }
+    }
+    Ok(if is_scaled { without_content(ring, done) } else { done })
+}
+
+/// What to multiply by, if not one, and how often to subtract a reducer with the coefficient `lead` to make `c` vanish.
+fn cross_factors(ring: &Ring, lead: &Ground, c: Ground) -> (Option<Ground>, Ground) {
+    let ground = ring.field().ring();
+    if ground.is_one(lead) {
+        return (None, c);
+    }
+    if let Some(quotient) = ground.exact_div(&c, lead) {
+        return (None, quotient);
+    }
+    let shared = gcd(ground, &c, lead);
+    let divide = |f: &Ground| ground.exact_div(f, &shared).expect("a gcd divides");
+    (Some(divide(lead)), divide(&c))
+}
+
+/// Subtracts `c` from the coefficient of `monomial` in descending parts.
+fn subtract(ring: &Ring, parts: &mut VecDeque<(Monomial, Ground)>, monomial: Monomial, c: &Ground) {
+    let ground = ring.field().ring();
+    let place = parts.partition_point(|(other, _)| ring.layout().compare(other, &monomial).is_gt());
+    match parts.get_mut(place).filter(|(other, _)| *other == monomial) {
+        None => parts.insert(place, (monomial, ground.neg(c))),
+        Some((_, sum)) => {
+            *sum = ground.sub(sum, c);
+            if sum.is_zero() {
+                parts.remove(place);
+            }
+        }
+    }
+}
+
+/// The parts without what divides all of them.
+fn without_content(ring: &Ring, mut parts: Parts) -> Parts {
+    let ground = ring.field().ring();
+    let mut content = parts[0].1.clone();
+    for (_, c) in &parts[1..] {
+        if ground.degree(&content) > 0 {
+            content = gcd(ground, &content, c);
+        }
+    }
+    if ground.degree(&content) > 0 {
+        parts.iter_mut().for_each(|(_, c)| *c = ground.exact_div(c, &content).expect("a content divides"));
+    }
+    parts
+}
+
+/// The parameters on a line `offset + t direction` modulo a prime, on which polynomials show that they are coprime.
+struct Line {
+    field: Prime,
+    points: Vec<[u64; 2]>,
+}
+
+impl Line {
+    fn new(ring: &Ring) -> Self {
+        let field = Prime::new(2_147_483_647);
+        let mut stream = Stream(11);
+        let parameters = ring.field().ring().variables();
+        Line { field, points: parameters.iter().map(|_| [stream.unit(field), stream.unit(field)]).collect() }
+    }
+
+    /// The element over its first coefficient.
+    fn divide_by_first(&self, ring: &Ring, mut parts: Parts) -> Poly {
+        let (field, ground) = (ring.field(), ring.field().ring());
+        let lead = parts[0].1.leading().expect("a leading coefficient is not zero").coefficient.clone();
+        if !ground.field().is_one(&lead) {
+            let inverse = lead.recip();
+            parts.iter_mut().for_each(|(_, c)| *c = ground.scale(c, &inverse));
+        }
+        let mut rest = parts.into_iter();
+        let (monomial, divisor) = rest.next().expect("an element is not zero");
+        let restricted = self.restrict(ring, &divisor);
+        let is_faithful = restricted.len() == ground.degree(&divisor) as usize + 1;
+        let mut terms = vec![Term { coefficient: field.one(), monomial }];
+        for (monomial, c) in rest {
+            let coefficient = if is_faithful && self.are_coprime(&restricted, || self.restrict(ring, &c)) {
+                field.coprime_fraction(c, divisor.clone())
+            } else {
+                field.fraction(&c, &divisor).expect("a leading coefficient is not zero")
+            };
+            terms.push(Term { coefficient, monomial });
+        }
+        ring.descending(terms)
+    }
+
+    /// Whether nothing divides both; a common factor of polynomials would show here when `a` keeps its degree on the line.
+    fn are_coprime(&self, a: &[u64], b: impl FnOnce() -> Vec<u64>) -> bool {
+        a.len() == 1 || sequence::gcd(self.field, a.to_vec(), b()).len() == 1
+    }
+
+    /// The polynomial in `t` that `f` is on the line.
+    fn restrict(&self, ring: &Ring, f: &Ground) -> Vec<u64> {
+        let ground = ring.field().ring();
+        let mut sum: Vec<u64> = Vec::new();
+        for term in f.terms() {
+            let mut product = vec![image(self.field, &term.coefficient)];
+            for (variable, [offset, direction]) in self.points.iter().enumerate() {
+                for _ in 0..ground.layout().exponent(&term.monomial, variable) {
+                    product.push(0);
+                    for k in (0..product.len()).rev() {
+                        let lower = if k > 0 { product[k - 1] * direction } else { 0 };
+                        product[k] = self.field.reduce(product[k] * offset + lower);
+                    }
+                }
+            }
+            sum.resize(sum.len().max(product.len()), 0);
+            sum.iter_mut().zip(&product).for_each(|(sum, &c)| *sum = self.field.add(*sum, c));
+        }
+        while sum.last() == Some(&0) {
+            sum.pop();
+        }
+        sum
+    }
+}

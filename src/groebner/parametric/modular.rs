@@ -1,0 +1,128 @@
+//! The basis with the parameters as variables of the lowest block, by F4 modulo primes.
+//!
+//! One prime teaches the computation, others repeat it in lanes (C. Traverso, "Groebner trace algorithms", ISSAC 1988). Only the
+//! elements that count over the rational functions are rebuilt: those whose leading monomial in the unknowns is minimal. Each
+//! coefficient is rebuilt from as few primes as it takes and agrees with the first prime, from which it was not made.
+
+use super::assemble::{Element, assemble};
+use super::flat::{equations, flat_ring};
+use super::lift::{Primes, Residues, image};
+use super::prime::Prime;
+use super::{Ideal, Ring};
+use crate::groebner::Basis;
+use crate::groebner::f4::Trace;
+use crate::number::{BigRational, Rationals, Zp};
+use crate::poly::{Fractions, Polynomial, PolynomialRing, Term};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// How many primes are tried at once.
+const LANES: usize = 4;
+/// How many primes may teach the computation before the search is given up.
+const TEACHERS: usize = 4;
+
+type Equations = Vec<Vec<Term<BigRational>>>;
+
+/// The reduced basis over the rational functions.
+///
+/// # Errors
+/// Those of F4; [`ErrorKind::Unsupported`] when too many primes are unlucky.
+pub(super) fn rebuilt_basis(ideal: &Ideal<'_>, watch: &Watch) -> Result<Basis<Fractions<Rationals>>> {
+    let mut primes = Primes::new();
+    for _ in 0..TEACHERS {
+        let teacher = primes.next_prime();
+        let flat = flat_ring(ideal.ring, Zp::known_prime(teacher.p))?;
+        let equations = equations(ideal, &flat)?;
+        let Some(image) = image_of(&flat, &equations, teacher) else { continue };
+        let (basis, trace) = Trace::learn(&flat, &image, watch)?;
+        let chosen = minimal_elements(ideal.ring, &flat, &basis.polynomials);
+        let seen = coefficients(&chosen, &basis.polynomials);
+        if let Some(values) = rebuild(&equations, &trace, &chosen, (teacher, &seen), &mut primes, watch)? {
+            let elements = chosen.iter().map(|&index| &basis.polynomials[index]);
+            return assemble(ideal.ring, elements.map(|f| Element::new(ideal.ring, &flat, f)), values, watch);
+        }
+    }
+    Err(Error::new(ErrorKind::Unsupported, "the computations modulo too many primes differ; take another way"))
+}
+
+/// The equations modulo a prime; `None` when it divides a coefficient.
+fn image_of(flat: &PolynomialRing<Zp>, equations: &Equations, field: Prime) -> Option<Vec<Polynomial<u64>>> {
+    let term = |term: &Term<BigRational>| {
+        let coefficient = image(field, &term.coefficient);
+        (coefficient != 0).then(|| Term { coefficient, monomial: term.monomial.clone() })
+    };
+    let image = |terms: &Vec<Term<BigRational>>| Some(flat.descending(terms.iter().map(term).collect::<Option<_>>()?));
+    equations.iter().map(image).collect()
+}
+
+/// The elements without unknowns, which relations of the parameters reduce to zero or which make the ideal the whole ring, and of the
+/// others those whose leading monomial in the unknowns no smaller one divides.
+fn minimal_elements(ring: &Ring, flat: &PolynomialRing<Zp>, basis: &[Polynomial<u64>]) -> Vec<usize> {
+    let mut leads: Vec<Vec<u32>> = Vec::with_capacity(basis.len());
+    let mut chosen = Vec::with_capacity(basis.len());
+    for (index, f) in basis.iter().enumerate() {
+        let mut lead = flat.layout().exponents(&f.terms()[0].monomial);
+        lead.truncate(ring.variables().len());
+        let is_free = lead.iter().all(|&e| e == 0);
+        if is_free || !leads.iter().any(|other| other.iter().zip(&lead).all(|(a, b)| a <= b)) {
+            chosen.push(index);
+            if !is_free {
+                leads.push(lead);
+            }
+        }
+    }
+    chosen
+}
+
+fn coefficients(chosen: &[usize], basis: &[Polynomial<u64>]) -> Vec<u64> {
+    chosen.iter().flat_map(|&index| basis[index].terms().iter().map(|term| term.coefficient)).collect()
+}
+
+/// The coefficients of the chosen elements over Q, which must be `seen` modulo the prime that taught; `None` when most primes
+/// go another way.
+fn rebuild(
+    equations: &Equations,
+    trace: &Trace,
+    chosen: &[usize],
+    (teacher, seen): (Prime, &[u64]),
+    primes: &mut Primes,
+    watch: &Watch,
+) -> Result<Option<Vec<BigRational>>> {
+    let mut residues = Residues::default();
+    let mut unlucky = 0;
+    while unlucky <= LANES + residues.count() {
+        let (fields, generators) = lanes(equations, primes);
+        let found = trace.replay(fields.map(|field| field.p as u32), &generators, watch)?;
+        for (field, lane) in fields.into_iter().zip(found) {
+            match lane {
+                Some(basis) => {
+                    let row: Vec<u64> =
+                        chosen.iter().flat_map(|&index| basis[index].iter().map(|&c| u64::from(c))).collect();
+                    residues.push(field, &row);
+                }
+                None => unlucky += 1,
+            }
+        }
+        watch.report("rebuilding", residues.count(), 0);
+        if residues.is_worth_a_trial()
+            && let Some(values) = residues.rationals_like(teacher, seen)
+        {
+            return Ok(Some(values));
+        }
+    }
+    Ok(None)
+}
+
+/// The next primes that divide no coefficient, and the equations modulo each.
+fn lanes(equations: &Equations, primes: &mut Primes) -> ([Prime; LANES], Vec<Vec<[u32; LANES]>>) {
+    let is_good = |field: &Prime| equations.iter().flatten().all(|term| image(*field, &term.coefficient) != 0);
+    let fields = std::array::from_fn(|_| {
+        loop {
+            let field = primes.next_prime();
+            if is_good(&field) {
+                return field;
+            }
+        }
+    });
+    let value = |term: &Term<BigRational>| fields.map(|field: Prime| image(field, &term.coefficient) as u32);
+    (fields, equations.iter().map(|terms| terms.iter().map(value).collect()).collect())
+}
