@@ -39,7 +39,7 @@ pub(super) fn eliminate(shape: &Shape, coefficients: &[Vec<u32>], p: u32, way: W
     for (index, rows) in shape.lower.chunks(if combine { BLOCK } else { LANES }).enumerate() {
         watch.check()?;
         if rows.len() <= LANES {
-            take_each(&mut sweep, rows);
+            take_each(&mut sweep, rows, watch)?;
             let fresh = extract(&mut sweep, rows.len());
             independent.extend(fresh.into_iter().map(|(lane, column)| (index * LANES + lane, column)));
         } else {
@@ -67,7 +67,8 @@ fn take_combinations(
         for row in rows {
             sweep.accumulate(row, &std::array::from_fn(|_| random.below(p)));
         }
-        let fresh = clear_and_extract(sweep, LANES).len();
+        sweep.clear(0, &NOWHERE, watch)?;
+        let fresh = extract(sweep, LANES).len();
         rank += fresh;
         if fresh + zeros <= LANES || rank == rows.len() {
             return Ok(());
@@ -76,21 +77,16 @@ fn take_combinations(
 }
 
 /// Puts one row in each lane.
-fn take_each(sweep: &mut Sweep<'_, u32, LANES>, rows: &[Row]) {
+fn take_each(sweep: &mut Sweep<'_, u32, LANES>, rows: &[Row], watch: &Watch) -> Result<()> {
     for (lane, row) in rows.iter().enumerate() {
         sweep.accumulate(row, &unit(lane, sweep.moduli.p[0]));
     }
-    sweep.clear(0, &NOWHERE);
+    sweep.clear(0, &NOWHERE, watch)
 }
 
 /// The factor that adds a row to one lane.
 fn unit(lane: usize, p: u32) -> [u32; LANES] {
     std::array::from_fn(|l| if l == lane { p - 1 } else { 0 })
-}
-
-fn clear_and_extract(sweep: &mut Sweep<'_, u32, LANES>, lanes: usize) -> Vec<(usize, u32)> {
-    sweep.clear(0, &NOWHERE);
-    extract(sweep, lanes)
 }
 
 /// Takes what the lanes hold as new rows, reducing each by those before it: the lanes that were not zero, with their leads.
@@ -144,7 +140,7 @@ fn interreduce(sweep: &mut Sweep<'_, u32, LANES>, watch: &Watch) -> Result<()> {
             sweep.load(&row, &unit(lane, sweep.moduli.p[0]));
         }
         let first = own.iter().min().copied().unwrap_or(0);
-        sweep.clear(first as usize, &own);
+        sweep.clear(first as usize, &own, watch)?;
         let free = sweep.free();
         for (lane, &row) in group.iter().enumerate() {
             sweep.rows[row] = sparse(&sweep.lane(lane), free);
@@ -167,7 +163,7 @@ pub(super) fn normal_forms(
     let mut forms = Vec::with_capacity(shape.lower.len());
     for rows in shape.lower.chunks(LANES) {
         watch.check()?;
-        take_each(&mut sweep, rows);
+        take_each(&mut sweep, rows, watch)?;
         forms.extend((0..rows.len()).map(|lane| sparse(&sweep.lane(lane), free)));
         sweep.reset();
     }

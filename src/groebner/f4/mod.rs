@@ -216,6 +216,7 @@ impl<'a, const W: usize> Run<'a, W> {
         }
         // The smallest lead first: what makes another redundant then comes before it.
         for row in echelon.rows.into_iter().rev() {
+            watch.check()?;
             let keys: Vec<_> = row.columns.iter().map(|&column| columns[column as usize]).collect();
             self.trace.unit |= keys[0] == [0; W];
             let degree = |key| self.running.packing.degree(key);

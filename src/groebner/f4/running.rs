@@ -59,7 +59,7 @@ impl<const W: usize> Running<W> {
         self.pairs.len()
     }
 
-    /// How many elements came so far that may divide others, and those still in use.
+    /// The elements whose leads no other lead divides.
     pub fn live(&self) -> Vec<u32> {
         self.leads.iter().map(|lead| lead.element).collect()
     }

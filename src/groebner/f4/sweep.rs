@@ -1,7 +1,10 @@
 //! One pass of elimination over `N` lanes: sums in all columns, cleared from the left by the rows that lead there.
 
+use std::ops::Range;
+
 use super::lanes::{Coefficient, Instructions, Moduli};
 use super::symbolic::{Row, Shape};
+use crate::{Result, Watch};
 
 /// A monic sparse row: columns ascending, coefficients none zero in all lanes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,6 +14,8 @@ pub(super) struct Sparse<C> {
 }
 
 const NONE: u32 = u32::MAX;
+/// Columns that are cleared before the watch is asked.
+const PART: usize = 1024;
 
 /// The workspace: the sums of the lanes, and the rows that were found so far with the columns that they lead.
 pub(super) struct Sweep<'a, C, const N: usize> {
@@ -27,9 +32,9 @@ pub(super) struct Sweep<'a, C, const N: usize> {
 
 /// Clears the columns of the reducers, then those of the rows found so far; `own[l]` is a column that lane `l` keeps.
 #[inline(always)]
-fn clear<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, from: usize, own: &[u32; N]) {
+fn clear<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, part: Range<usize>, own: &[u32; N]) {
     let free = sweep.shape.upper.len();
-    for column in from..free {
+    for column in part.start..part.end.min(free) {
         if sweep.sums[column] != [0; N] {
             let factor = sweep.moduli.residues(&sweep.sums[column]);
             sweep.sums[column] = [0; N];
@@ -40,7 +45,7 @@ fn clear<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, from: u
             }
         }
     }
-    for column in from.max(free)..sweep.shape.columns {
+    for column in part.start.max(free)..part.end {
         let leader = sweep.leaders[column - free];
         if leader == NONE || sweep.sums[column] == [0; N] {
             continue;
@@ -137,10 +142,15 @@ impl<'a, C: Coefficient<N>, const N: usize> Sweep<'a, C, N> {
     }
 
     /// Clears all columns from `from` on that some row leads; lane `l` keeps the column `own[l]`.
-    pub fn clear(&mut self, from: usize, own: &[u32; N]) {
-        let (sweep, own) = (self, own);
-        dispatch!(sweep.instructions, [C: Coefficient<N>, const N: usize],
-            (sweep: &mut Sweep<'_, C, N>, from: usize, own: &[u32; N]), clear);
+    pub fn clear(&mut self, from: usize, own: &[u32; N], watch: &Watch) -> Result<()> {
+        let end = self.shape.columns;
+        for start in (from..end).step_by(PART) {
+            watch.check()?;
+            let (sweep, part) = (&mut *self, start..end.min(start + PART));
+            dispatch!(sweep.instructions, [C: Coefficient<N>, const N: usize],
+                (sweep: &mut Sweep<'_, C, N>, part: Range<usize>, own: &[u32; N]), clear);
+        }
+        Ok(())
     }
 
     /// `target - factor * row` modulo the first lane's prime.

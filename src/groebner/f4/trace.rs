@@ -53,8 +53,9 @@ impl Trace {
     /// of generator `i` in lane `l`, modulo `moduli[l]`, a prime below 2^31.
     ///
     /// Gives of each lane the coefficients of the basis polynomials in the order of terms of the learned basis, monic; `None`
-    /// for a lane that goes another way than the learned one: its prime or its parameters are unlucky, or those of the
-    /// learned run were.
+    /// for a lane that is seen to go another way than the learned one: its prime or its parameters are unlucky, or those of
+    /// the learned run were. Rows that came to nothing in the learned run are not looked at again: where they should not have, the
+    /// answer lies in the ideal but is no basis of it. Callers guard against that by a prime or point that they compute afresh.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the generators have not the learned numbers of terms; what `watch` stops with.
@@ -104,7 +105,7 @@ impl Trace {
         for (row, support) in self.last.lower.iter().zip(&self.supports) {
             watch.check()?;
             sweep.accumulate(row, &moduli.map(|p| p - 1));
-            sweep.clear(0, &[u32::MAX; N]);
+            sweep.clear(0, &[u32::MAX; N], watch)?;
             let form = take_row(&mut sweep);
             tails.push(on_support(&form, support, alive));
         }
@@ -145,7 +146,7 @@ impl Round {
         for (row, &lead) in self.shape.lower.iter().zip(&self.leads) {
             watch.check()?;
             sweep.accumulate(row, &moduli.map(|p| p - 1));
-            sweep.clear(0, &[u32::MAX; N]);
+            sweep.clear(0, &[u32::MAX; N], watch)?;
             let mut form = take_row(&mut sweep);
             start_at(&mut form, lead, alive);
             make_monic(&sweep, &mut form, alive);
@@ -158,7 +159,7 @@ impl Round {
             let lead = sweep.rows[row].columns[0];
             let form = sweep.rows[row].clone();
             sweep.load(&form, &moduli.map(|p| p - 1));
-            sweep.clear(lead as usize, &[lead; N]);
+            sweep.clear(lead as usize, &[lead; N], watch)?;
             sweep.rows[row] = take_row(&mut sweep);
         }
         // As they were adjoined: the smallest lead first.
