@@ -198,13 +198,9 @@ impl Line {
         let mut sum: Vec<u64> = Vec::new();
         for term in f.terms() {
             let mut product = vec![image(self.field, &term.coefficient)];
-            for (variable, [offset, direction]) in self.points.iter().enumerate() {
+            for (variable, &factor) in self.points.iter().enumerate() {
                 for _ in 0..ground.layout().exponent(&term.monomial, variable) {
-                    product.push(0);
-                    for k in (0..product.len()).rev() {
-                        let lower = if k > 0 { product[k - 1] * direction } else { 0 };
-                        product[k] = self.field.reduce(product[k] * offset + lower);
-                    }
+                    product = self.times_linear(&product, factor);
                 }
             }
             sum.resize(sum.len().max(product.len()), 0);
@@ -214,5 +210,14 @@ impl Line {
             sum.pop();
         }
         sum
+    }
+
+    /// `f` times `offset + t direction`.
+    fn times_linear(&self, f: &[u64], [offset, direction]: [u64; 2]) -> Vec<u64> {
+        let coefficient = |k: usize| {
+            let (own, lower) = (f.get(k).map_or(0, |c| c * offset), if k > 0 { f[k - 1] * direction } else { 0 });
+            self.field.reduce(own + lower)
+        };
+        (0..=f.len()).map(coefficient).collect()
     }
 }

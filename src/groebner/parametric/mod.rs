@@ -37,7 +37,7 @@ pub enum Way {
 }
 
 /// A system whose computation modulo a prime takes more terms than these goes to interpolation, where it takes none of them.
-const FEW_TERMS: usize = 20_000;
+const FEW_TERMS: usize = 5_000;
 
 /// How [`basis`] works.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
