@@ -8,9 +8,10 @@ use super::setting::{Coefficients, Poly, Setting, Unknowns};
 use super::triangular::clear_denominators;
 use crate::Result;
 use crate::Watch;
+use crate::groebner::parametric::lift;
 use crate::groebner::{Basis, Options, Strategy, basis, reduced_basis};
 use crate::number::{BigRational, Rationals, Ring};
-use crate::poly::{Block, Order, Polynomial, PolynomialRing, Term};
+use crate::poly::{Block, Order, Polynomial, PolynomialRing};
 
 type Flat = PolynomialRing<Rationals>;
 type FlatPoly = Polynomial<BigRational>;
@@ -74,16 +75,4 @@ fn flatten(ring: &Unknowns, flat: &Flat, f: &Poly) -> Result<FlatPoly> {
         terms.extend(flat.mul_term(&coefficient, &flat.field().one(), &monomial)?.terms().iter().cloned());
     }
     Ok(flat.collect(terms))
-}
-
-fn lift(flat: &Flat, ring: &Unknowns, f: &FlatPoly) -> Result<Poly> {
-    let (field, count) = (ring.field(), ring.variables().len());
-    let ground = field.ring();
-    let terms = f.terms().iter().map(|term| {
-        let exponents = flat.layout().exponents(&term.monomial);
-        let monomial = ring.monomial(&exponents[..count])?;
-        let part = ground.term(term.coefficient.clone(), ground.monomial(&exponents[count..])?);
-        Ok(Term { coefficient: field.embed(&part), monomial })
-    });
-    Ok(ring.collect(terms.collect::<Result<Vec<_>>>()?))
 }

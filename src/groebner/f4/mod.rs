@@ -152,7 +152,7 @@ impl<'a, const W: usize> Run<'a, W> {
             p: ring.field().modulus() as u32,
             way,
             graded,
-            running: Running::new(packing, !graded),
+            running: Running::new(packing, graded),
             coefficients: Vec::new(),
             table: Table::new(),
             trace: Trace::default(),
@@ -182,14 +182,14 @@ impl<'a, const W: usize> Run<'a, W> {
 
     /// The generators, reduced by one another without multiplying any.
     fn begin(&mut self, generators: &[Polynomial<u64>], watch: &Watch) -> Result<()> {
-        let mut raw = Running::new(self.running.packing.clone(), false);
+        let mut raw = Running::new(self.running.packing.clone(), true);
         for (index, f) in generators.iter().enumerate().filter(|(_, f)| !f.is_zero()) {
             let keys = f.terms().iter().map(|term| {
                 let exponents = self.ring.layout().exponents(&term.monomial);
                 raw.packing.key(&exponents).ok_or_else(overflow)
             });
             let keys = keys.collect::<Result<Vec<_>>>()?;
-            raw.elements.push(running::Element { keys, redundant: false });
+            raw.elements.push(keys);
             self.coefficients.push(f.terms().iter().map(|term| term.coefficient as u32).collect());
             self.trace.generators.push((index, f.terms().len()));
         }
@@ -244,7 +244,7 @@ impl<'a, const W: usize> Run<'a, W> {
     fn finish(mut self, watch: &Watch) -> Result<(Basis<Zp>, Trace)> {
         let packing = self.running.packing.clone();
         let mut live = self.running.live();
-        let lead = |element: &u32| packing.rank(&self.running.elements[*element as usize].keys[0]);
+        let lead = |element: &u32| packing.rank(&self.running.elements[*element as usize][0]);
         live.sort_by_key(lead);
         let mut builder = Builder::new(&self.running, &mut self.table, u32::MAX);
         builder.take_elements(&live, 1)?;
@@ -258,7 +258,7 @@ impl<'a, const W: usize> Run<'a, W> {
         };
         let mut polynomials = Vec::with_capacity(live.len());
         for (element, tail) in live.iter().zip(&tails) {
-            let mut terms = vec![term(&self.running.elements[*element as usize].keys[0], 1)?];
+            let mut terms = vec![term(&self.running.elements[*element as usize][0], 1)?];
             for (&column, &coefficient) in tail.columns.iter().zip(&tail.coefficients) {
                 terms.push(term(&columns[column as usize], coefficient)?);
             }

@@ -13,13 +13,6 @@ pub(super) struct Pair<const W: usize> {
     pub sugar: u32,
 }
 
-/// A polynomial of the basis: monomials greatest first; its coefficients are kept apart, so that replays share the rest.
-#[derive(Clone, Debug)]
-pub(super) struct Element<const W: usize> {
-    pub keys: Vec<Key<W>>,
-    pub redundant: bool,
-}
-
 /// A leading monomial that may divide others.
 #[derive(Clone, Copy, Debug)]
 struct Lead<const W: usize> {
@@ -34,13 +27,13 @@ struct Lead<const W: usize> {
 #[derive(Clone, Debug)]
 pub(super) struct Running<const W: usize> {
     pub packing: Packing<W>,
-    pub elements: Vec<Element<W>>,
+    /// The monomials of each element, greatest first; the coefficients are kept apart, so that replays share the rest.
+    pub elements: Vec<Vec<Key<W>>>,
     /// The leads of the elements that are not redundant, in the order of their coming.
     leads: Vec<Lead<W>>,
-    /// The leads that symbolic preprocessing may use: outside the orders by degree those of redundant elements too, which
-    /// are older, and whose multiples have less sugar.
-    reducers: Vec<Lead<W>>,
-    keep: bool,
+    /// All leads, in an order that does not go by degree: there redundant elements reduce too. They are older, and their
+    /// multiples have less sugar.
+    all: Option<Vec<Lead<W>>>,
     pairs: Vec<Pair<W>>,
 }
 
@@ -50,8 +43,10 @@ pub(super) fn overflow() -> Error {
 }
 
 impl<const W: usize> Running<W> {
-    pub fn new(packing: Packing<W>, keep: bool) -> Self {
-        Running { packing, elements: Vec::new(), leads: Vec::new(), reducers: Vec::new(), keep, pairs: Vec::new() }
+    /// Without elements; `by_degree` tells whether the order looks at the degree first.
+    pub fn new(packing: Packing<W>, by_degree: bool) -> Self {
+        let all = (!by_degree).then(Vec::new);
+        Running { packing, elements: Vec::new(), leads: Vec::new(), all, pairs: Vec::new() }
     }
 
     /// The pairs that are still open.
@@ -70,7 +65,7 @@ impl<const W: usize> Running<W> {
     pub fn divisor(&self, key: &Key<W>, bound: u32) -> Option<u32> {
         let room = bound.saturating_sub(self.packing.degree(key));
         let reduces = |lead: &&Lead<W>| self.packing.divides(&lead.key, key) && lead.excess <= room;
-        self.reducers.iter().find(reduces).map(|lead| lead.element)
+        self.all.as_ref().unwrap_or(&self.leads).iter().find(reduces).map(|lead| lead.element)
     }
 
     /// Takes all pairs of the smallest sugar, grouped by their common multiple.
@@ -93,22 +88,15 @@ impl<const W: usize> Running<W> {
         self.pairs.extend(fresh);
         let redundant = self.divisor(&lead, u32::MAX).is_some();
         let packing = &self.packing;
-        let elements = &mut self.elements;
-        self.leads.retain(|old| {
-            let covered = packing.divides(&lead, &old.key);
-            elements[old.element as usize].redundant |= covered;
-            !covered
-        });
+        self.leads.retain(|old| !packing.divides(&lead, &old.key));
         let head = Lead { key: lead, element, excess };
         if !redundant {
             self.leads.push(head);
         }
-        if self.keep {
-            self.reducers.push(head);
-        } else {
-            self.reducers.clone_from(&self.leads);
+        if let Some(all) = &mut self.all {
+            all.push(head);
         }
-        self.elements.push(Element { keys, redundant });
+        self.elements.push(keys);
         Ok(())
     }
 
@@ -116,7 +104,7 @@ impl<const W: usize> Running<W> {
     fn drop_covered(&mut self, lead: &Key<W>) {
         let (packing, elements) = (&self.packing, &self.elements);
         let differs =
-            |element: u32, lcm: &Key<W>| packing.lcm(lead, &elements[element as usize].keys[0]).as_ref() != Some(lcm);
+            |element: u32, lcm: &Key<W>| packing.lcm(lead, &elements[element as usize][0]).as_ref() != Some(lcm);
         self.pairs.retain(|pair| {
             !(packing.divides(lead, &pair.lcm) && differs(pair.left, &pair.lcm) && differs(pair.right, &pair.lcm))
         });
@@ -147,6 +135,6 @@ impl<const W: usize> Running<W> {
 
     /// The multiplier that lifts `element` to `multiple`.
     pub fn multiplier(&self, element: u32, multiple: &Key<W>) -> Key<W> {
-        quotient(multiple, &self.elements[element as usize].keys[0])
+        quotient(multiple, &self.elements[element as usize][0])
     }
 }

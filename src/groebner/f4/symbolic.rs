@@ -106,7 +106,7 @@ impl<'a, const W: usize> Builder<'a, W> {
     /// The row `multiplier * element`, `skip` leading terms left out.
     fn row(&mut self, element: u32, multiplier: &Key<W>, skip: usize) -> Result<Row> {
         let running = self.running;
-        let keys = &running.elements[element as usize].keys[skip..];
+        let keys = &running.elements[element as usize][skip..];
         let from = self.entries.len();
         self.entries.reserve(keys.len());
         let mut over = false;
@@ -161,7 +161,7 @@ impl<'a, const W: usize> Builder<'a, W> {
                 self.roles[next] = match self.running.divisor(&key, self.bound) {
                     None => Role::Free,
                     Some(element) => {
-                        let multiplier = quotient(&key, &self.running.elements[element as usize].keys[0]);
+                        let multiplier = quotient(&key, &self.running.elements[element as usize][0]);
                         let row = self.row(element, &multiplier, 0)?;
                         self.upper.push(row);
                         Role::Upper(self.upper.len() as u32 - 1)

@@ -103,10 +103,7 @@ impl Trace {
         let mut sweep = Sweep::new(moduli, Instructions::detect(), &self.last, coefficients);
         let mut tails = Vec::with_capacity(self.supports.len());
         for (row, support) in self.last.lower.iter().zip(&self.supports) {
-            watch.check()?;
-            sweep.accumulate(row, &moduli.map(|p| p - 1));
-            sweep.clear(0, &[u32::MAX; N], watch)?;
-            let form = take_row(&mut sweep);
+            let form = reduced(&mut sweep, row, watch)?;
             tails.push(on_support(&form, support, alive));
         }
         Ok(tails)
@@ -144,10 +141,7 @@ impl Round {
     ) -> Result<Vec<Vec<[u32; N]>>> {
         let mut sweep = Sweep::new(moduli, Instructions::detect(), &self.shape, coefficients);
         for (row, &lead) in self.shape.lower.iter().zip(&self.leads) {
-            watch.check()?;
-            sweep.accumulate(row, &moduli.map(|p| p - 1));
-            sweep.clear(0, &[u32::MAX; N], watch)?;
-            let mut form = take_row(&mut sweep);
+            let mut form = reduced(&mut sweep, row, watch)?;
             start_at(&mut form, lead, alive);
             make_monic(&sweep, &mut form, alive);
             sweep.adopt(form);
@@ -166,6 +160,14 @@ impl Round {
         let rows = order.iter().map(|&row| &sweep.rows[row]);
         Ok(rows.zip(self.supports.iter().rev()).map(|(row, support)| on_support(row, support, alive)).collect())
     }
+}
+
+/// A row of the matrix, reduced by all rows that lead a column so far.
+fn reduced<const N: usize>(sweep: &mut Sweep<'_, [u32; N], N>, row: &Row, watch: &Watch) -> Result<Sparse<[u32; N]>> {
+    watch.check()?;
+    sweep.accumulate(row, &sweep.moduli.p.map(|p| p - 1));
+    sweep.clear(0, &[u32::MAX; N], watch)?;
+    Ok(take_row(sweep))
 }
 
 /// What the lanes hold in the free columns; the sums are zero afterwards.

@@ -15,6 +15,8 @@ mod sequence;
 mod system;
 mod variables;
 
+pub(crate) use variables::lift;
+
 use super::Basis;
 use crate::number::{BigRational, Rationals, Ring as _};
 use crate::poly::{Fraction, Fractions, Polynomial, PolynomialRing, Term};

@@ -31,7 +31,7 @@ pub(super) fn reduced(ring: &Ring, basis: Vec<Poly>, watch: &Watch) -> Result<Ba
 }
 
 /// `f` read over the rational functions; zero when it is a relation of the parameters.
-fn lift(flat: &PolynomialRing<Rationals>, ring: &Ring, f: &Polynomial<BigRational>) -> Result<Poly> {
+pub(crate) fn lift(flat: &PolynomialRing<Rationals>, ring: &Ring, f: &Polynomial<BigRational>) -> Result<Poly> {
     let (field, count) = (ring.field(), ring.variables().len());
     let ground = field.ring();
     let terms = f.terms().iter().map(|term| {
