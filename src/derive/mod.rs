@@ -11,6 +11,7 @@ pub mod formulate;
 mod generic;
 mod grow;
 pub mod input;
+pub mod lift;
 pub mod plan;
 mod print;
 mod prover;

@@ -2,6 +2,7 @@
 
 mod certificate;
 mod chains;
+mod lift;
 mod renamed;
 mod seed;
 mod strata;
