@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use super::answers::table;
 use super::plan::{self, Mechanism};
@@ -81,19 +81,31 @@ fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Target> {
     let wanted = match chain.task() {
         Task::Pose => "a pose has 6 numbers (x, y, z, roll, pitch, yaw) or 7 (x, y, z, qx, qy, qz, qw)",
         Task::Position => "a position has 3 numbers (x, y, z)",
+        Task::Ray => "a ray has 6 numbers (x, y, z and the direction's x, y, z)",
+        Task::Direction => "a direction has 3 numbers (x, y, z, of any length)",
+        Task::Rotation => "a rotation has 3 numbers (roll, pitch, yaw) or 4 (qx, qy, qz, qw)",
         Task::PlanarPosition { .. } => "a planar position has 2 numbers",
         Task::PlanarPose { .. } => "a planar pose has 3 numbers, the last one the angle",
     };
+    let euler = |[r, p, y]: [f64; 3]| UnitQuaternion::from_euler_angles(radians(r), radians(p), radians(y));
+    let unit = |vector: Vector3<f64>| vector.try_normalize(0.0).unwrap_or(vector);
     Ok(match (chain.task(), values[..].len(), &values[..]) {
         (Task::Pose, 6, &[x, y, z, roll, pitch, yaw]) => {
-            let rotation = UnitQuaternion::from_euler_angles(radians(roll), radians(pitch), radians(yaw));
-            Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation))
+            Target::Pose(Pose::from_parts(Translation3::new(x, y, z), euler([roll, pitch, yaw])))
         }
         (Task::Pose, 7, &[x, y, z, i, j, k, w]) => {
             let rotation = UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k));
             Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation))
         }
         (Task::Position, 3, &[x, y, z]) => Target::Position([x, y, z].into()),
+        (Task::Ray, 6, &[x, y, z, i, j, k]) => {
+            Target::Ray { point: [x, y, z].into(), direction: unit(Vector3::new(i, j, k)) }
+        }
+        (Task::Direction, 3, &[i, j, k]) => Target::Direction(unit(Vector3::new(i, j, k))),
+        (Task::Rotation, 3, &[roll, pitch, yaw]) => Target::Rotation(euler([roll, pitch, yaw])),
+        (Task::Rotation, 4, &[i, j, k, w]) => {
+            Target::Rotation(UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)))
+        }
         (Task::PlanarPosition { .. }, 2, &[x, y]) => Target::PlanarPosition([x, y]),
         (Task::PlanarPose { .. }, 3, &[x, y, phi]) => Target::PlanarPose([x, y, radians(phi)]),
         (_, count, _) => {

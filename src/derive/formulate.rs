@@ -25,9 +25,16 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// [`ErrorKind::DuplicateName`] when a joint's symbol collides with a parameter.
 pub fn formulate(chain: &Chain) -> Result<System> {
     let task = chain.task();
-    if task == Task::Pose {
-        let text = "the `pose` task is read and checked but not derived yet: its nine orientation parameters are related \
-                    and need blocks of joints; give `position`, `planar_position` or `planar_pose`";
+    if matches!(task, Task::Pose | Task::Ray | Task::Direction | Task::Rotation) {
+        let text = format!(
+            "the `{}` task is read and checked but not derived yet: its orientation parameters are related and need \
+             blocks of joints; give `position`, `planar_position` or `planar_pose`",
+            task.name()
+        );
+        return Err(Error::new(ErrorKind::Unsupported, text));
+    }
+    if !chain.given().is_empty() {
+        let text = "joints with given values need the planner of blocks; leave `given` out";
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     let model = Model::new(chain)?;

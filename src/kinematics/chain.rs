@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use num_traits::ToPrimitive;
+use num_traits::{One, ToPrimitive, Zero};
 use serde::{Deserialize, Serialize};
 
 use super::exact_serde;
@@ -159,6 +159,12 @@ pub enum Task {
     },
     /// Position and orientation.
     Pose,
+    /// The position, and where [`Chain::direction`] points: five numbers.
+    Ray,
+    /// Where [`Chain::direction`] points: two numbers.
+    Direction,
+    /// The orientation: three numbers.
+    Rotation,
 }
 
 impl Task {
@@ -166,17 +172,35 @@ impl Task {
     pub fn plane(self) -> Option<Plane> {
         match self {
             Task::PlanarPosition { plane } | Task::PlanarPose { plane } => Some(plane),
-            Task::Position | Task::Pose => None,
+            Task::Position | Task::Pose | Task::Ray | Task::Direction | Task::Rotation => None,
         }
     }
 
-    /// Its name in a file: `position`, `planar_position`, `planar_pose` or `pose`.
+    /// The most joints that it determines: its number of independent values.
+    pub fn freedoms(self) -> usize {
+        match self {
+            Task::Pose => 6,
+            Task::Ray => 5,
+            Task::Position | Task::PlanarPose { .. } | Task::Rotation => 3,
+            Task::PlanarPosition { .. } | Task::Direction => 2,
+        }
+    }
+
+    /// Whether it aims a direction of the tip frame.
+    pub fn aims(self) -> bool {
+        matches!(self, Task::Ray | Task::Direction)
+    }
+
+    /// Its name in a file: `position`, `planar_position`, `planar_pose`, `pose`, `ray`, `direction` or `rotation`.
     pub fn name(self) -> &'static str {
         match self {
             Task::Position => "position",
             Task::PlanarPosition { .. } => "planar_position",
             Task::PlanarPose { .. } => "planar_pose",
             Task::Pose => "pose",
+            Task::Ray => "ray",
+            Task::Direction => "direction",
+            Task::Rotation => "rotation",
         }
     }
 }
@@ -217,10 +241,21 @@ pub struct ChainParts {
     pub tip: Tip,
     /// What is asked of the tip.
     pub task: Task,
+    /// The direction in the tip frame that the tasks `ray` and `direction` aim: not zero, of any length.
+    #[serde(with = "exact_serde::vector", default = "along_z")]
+    pub direction: ExactVector,
+    /// The names of the joints whose values the user gives: each once, and not all of them.
+    #[serde(default)]
+    pub given: Vec<String>,
     /// All unknowns from the greatest to the smallest, when a term order is asked for.
     pub order: Option<Vec<String>>,
     /// The root that is taken, when one is chosen.
     pub choice: Option<Choice>,
+}
+
+/// The direction that is aimed when none is named: the tip's z axis.
+pub fn along_z() -> ExactVector {
+    [BigRational::zero(), BigRational::zero(), BigRational::one()]
 }
 
 /// A validated serial chain. It never changes.
@@ -236,10 +271,11 @@ impl Chain {
     ///
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] for no or more than 12 joints, an axis of zero, inverted or infinite limits, a
-    /// coordinate beyond 10^12, a tip matrix that is no rotation, a joint that leaves the plane of a planar task, an
-    /// incomplete order, an empty name, or a symbol that is not 1 to 16 ASCII letters and digits;
-    /// [`crate::ErrorKind::DuplicateName`] for joint names, symbols or unknowns of `order` given twice;
-    /// [`crate::ErrorKind::UnknownName`] for an unknown that no joint has.
+    /// coordinate beyond 10^12, a tip matrix that is no rotation, a joint that leaves the plane of a planar task, a
+    /// direction of zero, values given of all joints, an incomplete order, an empty name, or a symbol that is not 1 to 16
+    /// ASCII letters and digits;
+    /// [`crate::ErrorKind::DuplicateName`] for joint names, symbols, given joints or unknowns of `order` named twice;
+    /// [`crate::ErrorKind::UnknownName`] for an unknown or a given joint that is none of the chain's.
     pub fn new(parts: ChainParts) -> Result<Self> {
         Chain::assemble(parts).map_err(|fault| fault.error)
     }
@@ -248,6 +284,15 @@ impl Chain {
         validate::check(&parts)?;
         let numeric = Numeric::of(&parts).map_err(|error| Fault { part: Part::Chain, key: "joint", error })?;
         Ok(Chain { parts, numeric })
+    }
+
+    /// The same mechanism with another task: what is asked of its tip, the direction of the tip frame that `ray` and
+    /// `direction` aim, and the joints whose values the user gives. The order and the choice are kept.
+    ///
+    /// # Errors
+    /// As [`Chain::new`], for a direction of zero, joints that are not there, and joints that leave a task's plane.
+    pub fn with_task(&self, task: Task, direction: ExactVector, given: Vec<String>) -> Result<Self> {
+        Chain::new(ChainParts { task, direction, given, ..self.parts.clone() })
     }
 
     /// The plain data of this chain.
@@ -280,6 +325,17 @@ impl Chain {
         self.parts.task
     }
 
+    /// The direction in the tip frame that the tasks `ray` and `direction` aim, of any length.
+    pub fn direction(&self) -> &ExactVector {
+        &self.parts.direction
+    }
+
+    /// The places of the joints whose values the user gives, from the base.
+    pub fn given(&self) -> Vec<usize> {
+        let is_given = |joint: &Joint| self.parts.given.contains(&joint.name);
+        self.joints().iter().enumerate().filter(|(_, joint)| is_given(joint)).map(|(place, _)| place).collect()
+    }
+
     /// All unknowns from the greatest to the smallest, when a term order is asked for.
     pub fn order(&self) -> Option<&[String]> {
         self.parts.order.as_deref()
@@ -310,11 +366,21 @@ impl From<Chain> for ChainParts {
     }
 }
 
+impl Chain {
+    /// The task in words: `planar_pose in xz`, `ray of [1, 0, 0]`, `position, ElbowYaw given`.
+    fn asked(&self) -> String {
+        let plane = self.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
+        let aimed = if self.task().aims() { format!(" of {}", show(self.direction())) } else { String::new() };
+        let given = &self.parts.given;
+        let given = if given.is_empty() { String::new() } else { format!(", {} given", given.join(", ")) };
+        format!("{}{plane}{aimed}{given}", self.task().name())
+    }
+}
+
 /// A short table: one line per joint.
 impl fmt::Display for Chain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let plane = self.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
-        writeln!(f, "{}: {}{plane}, lengths in {}", self.name(), self.task().name(), self.length_unit().symbol())?;
+        writeln!(f, "{}: {}, lengths in {}", self.name(), self.asked(), self.length_unit().symbol())?;
         for joint in self.joints() {
             let (kind, limits) = match (joint.kind, joint.limits) {
                 (JointKind::Revolute, Some((low, high))) => {

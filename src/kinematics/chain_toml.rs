@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::chain::show;
+use super::chain::{along_z, show};
 use super::validate::{Fault, Part, check_count};
 use super::{
     Chain, ChainParts, Choice, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Placement, Plane, Root, Task,
@@ -13,8 +13,8 @@ use super::{
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
 use crate::{Error, ErrorKind, Result};
 
-const ROOT_KEYS: [&str; 10] =
-    ["name", "description", "source", "length_unit", "angle_unit", "order", "choice", "task", "joint", "tip"];
+const ROOT_KEYS: [&str; 11] =
+    ["name", "description", "source", "length_unit", "angle_unit", "order", "given", "choice", "task", "joint", "tip"];
 const JOINT_KEYS: [&str; 7] = ["name", "symbol", "type", "axis", "point", "origin", "limits"];
 const PLANES: [(&str, Plane); 3] = [("xy", Plane::Xy), ("xz", Plane::Xz), ("yz", Plane::Yz)];
 
@@ -78,6 +78,7 @@ fn read_parts(root: Table<'_>, joints: &[Table<'_>], tip: Table<'_>) -> Result<C
     let form =
         if joints.iter().take(1).any(|joint| joint.optional("origin").is_some()) { Form::Origin } else { Form::Point };
     let (joints, last) = read_joints(joints, form, units)?;
+    let (task, direction) = read_task(root.required("task")?.table()?)?;
     Ok(ChainParts {
         name: root.required("name")?.text()?.to_owned(),
         description: text("description")?,
@@ -85,8 +86,10 @@ fn read_parts(root: Table<'_>, joints: &[Table<'_>], tip: Table<'_>) -> Result<C
         length_unit: units.length,
         joints,
         tip: read_tip(tip, form, &last)?,
-        task: read_task(root.required("task")?.table()?)?,
-        order: root.optional("order").map(read_order).transpose()?,
+        task,
+        direction,
+        given: read_given(root)?,
+        order: root.optional("order").map(read_names).transpose()?,
         choice: root.optional("choice").map(|node| read_choice(node.table()?)).transpose()?,
     })
 }
@@ -219,13 +222,29 @@ enum TaskKind {
     Planar(fn(Plane) -> Task),
 }
 
-pub(super) fn read_task(table: Table<'_>) -> Result<Task> {
-    table.deny_unknown(&["kind", "plane"])?;
+/// The task, and the direction in the tip frame that it aims.
+pub(super) fn read_task(table: Table<'_>) -> Result<(Task, ExactVector)> {
+    table.deny_unknown(&["kind", "plane", "direction"])?;
+    let task = read_kind(table)?;
+    match table.optional("direction") {
+        None => Ok((task, along_z())),
+        Some(node) if task.aims() => Ok((task, node.exact_vector()?)),
+        Some(node) => {
+            let message = format!("the task `{}` aims no direction; leave it out or choose `ray`", task.name());
+            Err(node.error(ErrorKind::BadValue, message))
+        }
+    }
+}
+
+fn read_kind(table: Table<'_>) -> Result<Task> {
     let kinds = [
         ("position", TaskKind::Spatial(Task::Position)),
         ("planar_position", TaskKind::Planar(|plane| Task::PlanarPosition { plane })),
         ("planar_pose", TaskKind::Planar(|plane| Task::PlanarPose { plane })),
         ("pose", TaskKind::Spatial(Task::Pose)),
+        ("ray", TaskKind::Spatial(Task::Ray)),
+        ("direction", TaskKind::Spatial(Task::Direction)),
+        ("rotation", TaskKind::Spatial(Task::Rotation)),
     ];
     match (table.required("kind")?.one_of(&kinds)?, table.optional("plane")) {
         (TaskKind::Spatial(task), None) => Ok(task),
@@ -237,7 +256,12 @@ pub(super) fn read_task(table: Table<'_>) -> Result<Task> {
     }
 }
 
-fn read_order(node: Node<'_>) -> Result<Vec<String>> {
+/// The names under `given`; none without it.
+pub(super) fn read_given(root: Table<'_>) -> Result<Vec<String>> {
+    root.optional("given").map_or_else(|| Ok(Vec::new()), read_names)
+}
+
+fn read_names(node: Node<'_>) -> Result<Vec<String>> {
     Ok(node.texts()?.into_iter().map(str::to_owned).collect())
 }
 
@@ -256,6 +280,7 @@ pub(super) fn line_of(fault: &Fault, root: Table<'_>, joints: &[Table<'_>]) -> u
         Part::Joint(index) => joints.get(index).copied(),
         Part::Tip => inner("tip"),
         Part::Choice => inner("choice"),
+        Part::Task => inner("task"),
     };
     let table = table.unwrap_or(root);
     table.optional(fault.key).map_or(table.line(), |node| node.line())

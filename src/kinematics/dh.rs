@@ -3,7 +3,7 @@
 //! Standard: Denavit and Hartenberg 1955, as in Paul 1981. Modified: Craig 1986.
 
 use super::validate::{Fault, check_count};
-use super::{Chain, ChainParts, ExactRotation, Joint, JointKind, LengthUnit, Placement, Task, Tip, Turn};
+use super::{Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Tip, Turn};
 use crate::Result;
 use crate::number::BigRational;
 
@@ -58,6 +58,10 @@ pub struct DhTable {
     pub tool: Placement,
     /// What is asked of the tip.
     pub task: Task,
+    /// The direction in the tip frame that the tasks `ray` and `direction` aim.
+    pub direction: ExactVector,
+    /// The names of the joints whose values the user gives.
+    pub given: Vec<String>,
 }
 
 impl DhRow {
@@ -120,6 +124,8 @@ impl DhTable {
             joints,
             tip: Tip { point: tip.origin, rotation: tip.rotation.matrix() },
             task: self.task,
+            direction: self.direction.clone(),
+            given: self.given.clone(),
             order: None,
             choice: None,
         })

@@ -4,15 +4,16 @@
 
 use std::path::Path;
 
-use super::chain_toml::{Units, line_of, read_limits, read_task, read_units};
+use super::chain::along_z;
+use super::chain_toml::{Units, line_of, read_given, read_limits, read_task, read_units};
 use super::validate::Fault;
 use super::{Chain, DhConvention, DhRow, DhTable, ExactRotation, ExactVector, JointKind, Placement, Task, Turn};
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
-const ROOT_KEYS: [&str; 10] =
-    ["name", "description", "source", "length_unit", "angle_unit", "task", "dh", "base", "joint", "tool"];
+const ROOT_KEYS: [&str; 11] =
+    ["name", "description", "source", "length_unit", "angle_unit", "task", "given", "dh", "base", "joint", "tool"];
 const JOINT_KEYS: [&str; 9] = ["name", "symbol", "type", "theta", "d", "a", "alpha", "offset", "limits"];
 const CONVENTIONS: [(&str, DhConvention); 2] =
     [("standard", DhConvention::Standard), ("modified", DhConvention::Modified)];
@@ -60,6 +61,7 @@ fn read_table(root: Table<'_>) -> Result<DhTable> {
     dh.deny_unknown(&["convention"])?;
     let text = |key| root.optional(key).map(|node| node.text().map(str::to_owned)).transpose();
     let task = root.optional("task").map(|node| read_task(node.table()?)).transpose()?;
+    let (task, direction) = task.unwrap_or_else(|| (Task::Pose, along_z()));
     let units = read_units(root)?;
     Ok(DhTable {
         name: root.required("name")?.text()?.to_owned(),
@@ -70,7 +72,9 @@ fn read_table(root: Table<'_>) -> Result<DhTable> {
         base: read_placement(root, "base", units)?,
         rows: read_rows(&root.required("joint")?.tables()?, units)?,
         tool: read_placement(root, "tool", units)?,
-        task: task.unwrap_or(Task::Pose),
+        task,
+        direction,
+        given: read_given(root)?,
     })
 }
 

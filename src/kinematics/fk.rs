@@ -26,9 +26,7 @@ impl Numeric {
 impl Joint {
     /// The unit vector along the axis.
     pub fn direction(&self) -> Unit<Vector3<f64>> {
-        let greatest = self.axis.iter().map(Signed::abs).max().unwrap_or_default();
-        let [x, y, z] = self.axis.each_ref().map(|entry| double(&(entry / &greatest)));
-        Unit::new_normalize(Vector3::new(x, y, z))
+        normalized(&self.axis)
     }
 
     /// The point on the axis, in the chain's length unit.
@@ -45,6 +43,11 @@ impl Joint {
 }
 
 impl Chain {
+    /// The unit vector, in the tip frame, of the direction that the tasks `ray` and `direction` aim.
+    pub fn aim(&self) -> Unit<Vector3<f64>> {
+        normalized(self.direction())
+    }
+
     /// The joints' screws from base to tip, in the base frame at the zero configuration and the chain's length unit.
     pub fn screws(&self) -> &[Screw] {
         &self.numeric.screws
@@ -82,6 +85,13 @@ impl Chain {
         let points: Vec<Point3<f64>> = self.joints().iter().map(Joint::location).chain([tip]).collect();
         points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
     }
+}
+
+/// The unit vector along a vector that is not zero.
+fn normalized(vector: &ExactVector) -> Unit<Vector3<f64>> {
+    let greatest = vector.iter().map(Signed::abs).max().unwrap_or_default();
+    let [x, y, z] = vector.each_ref().map(|entry| double(&(entry / &greatest)));
+    Unit::new_normalize(Vector3::new(x, y, z))
 }
 
 fn double(exact: &BigRational) -> f64 {

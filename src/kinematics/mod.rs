@@ -18,7 +18,7 @@ pub mod urdf;
 mod validate;
 
 pub use chain::{
-    Chain, ChainParts, Choice, ExactMatrix, ExactVector, Joint, JointKind, LengthUnit, Plane, Root, Task, Tip,
+    Chain, ChainParts, Choice, ExactMatrix, ExactVector, Joint, JointKind, LengthUnit, Plane, Root, Task, Tip, along_z,
 };
 pub use dh::{DhConvention, DhRow, DhTable};
 pub use exact_rotation::{ExactRotation, Turn};

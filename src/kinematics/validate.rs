@@ -20,6 +20,7 @@ pub enum Part {
     Joint(usize),
     Tip,
     Choice,
+    Task,
 }
 
 /// A mistake, with its part and key.
@@ -44,6 +45,8 @@ pub fn check(parts: &ChainParts) -> Checked {
         }
     }
     check_tip(&parts.tip)?;
+    check_direction(parts)?;
+    check_given(parts)?;
     let unknowns: Vec<String> = parts.joints.iter().flat_map(Joint::unknowns).collect();
     let unknowns: Vec<&str> = unknowns.iter().map(String::as_str).collect();
     check_order(parts, &unknowns)?;
@@ -187,6 +190,33 @@ fn is_rotation(r: &ExactMatrix) -> bool {
     let orthonormal = (0..3).all(|i| (0..3).all(|j| dot(&r[i], &r[j]) == unit(i, j)));
     let cross = |i: usize| &r[0][(i + 1) % 3] * &r[1][(i + 2) % 3] - &r[0][(i + 2) % 3] * &r[1][(i + 1) % 3];
     orthonormal && (0..3).all(|i| cross(i) == r[2][i])
+}
+
+fn check_direction(parts: &ChainParts) -> Checked {
+    if !parts.direction.iter().all(Zero::is_zero) {
+        return Ok(());
+    }
+    let message = "the task's direction is [0, 0, 0]; give a non-zero vector of the tip frame".into();
+    Err(fault(Part::Task, "direction", ErrorKind::BadValue, message))
+}
+
+/// Joints with given values must be there, once each, and leave one to solve for.
+fn check_given(parts: &ChainParts) -> Checked {
+    let bad = |kind, message| Err(fault(Part::Chain, "given", kind, format!("`given`: {message}")));
+    let names: Vec<&str> = parts.joints.iter().map(|joint| joint.name.as_str()).collect();
+    for (index, name) in parts.given.iter().enumerate() {
+        if !names.contains(&name.as_str()) {
+            let message = format!("no joint has the name `{}`{}", shown(name), one_among(name, &names));
+            return bad(ErrorKind::UnknownName, message);
+        }
+        if parts.given[..index].contains(name) {
+            return bad(ErrorKind::DuplicateName, format!("`{}` stands twice; name each joint once", shown(name)));
+        }
+    }
+    if parts.given.len() == names.len() {
+        return bad(ErrorKind::BadValue, "every joint is given; leave one or more to solve for".into());
+    }
+    Ok(())
 }
 
 fn check_order(parts: &ChainParts, unknowns: &[&str]) -> Checked {

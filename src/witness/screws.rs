@@ -98,6 +98,8 @@ fn bent(branch: usize, answer: &Angles) -> Solution {
 fn planned(task: Task, target: &[f64]) -> Result<Target> {
     Ok(match (task, target) {
         (Task::Position, &[x, y, z]) => Target::Position([x, y, z].into()),
+        (Task::Ray, &[x, y, z, i, j, k]) => Target::Ray { point: [x, y, z].into(), direction: [i, j, k].into() },
+        (Task::Direction, &[i, j, k]) => Target::Direction([i, j, k].into()),
         (Task::PlanarPosition { .. }, &[x, y]) => Target::PlanarPosition([x, y]),
         (Task::PlanarPose { .. }, &[x, y, phi]) => Target::PlanarPose([x, y, phi]),
         _ => {

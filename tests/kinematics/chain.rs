@@ -2,7 +2,7 @@
 
 use groebot::ErrorKind;
 use groebot::kinematics::{
-    Chain, ChainParts, Choice, ExactMatrix, Joint, JointKind, LengthUnit, Plane, Root, Task, Tip,
+    Chain, ChainParts, Choice, ExactMatrix, Joint, JointKind, LengthUnit, Plane, Root, Task, Tip, along_z,
 };
 
 use super::{documented_example, exact};
@@ -34,6 +34,8 @@ fn parts() -> ChainParts {
             rotation: rotation([["3/5", "-4/5", "0"], ["4/5", "3/5", "0"], ["0", "0", "1"]]),
         },
         task: Task::PlanarPosition { plane: Plane::Xz },
+        direction: along_z(),
+        given: Vec::new(),
         order: Some(["dx", "c1", "s1"].map(String::from).to_vec()),
         choice: Some(Choice { unknown: "dx".into(), root: Root::Plus }),
     }
@@ -71,9 +73,22 @@ fn the_table_shows_what_matters() {
 }
 
 #[test]
+fn a_chain_takes_another_task() {
+    let direction = ["1", "0", "-1/2"].map(exact);
+    let chain = Chain::new(parts()).unwrap();
+    let ray = chain.with_task(Task::Ray, direction.clone(), vec!["slide".into()]).unwrap();
+    assert_eq!((ray.task(), ray.direction(), ray.given()), (Task::Ray, &direction, vec![1]));
+    assert_eq!((ray.joints(), ray.tip()), (chain.joints(), chain.tip()));
+    assert!(ray.to_string().contains("ray of [1, 0, -1/2], slide given"), "{ray}");
+    let json = serde_json::to_string(&ray).unwrap();
+    assert_eq!(serde_json::from_str::<Chain>(&json).unwrap(), ray);
+    assert!((ray.aim().into_inner() * 5f64.sqrt() - nalgebra::Vector3::new(2.0, 0.0, -1.0)).norm() < 1e-15);
+}
+
+#[test]
 fn every_fault_is_refused() {
     type Break = fn(&mut ChainParts);
-    let cases: [(Break, ErrorKind, &str); 22] = [
+    let cases: [(Break, ErrorKind, &str); 26] = [
         (|p| p.name = " ".into(), ErrorKind::BadValue, "chain's name"),
         (|p| p.name = "a\u{1b}[31m".into(), ErrorKind::BadValue, "chain's name"),
         (|p| p.source = Some("\0".into()), ErrorKind::BadValue, "`source`"),
@@ -95,6 +110,10 @@ fn every_fault_is_refused() {
         (|p| p.tip.rotation[2][2] = exact("-1"), ErrorKind::BadValue, "no rotation"),
         (|p| p.tip.rotation[0][0] = exact("0.6000001"), ErrorKind::BadValue, "no rotation"),
         (|p| p.order.as_mut().unwrap().push("dx".into()), ErrorKind::DuplicateName, "stands twice"),
+        (|p| p.direction = ["0"; 3].map(exact), ErrorKind::BadValue, "direction is [0, 0, 0]"),
+        (|p| p.given = vec!["swong".into()], ErrorKind::UnknownName, "`swing`"),
+        (|p| p.given = vec!["swing".into(); 2], ErrorKind::DuplicateName, "stands twice"),
+        (|p| p.given = vec!["slide".into(), "swing".into()], ErrorKind::BadValue, "every joint is given"),
         (|p| p.choice.as_mut().unwrap().unknown = "d1".into(), ErrorKind::UnknownName, "`c1`, `s1`, `dx`"),
     ];
     for (damage, kind, word) in cases {

@@ -47,6 +47,34 @@ fn defaults_are_metres_radians_and_counted_symbols() {
 }
 
 #[test]
+fn tasks_directions_and_given_joints() {
+    let arm = |task: &str, more: &str| {
+        let joints = ["a", "b"]
+            .map(|name| format!("[[joint]]\nname = '{name}'\ntype = 'revolute'\naxis = [0, 0, 1]\npoint = [0, 0, 0]"));
+        let text =
+            format!("name = 'two'\n{more}\ntask = {{ {task} }}\ntip = {{ point = [1, 0, 0] }}\n{}", joints.join("\n"));
+        Chain::from_toml(&text)
+    };
+    let tasks =
+        [("pose", Task::Pose), ("ray", Task::Ray), ("direction", Task::Direction), ("rotation", Task::Rotation)];
+    for (name, task) in tasks {
+        let chain = arm(&format!("kind = '{name}'"), "given = ['b']").unwrap();
+        assert_eq!((chain.task(), task.name(), chain.given()), (task, name, vec![1]));
+        assert_eq!(chain.direction(), &["0", "0", "1"].map(exact));
+    }
+    let aimed = arm("kind = 'ray', direction = ['-1/3', 0, 2]", "").unwrap();
+    assert_eq!(aimed.direction(), &["-1/3", "0", "2"].map(exact));
+    assert!(aimed.given().is_empty());
+    let line = |wrong: Result<Chain, _>, kind, line, word| assert_error(&wrong.unwrap_err(), kind, Some(line), word);
+    line(arm("kind = 'ray', direction = [0, 0, 0]", ""), ErrorKind::BadValue, 3, "non-zero");
+    line(arm("kind = 'pose', direction = [0, 0, 1]", ""), ErrorKind::BadValue, 3, "aims no direction");
+    line(arm("kind = 'ray', plane = 'xy'", ""), ErrorKind::BadValue, 3, "no plane");
+    line(arm("kind = 'ray'", "given = ['c']"), ErrorKind::UnknownName, 2, "`a`, `b`");
+    line(arm("kind = 'ray'", "given = ['a', 'a']"), ErrorKind::DuplicateName, 2, "twice");
+    line(arm("kind = 'ray'", "given = ['a', 'b']"), ErrorKind::BadValue, 2, "leave one");
+}
+
+#[test]
 fn limits_of_prismatic_joints_are_never_degrees() {
     let text = documented_example().replacen(
         "type = \"revolute\"\naxis = [0, 1, 0]",

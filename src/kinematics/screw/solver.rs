@@ -51,11 +51,8 @@ impl ScrewSolver {
     /// [`ErrorKind::Unsupported`] when no order of the known subproblems solves the chain.
     pub fn new(chain: &Chain) -> Result<Self> {
         let count = chain.joints().len();
-        let most = match chain.task() {
-            Task::Pose => 6,
-            Task::Position | Task::PlanarPose { .. } => 3,
-            Task::PlanarPosition { .. } => 2,
-        };
+        check_supported(chain)?;
+        let most = chain.task().freedoms();
         if count > most {
             let text =
                 format!("{count} joints for the task `{}`, which determines {most} at most", chain.task().name());
@@ -156,6 +153,18 @@ impl ScrewSolver {
             Screw::Prismatic(_) => (a - b).abs() / self.reach,
         }
     }
+}
+
+fn check_supported(chain: &Chain) -> Result<()> {
+    let unsupported = matches!(chain.task(), Task::Ray | Task::Direction | Task::Rotation);
+    if !unsupported && chain.given().is_empty() {
+        return Ok(());
+    }
+    let text = format!(
+        "screw theory solves the tasks of a pose or position with no joint given, not `{}`",
+        chain.task().name()
+    );
+    Err(Error::new(ErrorKind::Unsupported, text))
 }
 
 /// What is there, and what would be needed.

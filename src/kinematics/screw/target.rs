@@ -18,6 +18,17 @@ pub enum Target {
     PlanarPosition([f64; 2]),
     /// The position in the task's plane and the angle \[rad\] about its normal, right-handed, from the zero configuration.
     PlanarPose([f64; 3]),
+    /// The position of the tip, and where the task's direction points.
+    Ray {
+        /// The position.
+        point: Point3<f64>,
+        /// The direction, of length one.
+        direction: Vector3<f64>,
+    },
+    /// Where the task's direction points: a vector of length one.
+    Direction(Vector3<f64>),
+    /// The rotation base_from_tip.
+    Rotation(UnitQuaternion<f64>),
 }
 
 /// One inverse-kinematics answer, checked by forward kinematics.
@@ -44,9 +55,13 @@ impl Target {
     pub fn reached(chain: &Chain, q: &[f64]) -> Result<Target> {
         let pose = chain.forward(q)?;
         let tip = pose.translation.vector;
+        let aimed = || pose.rotation * chain.aim().into_inner();
         Ok(match chain.task() {
             Task::Pose => Target::Pose(pose),
             Task::Position => Target::Position(tip.into()),
+            Task::Ray => Target::Ray { point: tip.into(), direction: aimed() },
+            Task::Direction => Target::Direction(aimed()),
+            Task::Rotation => Target::Rotation(pose.rotation),
             Task::PlanarPosition { plane } => Target::PlanarPosition(plane.coordinates().map(|i| tip[i])),
             Task::PlanarPose { plane } => {
                 let [x, y] = plane.coordinates().map(|i| tip[i]);

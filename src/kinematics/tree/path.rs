@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::{Mimic, Tree, TreeJoint, TreeJointKind, listing, some_among};
 use crate::document::shown;
+use crate::kinematics::chain::along_z;
 use crate::kinematics::exact_rotation::over_common;
 use crate::kinematics::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Tip};
 use crate::number::{BigInt, BigRational};
@@ -93,6 +94,8 @@ impl Tree {
             joints,
             tip: Tip { point: frame.origin, rotation: frame.rotation.matrix() },
             task: Task::Pose,
+            direction: along_z(),
+            given: Vec::new(),
             order: None,
             choice: None,
         })

@@ -1,7 +1,7 @@
 //! The screw solver on random chains of each family that it is to solve, not only on known robots.
 
 use groebot::kinematics::screw::{ScrewSolver, Target};
-use groebot::kinematics::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Plane, Task, Tip};
+use groebot::kinematics::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Plane, Task, Tip, along_z};
 use groebot::number::BigRational;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -45,6 +45,8 @@ fn chain(joints: &[Placed], tip: Vector, task: Task) -> Chain {
         joints: joints.iter().enumerate().map(joint).collect(),
         tip: Tip { point: exact(&tip), rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| one(i, j))) },
         task,
+        direction: along_z(),
+        given: Vec::new(),
         order: None,
         choice: None,
     })
