@@ -2,6 +2,8 @@
 
 mod certificate;
 mod chains;
+mod closure;
+mod random_chains;
 mod renamed;
 mod seed;
 mod strata;
