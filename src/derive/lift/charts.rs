@@ -10,7 +10,7 @@ use crate::derive::tree::{Node, Outcome, Solved, collect_denominators};
 use crate::derive::triangular::Stair;
 use crate::number::{Rationals, Ring, Style};
 use crate::poly::PolynomialRing;
-use crate::solver::{Chart, Guard, JointValue, NEAR, Operand, Operation, Step, TINY};
+use crate::solver::{Chart, Guard, JointValue, NEAR, Operand, Step, TINY};
 use crate::{Error, ErrorKind, Result};
 
 /// A chart for a stratum runs where each factor's symbols are below this share of their sizes.
@@ -27,9 +27,8 @@ pub(super) struct Sized {
 }
 
 impl Sized {
-    /// A number.
-    pub fn constant(value: f64) -> Self {
-        Sized { value: Operand::Constant(value), size: Operand::Constant(value.abs()) }
+    pub fn negated(self, assembler: &mut Assembler) -> Self {
+        Sized { value: assembler.mul(Operand::Constant(-1.0), self.value), size: self.size }
     }
 }
 
@@ -239,7 +238,7 @@ impl<'a> Builder<'a> {
             let product = assembler.mul(size(i), size(j));
             assembler.add(sum, product)
         });
-        Ok(self.assembler.emit(Operation::Sqrt(sum)))
+        Ok(self.assembler.sqrt(sum))
     }
 
     /// Puts the joint's values, a cosine and a sine on the circle.
@@ -251,7 +250,7 @@ impl<'a> Builder<'a> {
                 let (c, s) = value(cosine).zip(value(sine)).ok_or_else(missing)?;
                 let squares = [self.assembler.mul(c, c), self.assembler.mul(s, s)];
                 let sum = self.assembler.add(squares[0], squares[1]);
-                let length = self.assembler.emit(Operation::Sqrt(sum));
+                let length = self.assembler.sqrt(sum);
                 vec![(cosine, self.assembler.div(c, length)), (sine, self.assembler.div(s, length))]
             }
             JointValue::Plain(unknown) => vec![(unknown, value(unknown).ok_or_else(missing)?)],

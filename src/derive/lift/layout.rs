@@ -4,7 +4,7 @@ use num_traits::ToPrimitive;
 
 use super::emit::{Emitted, Emitter};
 use crate::derive::assemble::Assembler;
-use crate::derive::closure::{self, Arithmetic, Assignment, Mechanism, Target};
+use crate::derive::closure::{self, Assignment, Mechanism, Target};
 use crate::kinematics::{JointKind, LengthUnit, Task};
 use crate::number::BigRational;
 use crate::solver::{Condition, Input, JointValue, Operand, ParameterRule, Rule, Unit};

@@ -70,6 +70,17 @@ impl Form {
         self.words().symbols
     }
 
+    /// The forms that a step of this form is solved by: where two equations are dependent, each is solved alone.
+    pub fn needs(self) -> &'static [Form] {
+        match self {
+            Form::Angle => &[Form::Angle],
+            Form::Turn => &[Form::Turn],
+            Form::Pair => &[Form::Pair, Form::Angle],
+            Form::Linear => &[Form::Linear],
+            Form::Quadratic => &[Form::Quadratic],
+        }
+    }
+
     /// A name for files: `angle`, `turn`, ...
     pub fn name(self) -> &'static str {
         match self {
