@@ -1,19 +1,21 @@
 //! From a plan to a solver: each step's equations become a [`Template`] with free symbols, proved on all strata, and the symbols
 //! become code that computes their values from the target and the joints before.
 
+pub mod certificate;
 mod charts;
 mod checks;
 mod emit;
 mod layout;
 mod program;
 mod shape;
+mod stages;
 mod template;
 
-pub use shape::{Shape, shape};
+pub use shape::Shape;
 pub use template::{Form, Template};
 
 use super::closure::{Mechanism, Relation};
-use super::planner::Plan;
+use super::planner::{self, Plan};
 use crate::kinematics::Chain;
 use crate::solver::Program;
 use crate::{Result, Watch};
@@ -45,23 +47,35 @@ pub struct Derived {
 }
 
 impl Derived {
-    /// Lifts `plan`, one of `mechanism`, which is that of `chain`.
+    /// Plans, lifts and proves the solver of `chain` for its task.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Unsupported`] for a step that no form fits; what `watch` stops with.
-    pub fn new(chain: &Chain, mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
-        let mut steps = Vec::new();
-        let mut templates: Vec<Template> = Vec::new();
-        for step in &plan.steps {
-            watch.check()?;
-            let shape = shape::shape(mechanism, step)?;
-            for form in shape.form.needs() {
-                if !templates.iter().any(|template| template.form == *form) {
-                    templates.push(Template::derive(*form, watch)?);
-                }
-            }
-            steps.push(Lifted { joint: step.joint, relations: step.way.relations().to_vec(), shape });
-        }
+    /// As [`planner::plan`]; [`crate::ErrorKind::Unsupported`] for a step that no form fits.
+    pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
+        let mechanism = Mechanism::new(chain)?;
+        let plan = planner::plan(&mechanism, watch)?;
+        Derived::of_plan(chain, &mechanism, plan, watch)
+    }
+
+    /// Lifts and proves `plan`, one of `mechanism`, which is that of `chain`.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Certificate`] that names the step when the plan is wrong; [`crate::ErrorKind::Unsupported`] for a step that
+    /// no form fits; what `watch` stops with.
+    pub fn of_plan(chain: &Chain, mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
+        let steps = certificate::prove_plan(mechanism, &plan)?;
+        let forms = Template::needed(&steps);
+        let templates = forms.into_iter().map(|form| Template::derive(form, watch)).collect::<Result<_>>()?;
+        Derived::assemble(chain, mechanism, plan, steps, templates)
+    }
+
+    fn assemble(
+        chain: &Chain,
+        mechanism: &Mechanism,
+        plan: Plan,
+        steps: Vec<Lifted>,
+        templates: Vec<Template>,
+    ) -> Result<Self> {
         let program = program::compile(chain, mechanism, plan.dimension, &steps, &templates)?;
         Ok(Derived { chain: chain.clone(), plan, steps, templates, program })
     }

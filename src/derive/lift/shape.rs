@@ -72,7 +72,7 @@ impl Symbolic {
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] when the equations are not of the kind that the step says.
-pub fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
+pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
     let plain = |form| Ok(Shape { form, ratio: None });
     let revolute = mechanism.joints()[step.joint].is_revolute();
     match &step.way {

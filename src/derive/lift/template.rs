@@ -6,6 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Lifted;
 use crate::derive::tree::Node;
 use crate::derive::{
     Equation, Input, JointKindUnknown, JointUnknown, Orders, Parameter, ParameterSource, Quantity, System, SystemParts,
@@ -81,6 +82,14 @@ impl Form {
         }
     }
 
+    /// The number of solutions, where they are finitely many and the equations are independent.
+    pub fn degree(self) -> usize {
+        match self {
+            Form::Angle | Form::Quadratic => 2,
+            Form::Turn | Form::Pair | Form::Linear => 1,
+        }
+    }
+
     /// A name for files: `angle`, `turn`, ...
     pub fn name(self) -> &'static str {
         match self {
@@ -134,6 +143,14 @@ pub struct Template {
 }
 
 impl Template {
+    /// The forms that `steps` are solved by, each once.
+    pub(super) fn needed(steps: &[Lifted]) -> Vec<Form> {
+        let mut forms: Vec<Form> = steps.iter().flat_map(|step| step.shape.form.needs()).copied().collect();
+        forms.sort_unstable();
+        forms.dedup();
+        forms
+    }
+
     /// Derives and proves `form`.
     ///
     /// # Errors
