@@ -109,8 +109,8 @@ pub struct Source {
     pub text: String,
     /// The chain, when it describes one.
     pub chain: Option<Chain>,
-    /// The equations.
-    pub system: System,
+    /// The equations; none for a chain whose task is only solved joint by joint.
+    pub system: Option<System>,
 }
 
 impl Source {
@@ -131,11 +131,26 @@ impl Source {
         let chain = input.chain(ends)?;
         let InputFile { path, name, text, description } = input;
         let system = match (&chain, description) {
-            (Some(chain), _) => formulate(chain).map_err(|error| error.in_file(&path))?,
-            (None, Description::System(system)) => system,
+            (Some(chain), _) => formulated(chain).map_err(|error| error.in_file(&path))?,
+            (None, Description::System(system)) => Some(system),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
         Ok(Source { path, name, text, chain, system })
+    }
+
+    /// The chain, when it is to be solved joint by joint: it asks for no order of unknowns and no choice of root, which belong to
+    /// equations that are solved together.
+    pub fn chain_by_steps(&self) -> Option<&Chain> {
+        self.chain.as_ref().filter(|chain| chain.order().is_none() && chain.choice().is_none())
+    }
+}
+
+/// The equations of `chain`, where its task has any that are solved together.
+fn formulated(chain: &Chain) -> Result<Option<System>> {
+    match formulate(chain) {
+        Ok(system) => Ok(Some(system)),
+        Err(error) if error.kind() == ErrorKind::Unsupported => Ok(None),
+        Err(error) => Err(error),
     }
 }
 

@@ -16,6 +16,7 @@ pub mod lift;
 pub mod plan;
 pub mod planner;
 mod print;
+pub mod proved;
 mod prover;
 mod radicals;
 pub mod setting;
@@ -31,6 +32,7 @@ pub use derivation::Derivation;
 pub use formulate::formulate;
 pub use grow::{derive_tree, describe};
 pub use input::{Description, Ends, InputFile, Source};
+pub use proved::Proved;
 pub use prover::Orders;
 pub use system::{
     Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,
