@@ -87,6 +87,12 @@ pub fn leaves(joint: &ScrewJoint, object: &Object, measure: Measure) -> bool {
     }
 }
 
+/// The point through which the axes of all `joints` go, the first joint's when they are the same line; `None` when a joint slides.
+pub fn common_point_of(joints: &[ScrewJoint]) -> Option<ExactVector> {
+    let turns: Vec<&ScrewJoint> = joints.iter().filter(|joint| joint.is_revolute()).collect();
+    if turns.len() == joints.len() { common_point(&turns) } else { None }
+}
+
 /// The point of all axes: the only one, or the first joint's when all are the same line.
 fn common_point(turns: &[&ScrewJoint]) -> Option<ExactVector> {
     let first = turns.first()?;
