@@ -3,6 +3,7 @@
 mod certificate;
 mod chains;
 mod closure;
+mod planner;
 mod random_chains;
 mod renamed;
 mod seed;

@@ -41,13 +41,17 @@ struct Cut<'a> {
 }
 
 impl Cut<'_> {
-    /// Adds what this cut says. What the task does not see stands behind the last joint and belongs to the tail.
+    /// Adds what this cut says. What the task does not see stands behind the last joint and belongs to the tail; sliding does not
+    /// act on directions.
     fn relate(&self, relations: &mut Vec<Relation>) {
-        if self.tail.end < self.mechanism.joints().len() && !self.mechanism.unseen().is_empty() {
+        let unseen = self.mechanism.unseen();
+        let behind = self.tail.end < self.mechanism.joints().len();
+        if behind && unseen.iter().any(ScrewJoint::is_revolute) {
             return;
         }
+        let only_angles = behind && !unseen.is_empty();
         for (measure, fixed, moved) in self.run_features().pairs(&self.tail_features()) {
-            if self.is_widest(measure, &fixed, &moved) {
+            if self.is_widest(measure, &fixed, &moved) && (measure == Measure::Angle || !only_angles) {
                 relations.extend(self.relation(measure, fixed, moved));
             }
         }
