@@ -46,6 +46,11 @@ impl Features {
         Features { directions: frame.clone(), normals: frame, points, line: None, anchor }
     }
 
+    /// Whether nothing stays.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty() && self.directions.is_empty() && self.normals.is_empty()
+    }
+
     /// Every measure of something fixed by this row and something moved that `tail` leaves in place.
     pub fn pairs(&self, tail: &Features) -> Vec<(Measure, Object, Object)> {
         let each = |measure, fixed: &[Object], moved: &[Object]| -> Vec<(Measure, Object, Object)> {
