@@ -4,6 +4,7 @@ mod certificate;
 mod chains;
 mod lift;
 mod closure;
+mod planner;
 mod random_chains;
 mod renamed;
 mod seed;
