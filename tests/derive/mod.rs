@@ -6,6 +6,7 @@ mod lift;
 mod closure;
 mod planner;
 mod random_chains;
+mod ends;
 mod renamed;
 mod seed;
 mod strata;
