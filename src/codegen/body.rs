@@ -154,7 +154,8 @@ impl Walk<'_> {
                     self.push(vec![printer.language().declare(&printer.names().unknowns[*unknown], &value)]);
                 }
                 Step::Set { .. } => {}
-                Step::Roots { unknown, polynomials } => self.roots(index, *unknown, polynomials, printer),
+                Step::Sample { .. } => {}
+                Step::Roots { unknown, polynomials, .. } => self.roots(index, *unknown, polynomials, printer),
             }
         }
         self.finish(printer);

@@ -137,7 +137,7 @@ impl Outline {
             tolerances: Tolerances::new(),
             dampings: DAMPINGS.iter().map(|&damping| number(damping)).collect(),
             parameters: Parameters::new(&scene, &needs),
-            charts: program.charts.iter().map(|chart| ChartText::new(&scene, chart)).collect(),
+            charts: program.charts().map(|chart| ChartText::new(&scene, chart)).collect(),
             checks,
             sizes,
             jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
@@ -185,8 +185,7 @@ impl Parameters {
         let program = scene.program;
         let wanted = scene.wanted();
         let mut readers: Vec<Demand> = program
-            .charts
-            .iter()
+            .charts()
             .map(|chart| Demand::of_chart(program, chart, if chart.open { &[] } else { &wanted }))
             .collect();
         let checks = &program.checks;
@@ -248,8 +247,8 @@ impl PreferenceText {
 
 impl Needs {
     fn new(program: &Program) -> Self {
-        let guards = || program.charts.iter().flat_map(|chart| &chart.guards);
-        let closed = || program.charts.iter().filter(|chart| !chart.open);
+        let guards = || program.charts().flat_map(|chart| &chart.guards);
+        let closed = || program.charts().filter(|chart| !chart.open);
         let angles = program.joints.iter().filter(|joint| is_angle(joint.value)).count();
         Needs {
             answers: closed().next().is_some(),
@@ -266,7 +265,7 @@ impl Needs {
 
 /// The root steps that are printed, each with its number of polynomials.
 fn root_steps(program: &Program) -> impl Iterator<Item = (&Step, usize)> {
-    let steps = program.charts.iter().filter(|chart| !chart.open).flat_map(|chart| &chart.steps);
+    let steps = program.charts().filter(|chart| !chart.open).flat_map(|chart| &chart.steps);
     steps.filter_map(|step| match step {
         Step::Roots { polynomials, .. } => Some((step, polynomials.len())),
         _ => None,

@@ -182,6 +182,10 @@ impl<'a> Printer<'a> {
                 let argument = self.operand(a);
                 return Expression::atom(self.language.call("abs", &argument));
             }
+            Operation::Sqrt(a) => {
+                let argument = self.operand(a);
+                return Expression::atom(self.language.call("sqrt", &self.language.greater(&argument, "0.0")));
+            }
         };
         let (binding, right) = match sign {
             '+' | '-' => (Binding::Sum, Binding::Product),

@@ -11,7 +11,8 @@ use super::{JointKindUnknown, LengthUnit, ParameterSource, Quantity, Root, Syste
 use crate::number::{BigRational, Ring, Style};
 use crate::poly::{Expression, Order};
 use crate::solver::{
-    Chart, Checks, Guard, Input, Joint, JointValue, Operand, ParameterRule, Preference, Program, Rule, Step, Unit,
+    Block, Chart, Checks, Guard, Input, Joint, JointValue, Operand, ParameterRule, Preference, Program, Rule, Step,
+    Unit,
 };
 use crate::{Error, ErrorKind, Result};
 
@@ -26,21 +27,19 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
     let compiler = Compiler { system };
     let mut charts = Vec::new();
     compiler.charts(tree, &mut Vec::new(), &mut charts)?;
-    let mut capacity = 0;
-    for chart in &mut charts {
-        chart.first_branch = capacity;
-        capacity += Program::branches(chart);
-    }
+    let block = Block::numbered(&system.name, Vec::new(), charts);
+    let capacity = block.charts.iter().map(Program::branches).sum();
     let (checks, scale) = compiler.checks()?;
     let program = Program {
         name: system.name.clone(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         inputs: system.inputs.iter().map(|i| Input { name: i.name.clone(), unit: unit(system, i.quantity) }).collect(),
+        conditions: Vec::new(),
         parameters: compiler.parameters()?,
         unknowns: system.order.clone(),
         joints: system.joints.iter().map(|joint| compiler.joint(joint)).collect::<Result<_>>()?,
         scale,
-        charts,
+        blocks: vec![block],
         checks,
         preference: compiler.preference()?,
         capacity,
@@ -135,7 +134,8 @@ impl<'a> Compiler<'a> {
         let guards = self.near_guards(path, &mut assembler)?;
         let guard_code = assembler.take();
         let label = node.label.clone();
-        Ok(Chart { label, guard_code, guards, steps: Vec::new(), free: Vec::new(), open: true, first_branch: 0 })
+        let (pivot, steps, free) = (None, Vec::new(), Vec::new());
+        Ok(Chart { label, guard_code, guards, pivot, steps, free, open: true, first_branch: 0 })
     }
 
     fn chart(
@@ -162,7 +162,8 @@ impl<'a> Compiler<'a> {
             self.stair(setting, &solved.triangular.ring, stair, &mut assembler, &mut steps)?;
         }
         let label = node.label.clone();
-        Ok(Chart { label, guard_code, guards, steps, free: free.to_vec(), open: false, first_branch: 0 })
+        let (pivot, free) = (None, free.to_vec());
+        Ok(Chart { label, guard_code, guards, pivot, steps, free, open: false, first_branch: 0 })
     }
 
     fn near_guards(&self, path: &[Condition<'_>], assembler: &mut Assembler) -> Result<Vec<Guard>> {
@@ -241,7 +242,7 @@ impl<'a> Compiler<'a> {
             .map(|coefficients| coefficients.iter().map(|c| assembler.horner(&flatten(ring, c), &symbols)).collect())
             .collect();
         push_code(steps, assembler);
-        steps.push(Step::Roots { unknown, polynomials });
+        steps.push(Step::Roots { unknown, polynomials, typical: None });
         Ok(())
     }
 

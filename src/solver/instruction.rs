@@ -35,6 +35,8 @@ pub enum Operation {
     Div(Operand, Operand),
     /// `abs a`
     Abs(Operand),
+    /// `sqrt a`, of zero where `a` is negative.
+    Sqrt(Operand),
 }
 
 /// One step of straight-line code: register `target` becomes the value of `operation`.
@@ -52,7 +54,7 @@ impl Operation {
     pub fn operands(&self) -> (Operand, Option<Operand>) {
         match *self {
             Operation::Add(a, b) | Operation::Sub(a, b) | Operation::Mul(a, b) | Operation::Div(a, b) => (a, Some(b)),
-            Operation::Abs(a) => (a, None),
+            Operation::Abs(a) | Operation::Sqrt(a) => (a, None),
         }
     }
 }
@@ -95,6 +97,7 @@ impl fmt::Display for Instruction {
             Operation::Mul(a, b) => write!(f, "{a} * {b}"),
             Operation::Div(a, b) => write!(f, "{a} / {b}"),
             Operation::Abs(a) => write!(f, "abs {a}"),
+            Operation::Sqrt(a) => write!(f, "sqrt {a}"),
         }
     }
 }
@@ -108,6 +111,7 @@ impl FromStr for Instruction {
         let words: Vec<&str> = text.split(' ').collect();
         let operation = match words.as_slice() {
             [_, "=", "abs", a] => Operation::Abs(a.parse()?),
+            [_, "=", "sqrt", a] => Operation::Sqrt(a.parse()?),
             [_, "=", a, "+", b] => Operation::Add(a.parse()?, b.parse()?),
             [_, "=", a, "-", b] => Operation::Sub(a.parse()?, b.parse()?),
             [_, "=", a, "*", b] => Operation::Mul(a.parse()?, b.parse()?),

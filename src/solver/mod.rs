@@ -2,15 +2,21 @@
 //!
 //! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
 
+mod answers;
+mod condition;
 mod evaluate;
+mod frame;
 mod instruction;
 mod program;
 mod refine;
+mod validate;
+mod walk;
 
 pub use evaluate::Solution;
 pub use instruction::{Instruction, Operand, Operation};
 pub use program::{
-    Chart, Checks, Guard, Input, Joint, JointValue, ParameterRule, Preference, Program, Rule, Step, Unit,
+    Block, Chart, Checks, Condition, Guard, Input, Joint, JointValue, ParameterRule, Pivot, Preference, Program, Rule,
+    Step, Unit,
 };
 
 /// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
@@ -33,5 +39,12 @@ pub const PIVOT: f64 = 1e-9;
 pub const POLISH_STEPS: usize = 32;
 /// Shares of the squared Jacobian's size that are added to it where a plain Newton step fails, as at a singular configuration.
 pub const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 1e-3];
+/// An answer whose relative residual is this or less is not polished.
+pub const POLISHED: f64 = 1e-15;
+/// A member of a family that misses the equations by no more than this share of their size, by rounding in the blocks before, is
+/// polished with its free joints held.
+pub const ADRIFT: f64 = 1e-7;
+/// A target's rotation or unit vector may be this far from one.
+pub const CONSISTENT: f64 = 1e-9;
 /// The most joints that a program may have.
-pub const MAX_JOINTS: usize = 8;
+pub const MAX_JOINTS: usize = 12;

@@ -1,8 +1,7 @@
-//! [`Program`]: the derived solver as plain data, and the check that a loaded one is well formed.
+//! [`Program`]: the derived solver as plain data, a list of [`Block`]s that find the unknowns one group after the other.
 
 use serde::{Deserialize, Serialize};
 
-use super::MAX_JOINTS;
 use super::instruction::{Instruction, Operand};
 use crate::{Error, ErrorKind, Result};
 
@@ -55,6 +54,17 @@ pub struct Joint {
     pub value: JointValue,
 }
 
+/// What the inputs must fulfil. Deviations within [`super::CONSISTENT`] are removed before the target is used; larger ones are an
+/// error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Condition {
+    /// The nine inputs from this index on, by rows, are a rotation matrix.
+    Rotation(usize),
+    /// The three inputs from this index on are a unit vector.
+    Unit(usize),
+}
+
 /// A parameter of the equations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParameterRule {
@@ -100,7 +110,7 @@ pub struct Guard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Step {
-    /// Straight-line code; registers count on from the guards' code.
+    /// Straight-line code; registers count on from the guards' code, and those from the block's.
     Compute(Vec<Instruction>),
     /// The unknown gets this value.
     Set {
@@ -116,26 +126,60 @@ pub enum Step {
         /// Polynomials, coefficients from degree 0 up. The first whose leading coefficient is not negligible
         /// ([`super::PIVOT`]) is solved; the last is taken when all others are.
         polynomials: Vec<Vec<Operand>>,
+        /// The unknown's typical size, by which a tangency is told from a miss; `None` for the length scale when the unknown is a
+        /// joint's value itself, else for one. A larger size proposes more double roots.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        typical: Option<Operand>,
+    },
+    /// A free joint is put at each of these values (rad, or the program's length unit) in turn; the steps behind run once for
+    /// each. All are members of one family: they have the same branch number.
+    Sample {
+        /// How the joint's value follows from the unknowns that are set here.
+        joint: JointValue,
+        /// The values.
+        values: Vec<f64>,
     },
 }
 
-/// One way to the solutions, valid where its guards hold. All charts that apply are run and their answers united.
+/// A chart's claim to be the best conditioned of its group.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pivot {
+    /// Charts of one block with the same number are a group: of those whose guards hold only one runs.
+    pub group: usize,
+    /// It is the one whose value has the greatest magnitude; the first of equals.
+    pub value: Operand,
+}
+
+/// One way to a block's unknowns, valid where its guards hold. All charts that apply are run and their answers united.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chart {
     /// What it is, for people: `generic`, `pz = 0`, ...
     pub label: String,
-    /// Code of the guards, from register 0.
+    /// Code of the guards and the pivot; registers count on from the block's code.
     pub guard_code: Vec<Instruction>,
     /// All must hold.
     pub guards: Vec<Guard>,
+    /// Set where only the best conditioned of several charts is to run.
+    pub pivot: Option<Pivot>,
     /// The way, unknown by unknown.
     pub steps: Vec<Step>,
     /// Joints (indices) that are free on this stratum: the chart gives one member of the family.
     pub free: Vec<usize>,
-    /// The chart is a gap: it could not be derived, and a target here is an error. It has no steps then.
+    /// The chart is a gap: it could not be derived, and a target here is an error. It has no steps and no pivot then.
     pub open: bool,
-    /// Branch number of the chart's first answer; root choices count on from it in mixed radix.
+    /// Number, within the block, of the chart's first choice of roots; the others count on from it in mixed radix.
     pub first_branch: usize,
+}
+
+/// Unknowns that are found together, given those of the blocks before.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Block {
+    /// What it finds, for people: `KneePitch`, ...
+    pub label: String,
+    /// Code that runs once on entry, from register 0; all charts of the block read its registers.
+    pub code: Vec<Instruction>,
+    /// The charts; all set the same unknowns.
+    pub charts: Vec<Chart>,
 }
 
 /// The equations and their derivatives by the joints, to measure and polish each answer.
@@ -169,6 +213,8 @@ pub struct Program {
     pub version: String,
     /// The target's numbers, in order.
     pub inputs: Vec<Input>,
+    /// What the target must fulfil.
+    pub conditions: Vec<Condition>,
     /// The parameters, in order.
     pub parameters: Vec<ParameterRule>,
     /// Names of the unknowns.
@@ -177,13 +223,13 @@ pub struct Program {
     pub joints: Vec<Joint>,
     /// A length typical of the mechanism, in the unit of the inputs; positive.
     pub scale: f64,
-    /// The charts.
-    pub charts: Vec<Chart>,
+    /// The blocks. For each result of a block the next one runs; results of the last are candidates for answers.
+    pub blocks: Vec<Block>,
     /// The equations.
     pub checks: Checks,
     /// The source's choice of root.
     pub preference: Option<Preference>,
-    /// The most answers that all charts together can give.
+    /// The most answers that a target can have, at most 4096; if there were more, the best are kept.
     pub capacity: usize,
 }
 
@@ -205,58 +251,61 @@ impl Program {
         text + "\n"
     }
 
-    /// Number of answers that `chart` can give: the product of its root degrees.
+    /// Number of root choices of `chart`: the product of its root degrees.
     pub fn branches(chart: &Chart) -> usize {
-        if chart.open { 0 } else { chart.steps.iter().map(Step::slots).product() }
+        if chart.open { 0 } else { chart.steps.iter().map(Step::slots).fold(1, usize::saturating_mul) }
     }
 
-    /// Checks that every index is in range, registers are written once and before they are read, every unknown is set once in
-    /// each chart, and sizes agree: a valid program never panics.
-    ///
-    /// # Errors
-    /// [`ErrorKind::BadValue`] saying which part is wrong.
-    pub fn validate(&self) -> Result<()> {
-        self.validate_names()?;
-        let mut context =
-            Context { program: self, parameters: 0, registers: 0, unknowns: Vec::new(), magnitude: false };
-        for (index, parameter) in self.parameters.iter().enumerate() {
-            context.parameters = index;
-            context.registers = 0;
-            let place = format!("parameter `{}`", parameter.name);
-            match &parameter.rule {
-                Rule::Input(i) | Rule::Cosine(i) | Rule::Sine(i) => ensure(*i < self.inputs.len(), &place)?,
-                Rule::Root { code, value } => {
-                    context.code(code, &place).and_then(|()| context.operand(*value, &place))?
-                }
-            }
-        }
-        context.parameters = self.parameters.len();
-        context.magnitude = true;
-        for chart in &self.charts {
-            context.chart(chart)?;
-        }
-        context.checks(&self.checks)?;
-        let capacity = self.charts.iter().map(Program::branches).fold(0usize, usize::saturating_add);
-        ensure(capacity == self.capacity && capacity <= 4096, "capacity")
+    /// The charts of all blocks.
+    pub fn charts(&self) -> impl Iterator<Item = &Chart> {
+        self.blocks.iter().flat_map(|block| &block.charts)
     }
 
-    fn validate_names(&self) -> Result<()> {
-        let word = |name: &str| {
-            let rest = name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
-            rest && name.bytes().next().is_some_and(|b| !b.is_ascii_digit())
-        };
-        ensure(word(&self.name), "name: letters, digits and `_` are allowed")?;
-        ensure(!self.joints.is_empty() && self.joints.len() <= MAX_JOINTS, "joints: 1 to 8 are allowed")?;
-        ensure(self.scale.is_finite() && self.scale > 0.0, "scale: a positive number is allowed")?;
-        for joint in &self.joints {
-            let known = match joint.value {
-                JointValue::Angle { cosine, sine } => cosine.max(sine) < self.unknowns.len(),
-                JointValue::Plain(unknown) => unknown < self.unknowns.len(),
-            };
-            ensure(known, &format!("joint `{}`", joint.name))?;
+    /// The most solutions when in each block one chart gives all of them: the product of the blocks' largest numbers of root
+    /// choices.
+    pub fn bound(&self) -> usize {
+        let largest = |block: &Block| block.charts.iter().map(Program::branches).max().unwrap_or(0);
+        self.blocks.iter().map(largest).fold(1, usize::saturating_mul)
+    }
+
+    /// Whether an unknown is a joint's value itself, not a cosine or sine: its typical size is the length scale, not one.
+    pub(crate) fn is_plain(&self, unknown: usize) -> bool {
+        self.joints.iter().any(|joint| joint.value == JointValue::Plain(unknown))
+    }
+}
+
+impl Block {
+    /// A block whose charts get branch numbers one after the other; charts of one pivot group share theirs.
+    pub fn numbered(label: &str, code: Vec<Instruction>, mut charts: Vec<Chart>) -> Self {
+        let mut next = 0;
+        for index in 0..charts.len() {
+            let (earlier, rest) = charts.split_at_mut(index);
+            let group = |chart: &Chart| chart.pivot.map(|pivot| pivot.group);
+            let own = group(&rest[0]);
+            let peer = earlier.iter().find(|chart| own.is_some() && group(chart) == own);
+            rest[0].first_branch = peer.map_or(next, |peer| peer.first_branch);
+            next = next.max(rest[0].first_branch + Program::branches(&rest[0]));
         }
-        let known = self.preference.is_none_or(|preference| preference.unknown < self.unknowns.len());
-        ensure(known, "preference")
+        Block { label: label.to_owned(), code, charts }
+    }
+
+    /// Number of branch numbers of the block, the radix of its digit in an answer's branch.
+    pub fn branches(&self) -> usize {
+        let end = |chart: &Chart| chart.first_branch.saturating_add(Program::branches(chart));
+        self.charts.iter().map(end).max().unwrap_or(0).max(1)
+    }
+
+    /// Registers that the block needs, those of its largest chart counted.
+    pub(crate) fn registers(&self) -> usize {
+        let code = |step: &Step| if let Step::Compute(code) = step { code.len() } else { 0 };
+        let chart = |chart: &Chart| chart.guard_code.len() + chart.steps.iter().map(code).sum::<usize>();
+        self.code.len() + self.charts.iter().map(chart).max().unwrap_or(0)
+    }
+
+    /// Whether the chart is alone or the first of its pivot group: where the group takes its turn.
+    pub(crate) fn opens_group(&self, chart: usize) -> bool {
+        let Some(pivot) = self.charts[chart].pivot else { return true };
+        !self.charts[..chart].iter().any(|other| other.pivot.is_some_and(|other| other.group == pivot.group))
     }
 }
 
@@ -269,94 +318,5 @@ impl Step {
             }
             _ => 1,
         }
-    }
-}
-
-fn ensure(condition: bool, place: &str) -> Result<()> {
-    if condition { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, format!("malformed program: {place}"))) }
-}
-
-/// What is defined at a point of the program.
-struct Context<'a> {
-    program: &'a Program,
-    parameters: usize,
-    registers: usize,
-    unknowns: Vec<bool>,
-    magnitude: bool,
-}
-
-impl Context<'_> {
-    fn operand(&self, operand: Operand, place: &str) -> Result<()> {
-        let defined = match operand {
-            Operand::Constant(value) => value.is_finite(),
-            Operand::Parameter(index) => index < self.parameters,
-            Operand::Unknown(index) => self.unknowns.get(index).copied().unwrap_or(false),
-            Operand::Register(index) => index < self.registers,
-            Operand::Magnitude => self.magnitude,
-        };
-        ensure(defined, &format!("{place}: `{operand}` is not defined here"))
-    }
-
-    fn code(&mut self, code: &[Instruction], place: &str) -> Result<()> {
-        for instruction in code {
-            let (left, right) = instruction.operation.operands();
-            self.operand(left, place)?;
-            right.map_or(Ok(()), |right| self.operand(right, place))?;
-            ensure(instruction.target == self.registers, &format!("{place}: `{instruction}` is out of order"))?;
-            self.registers += 1;
-        }
-        Ok(())
-    }
-
-    fn set(&mut self, unknown: usize, place: &str) -> Result<()> {
-        let fresh = self.unknowns.get(unknown).is_some_and(|set| !set);
-        ensure(fresh, &format!("{place}: unknown {unknown} is set twice or does not exist"))?;
-        self.unknowns[unknown] = true;
-        Ok(())
-    }
-
-    fn chart(&mut self, chart: &Chart) -> Result<()> {
-        let place = format!("chart `{}`", chart.label);
-        self.registers = 0;
-        self.unknowns = vec![false; self.program.unknowns.len()];
-        self.code(&chart.guard_code, &place)?;
-        for guard in &chart.guards {
-            self.operand(guard.value, &place)?;
-            self.operand(guard.scale, &place)?;
-        }
-        ensure(chart.free.iter().all(|&joint| joint < self.program.joints.len()), &place)?;
-        for step in &chart.steps {
-            self.step(step, &place)?;
-        }
-        ensure(chart.open || self.unknowns.iter().all(|&set| set), &format!("{place}: an unknown is never set"))
-    }
-
-    fn step(&mut self, step: &Step, place: &str) -> Result<()> {
-        match step {
-            Step::Compute(code) => self.code(code, place),
-            Step::Set { unknown, value } => self.operand(*value, place).and_then(|()| self.set(*unknown, place)),
-            Step::Roots { unknown, polynomials } => {
-                for coefficients in polynomials {
-                    let degree = coefficients.len().saturating_sub(1);
-                    ensure((1..=crate::roots::MAX_DEGREE).contains(&degree), &format!("{place}: degree {degree}"))?;
-                    coefficients.iter().try_for_each(|&operand| self.operand(operand, place))?;
-                }
-                ensure(!polynomials.is_empty(), place)?;
-                self.set(*unknown, place)
-            }
-        }
-    }
-
-    fn checks(&mut self, checks: &Checks) -> Result<()> {
-        self.registers = 0;
-        self.unknowns = vec![true; self.program.unknowns.len()];
-        self.code(&checks.code, "checks")?;
-        let equations = checks.residuals.len();
-        let square = checks.scales.len() == equations
-            && checks.jacobian.len() == equations
-            && checks.jacobian.iter().all(|row| row.len() == self.program.joints.len());
-        ensure(square && equations > 0, "checks: sizes differ")?;
-        let operands = checks.residuals.iter().chain(&checks.scales).chain(checks.jacobian.iter().flatten());
-        operands.copied().try_for_each(|operand| self.operand(operand, "checks"))
     }
 }

@@ -1,8 +1,14 @@
 //! Measuring an answer by the original equations, and polishing it by Newton steps in the joints.
 
-use super::evaluate::{Frame, half_open};
+use super::frame::Frame;
 use super::program::{JointValue, Program};
-use super::{ACCEPT, DAMPINGS, MAX_JOINTS, POLISH_STEPS};
+use super::{ACCEPT, DAMPINGS, MAX_JOINTS, POLISH_STEPS, POLISHED};
+
+/// Joint values; places behind the program's joints are zero.
+pub(super) type Joints = [f64; MAX_JOINTS];
+
+/// No joint is held.
+pub(super) const NONE_FREE: [bool; MAX_JOINTS] = [false; MAX_JOINTS];
 
 /// How well a joint vector solves the equations.
 pub(super) struct Fit {
@@ -28,9 +34,8 @@ pub(super) fn unknowns_of(program: &Program, q: &[f64], unknowns: &mut [f64]) {
 }
 
 /// Evaluates the equations at `q`; the frame then holds the code's registers.
-pub(super) fn measure(program: &Program, q: &[f64], frame: &mut Frame<'_>) -> Fit {
+pub(super) fn measure(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> Fit {
     unknowns_of(program, q, &mut frame.unknowns);
-    let kept = std::mem::take(&mut frame.registers);
     frame.run(&program.checks.code);
     let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: true };
     for (residual, scale) in program.checks.residuals.iter().zip(&program.checks.scales) {
@@ -40,34 +45,65 @@ pub(super) fn measure(program: &Program, q: &[f64], frame: &mut Frame<'_>) -> Fi
         fit.accepted &= value <= ACCEPT * scale;
     }
     fit.accepted &= fit.residual.is_finite() && q.iter().all(|value| value.is_finite());
-    drop(std::mem::replace(&mut frame.registers, kept));
     fit
 }
 
-/// Up to [`POLISH_STEPS`] Gauss-Newton steps, damped where that is needed (Levenberg 1944, Marquardt 1963); each is taken only
-/// if the relative residual falls.
-pub(super) fn polish(program: &Program, q: &mut Vec<f64>, frame: &mut Frame<'_>) {
-    let mut fit = measure(program, q, frame);
+/// Up to [`POLISH_STEPS`] Gauss-Newton steps from `q`, whose `fit` was measured last, damped where that is needed (Levenberg 1944,
+/// Marquardt 1963); each is taken only if the relative residual falls. Joints that are `held` stay.
+pub(super) fn polish(
+    program: &Program,
+    q: &mut Joints,
+    fit: &mut Fit,
+    held: &[bool; MAX_JOINTS],
+    frame: &mut Frame<'_>,
+) {
     for _ in 0..POLISH_STEPS {
-        let better = DAMPINGS.iter().find_map(|damping| {
-            let step = newton_step(program, q, *damping, frame)?;
-            let candidate = moved(program, q, &step);
-            let next = measure(program, &candidate, frame);
-            (next.relative < fit.relative).then_some((candidate, next))
-        });
-        let Some(better) = better else { return };
-        (*q, fit) = better;
+        if fit.relative <= POLISHED {
+            return;
+        }
+        let Some(better) = improved(program, q, fit, held, frame) else { return };
+        (*q, *fit) = better;
     }
 }
 
+/// The least damped step that lowers the relative residual.
+fn improved(
+    program: &Program,
+    q: &Joints,
+    fit: &Fit,
+    held: &[bool; MAX_JOINTS],
+    frame: &mut Frame<'_>,
+) -> Option<(Joints, Fit)> {
+    for (index, damping) in DAMPINGS.iter().enumerate() {
+        if index > 0 {
+            measure(program, q, frame);
+        }
+        let Some(step) = newton_step(program, *damping, held, frame) else { continue };
+        let candidate = moved(program, q, &step);
+        let next = measure(program, &candidate, frame);
+        if next.relative < fit.relative {
+            return Some((candidate, next));
+        }
+    }
+    None
+}
+
 /// `q - step`, angles in (-pi, pi].
-fn moved(program: &Program, q: &[f64], step: &[f64; MAX_JOINTS]) -> Vec<f64> {
-    let values = program.joints.iter().zip(q.iter().zip(step));
-    let one = |(joint, (value, change)): (&super::Joint, (&f64, &f64))| match joint.value {
-        JointValue::Angle { .. } => wrap(value - change),
-        JointValue::Plain(_) => value - change,
-    };
-    values.map(one).collect()
+fn moved(program: &Program, q: &Joints, step: &Joints) -> Joints {
+    let mut moved = *q;
+    for (index, joint) in program.joints.iter().enumerate() {
+        let value = q[index] - step[index];
+        moved[index] = match joint.value {
+            JointValue::Angle { .. } => wrap(value),
+            JointValue::Plain(_) => value,
+        };
+    }
+    moved
+}
+
+/// The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi.
+pub(super) fn half_open(angle: f64) -> f64 {
+    if angle <= -std::f64::consts::PI { angle + std::f64::consts::TAU } else { angle }
 }
 
 /// The angle moved by at most one turn into (-pi, pi].
@@ -78,34 +114,43 @@ pub(super) fn wrap(angle: f64) -> f64 {
 
 type Square = [[f64; MAX_JOINTS + 1]; MAX_JOINTS];
 
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`, or `J^-1 f` for a square Jacobian and `d = 0`; `None` when it is singular.
-fn newton_step(program: &Program, q: &[f64], damping: f64, frame: &mut Frame<'_>) -> Option<[f64; MAX_JOINTS]> {
-    unknowns_of(program, q, &mut frame.unknowns);
-    let kept = std::mem::take(&mut frame.registers);
-    frame.run(&program.checks.code);
-    let (checks, joints) = (&program.checks, q.len());
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`, or `J^-1 f` for a square Jacobian, `d = 0` and no joint held, at the
+/// joints that were measured last; `None` when it is singular.
+fn newton_step(program: &Program, damping: f64, held: &[bool; MAX_JOINTS], frame: &Frame<'_>) -> Option<Joints> {
+    let (checks, joints) = (&program.checks, program.joints.len());
     let mut system: Square = [[0.0; MAX_JOINTS + 1]; MAX_JOINTS];
-    for (index, (row, residual)) in checks.jacobian.iter().zip(&checks.residuals).enumerate() {
-        let residual = frame.value(*residual);
-        if damping == 0.0 && checks.residuals.len() == joints {
-            for column in 0..joints {
-                system[index][column] = frame.value(row[column]);
+    if damping == 0.0 && checks.residuals.len() == joints && *held == NONE_FREE {
+        for (line, (row, residual)) in system.iter_mut().zip(checks.jacobian.iter().zip(&checks.residuals)) {
+            for (entry, derivative) in line.iter_mut().zip(row) {
+                *entry = frame.value(*derivative);
             }
-            system[index][joints] = residual;
-        } else {
-            for i in 0..joints {
-                let left = frame.value(row[i]);
-                for j in 0..joints {
-                    system[i][j] += left * frame.value(row[j]);
-                }
-                system[i][joints] += left * residual;
+            line[joints] = frame.value(*residual);
+        }
+    } else {
+        normal_equations(program, held, frame, &mut system);
+    }
+    let size = (0..joints).fold(0.0, |size: f64, i| size.max(system[i][i].abs()));
+    for i in 0..joints {
+        system[i][i] += if held[i] { 1.0 } else { damping * size };
+    }
+    solve_linear(&mut system, joints)
+}
+
+/// Adds `J^T J` and `J^T f`; rows and columns of held joints stay zero.
+fn normal_equations(program: &Program, held: &[bool; MAX_JOINTS], frame: &Frame<'_>, system: &mut Square) {
+    let joints = program.joints.len();
+    for (row, residual) in program.checks.jacobian.iter().zip(&program.checks.residuals) {
+        let mut line = [0.0; MAX_JOINTS + 1];
+        for (joint, derivative) in row.iter().enumerate() {
+            line[joint] = if held[joint] { 0.0 } else { frame.value(*derivative) };
+        }
+        line[joints] = frame.value(*residual);
+        for (i, sums) in system.iter_mut().enumerate().take(joints) {
+            for (sum, entry) in sums.iter_mut().zip(&line).take(joints + 1) {
+                *sum += line[i] * entry;
             }
         }
     }
-    drop(std::mem::replace(&mut frame.registers, kept));
-    let size = (0..joints).fold(0.0, |size: f64, i| size.max(system[i][i].abs()));
-    (0..joints).for_each(|i| system[i][i] += damping * size);
-    solve_linear(&mut system, joints)
 }
 
 /// Gaussian elimination with partial pivoting on an augmented matrix; `None` for a zero or non-finite pivot.

@@ -182,9 +182,8 @@ impl<'a> Check<'a> {
         let twice = |(index, a): (usize, &Solution)| {
             answers[..index].iter().any(|b| self.model.distance(target, &a.q, &b.q) <= DUPLICATE)
         };
-        let bound = self.program.charts.iter().map(Program::branches).max().unwrap_or(0);
         let duplicate = answers.iter().enumerate().any(twice).then_some(Fault::Duplicate);
-        let bound = (answers.len() > bound).then_some(Fault::Bound);
+        let bound = (answers.len() > self.program.bound()).then_some(Fault::Bound);
         duplicate.into_iter().chain(bound).collect()
     }
 

@@ -271,7 +271,7 @@ fn strata(model: &Model<'_>, program: &Program) -> Vec<(String, Vec<Expression>)
             found.push((label, factors));
         }
     };
-    for chart in &program.charts {
+    for chart in program.charts() {
         chart.guards.iter().for_each(|guard| add(vec![&guard.text]));
         add(chart.guards.iter().filter(|guard| guard.near).map(|guard| guard.text.as_str()).collect());
     }

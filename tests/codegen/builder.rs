@@ -1,6 +1,8 @@
 //! Writing programs by hand: operands as expressions, and the smallest parts of a program.
 
-use groebot::solver::{Guard, Input, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Rule, Unit};
+use groebot::solver::{
+    Block, Chart, Guard, Input, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Rule, Step, Unit,
+};
 
 /// Code under construction.
 #[derive(Default)]
@@ -96,4 +98,14 @@ pub fn near(text: &str, value: Operand, scale: Operand) -> Guard {
 
 pub fn away(text: &str, value: Operand, scale: Operand) -> Guard {
     Guard { text: text.into(), value, scale, near: false }
+}
+
+/// Charts that number their branches themselves, as one block.
+pub fn one_block(charts: Vec<Chart>) -> Vec<Block> {
+    vec![Block { label: "all".into(), code: vec![], charts }]
+}
+
+/// A root step of an unknown of usual size.
+pub fn roots(unknown: usize, polynomials: Vec<Vec<Operand>>) -> Step {
+    Step::Roots { unknown, polynomials, typical: None }
 }

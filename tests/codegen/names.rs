@@ -29,6 +29,8 @@ fn named(names: &[String]) -> Program {
         .collect();
     steps.push(Step::Compute(vec![]));
     let (label, guards) = ("all".into(), vec![away("1", constant(1.0), constant(1.0))]);
+    let chart =
+        Chart { label, guard_code: vec![], guards, steps, pivot: None, free: vec![], open: false, first_branch: 0 };
     let joint = Joint { name: "t".into(), unit: Unit::One, value: JointValue::Plain(count) };
     Program {
         name: "names".into(),
@@ -38,7 +40,8 @@ fn named(names: &[String]) -> Program {
         unknowns: names.iter().cloned().chain(["t".into()]).collect(),
         joints: vec![joint],
         scale: 1.0,
-        charts: vec![Chart { label, guard_code: vec![], guards, steps, free: vec![], open: false, first_branch: 0 }],
+        conditions: vec![],
+        blocks: one_block(vec![chart]),
         checks,
         preference: None,
         capacity: 1,

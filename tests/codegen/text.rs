@@ -1,5 +1,6 @@
 //! What a printed file says and leaves out.
 
+use super::builder::{one_block, roots};
 use super::harness::executables;
 use super::samples::{arm, leg, polar, quartic};
 use groebot::codegen::{c99, rust};
@@ -63,17 +64,17 @@ fn compiles(program: &Program) {
 #[test]
 fn programs_at_the_edges_compile_without_a_warning() {
     let whole = arm::program();
-    let empty = Program { charts: vec![], capacity: 0, ..whole.clone() };
-    let open = Program { charts: vec![whole.charts[2].clone()], capacity: 0, ..whole.clone() };
-    let family = Program { charts: vec![whole.charts[0].clone()], capacity: 2, ..whole };
+    let part = |charts: Vec<Chart>, capacity: usize| Program { blocks: one_block(charts), capacity, ..whole.clone() };
+    let charts = &whole.blocks[0].charts;
+    let empty = part(vec![], 0);
+    let open = part(vec![charts[2].clone()], 0);
+    let family = part(vec![charts[0].clone()], 2);
     let line = quartic::program();
-    let steps = line.charts[0].steps.iter().map(|step| match step {
-        Step::Roots { unknown, polynomials } => {
-            Step::Roots { unknown: *unknown, polynomials: vec![polynomials[2][..2].to_vec()] }
-        }
+    let steps = line.blocks[0].charts[0].steps.iter().map(|step| match step {
+        Step::Roots { unknown, polynomials, .. } => roots(*unknown, vec![polynomials[2][..2].to_vec()]),
         other => other.clone(),
     });
-    let chart = Chart { steps: steps.collect(), ..line.charts[0].clone() };
-    let linear = Program { charts: vec![chart], capacity: 1, ..line };
+    let chart = Chart { steps: steps.collect(), ..line.blocks[0].charts[0].clone() };
+    let linear = Program { blocks: one_block(vec![chart]), capacity: 1, ..line };
     [empty, open, family, linear].iter().for_each(compiles);
 }

@@ -132,7 +132,7 @@ fn a_planar_pose_of_three_joints_passes() {
     let source = from_text(THREE);
     let start = std::time::Instant::now();
     let program = derive(&source).program;
-    println!("derived in {:?}, {} charts", start.elapsed(), program.charts.len());
+    println!("derived in {:?}, {} charts", start.elapsed(), program.charts().count());
     let report = assert_passes(&source, &program, 100);
     println!("{}", report.summary());
     assert_eq!(report.summary().exact, 0, "a cosine of a double is not rational");
@@ -167,8 +167,8 @@ fn faults(verdict: &Verdict) -> Vec<Fault> {
 /// The program without one of its charts.
 fn without(program: &Program, chart: usize) -> Program {
     let mut program = program.clone();
-    program.charts.remove(chart);
-    program.capacity = program.charts.iter().map(Program::branches).sum();
+    program.blocks[0].charts.remove(chart);
+    program.capacity = program.charts().map(Program::branches).sum();
     program
 }
 
@@ -177,10 +177,10 @@ fn a_chart_that_is_left_out_is_missed() {
     let seed = read("nao_leg_sagittal");
     let equal = from_text(&two_link_text("100", "200"));
     let requested = compile(&seed.system, &derive(&seed).requested).unwrap();
-    let labels: Vec<&str> = requested.charts.iter().map(|chart| chart.label.as_str()).collect();
+    let labels: Vec<&str> = requested.charts().map(|chart| chart.label.as_str()).collect();
     assert!(labels.contains(&"pz = 0"), "{labels:?}");
     for (source, program) in [(&seed, requested), (&equal, derive(&equal).program)] {
-        for (index, chart) in program.charts.iter().enumerate() {
+        for (index, chart) in program.charts().enumerate() {
             println!("{}: {}", source.system.name, chart.label);
             let report = check(source, &without(&program, index), 150);
             let missed = report.failures().filter(|row| faults(&row.verdict).contains(&Fault::Missing)).count();
@@ -193,7 +193,7 @@ fn a_chart_that_is_left_out_is_missed() {
 fn a_lost_root_is_found() {
     let source = read("nao_leg_sagittal");
     let mut program = derive(&source).program;
-    for chart in &mut program.charts {
+    for chart in &mut program.blocks[0].charts {
         for step in &mut chart.steps {
             if let Step::Roots { polynomials, .. } = step {
                 // Without its highest coefficient a quadratic keeps one root, and a wrong one.
@@ -203,7 +203,7 @@ fn a_lost_root_is_found() {
             }
         }
     }
-    program.capacity = program.charts.iter().map(Program::branches).sum();
+    program.capacity = program.charts().map(Program::branches).sum();
     assert!(check(&source, &program, 20).failures().count() > 10);
 }
 

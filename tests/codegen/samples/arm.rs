@@ -39,7 +39,8 @@ pub fn program() -> Program {
         unknowns: ["h", "c1", "s1", "c2", "s2", "c3", "s3"].map(String::from).to_vec(),
         joints: vec![angle("turn", C1, S1), angle("shoulder", C2, S2), angle("elbow", C3, S3)],
         scale: UPPER + LOWER,
-        charts: vec![on_axis(), generic(), at_origin()],
+        conditions: vec![],
+        blocks: one_block(vec![on_axis(), generic(), at_origin()]),
         checks: checks(),
         preference: Some(Preference { unknown: S3, greatest: false }),
         capacity: 6,
@@ -54,10 +55,7 @@ fn generic() -> Chart {
     let scale = code.mul(Operand::Magnitude, Operand::Magnitude);
     let guard_code = code.take();
     let minus_dd = code.sub(constant(0.0), dd);
-    let mut steps = vec![
-        Step::Compute(code.take()),
-        Step::Roots { unknown: H, polynomials: vec![vec![minus_dd, constant(0.0), constant(1.0)]] },
-    ];
+    let mut steps = vec![Step::Compute(code.take()), roots(H, vec![vec![minus_dd, constant(0.0), constant(1.0)]])];
     let (c1, s1) = (code.div(x, unknown(H)), code.div(y, unknown(H)));
     steps.extend([
         Step::Compute(code.take()),
@@ -66,7 +64,16 @@ fn generic() -> Chart {
     ]);
     steps.extend(links(&mut code, square));
     let guards = vec![away("d", d, Operand::Magnitude), away("d^2 + z^2", square, scale)];
-    Chart { label: "generic".into(), guard_code, guards, steps, free: vec![], open: false, first_branch: 0 }
+    Chart {
+        label: "generic".into(),
+        guard_code,
+        guards,
+        steps,
+        pivot: None,
+        free: vec![],
+        open: false,
+        first_branch: 0,
+    }
 }
 
 /// Steps of the two links, given `h` and `square = h^2 + z^2`.
@@ -79,7 +86,7 @@ fn links(code: &mut Code, square: Operand) -> Vec<Step> {
     let mut steps = vec![
         Step::Compute(code.take()),
         Step::Set { unknown: C3, value: c3 },
-        Step::Roots { unknown: S3, polynomials: vec![vec![rest, constant(0.0), constant(1.0)]] },
+        roots(S3, vec![vec![rest, constant(0.0), constant(1.0)]]),
     ];
     let lower = code.mul(constant(LOWER), unknown(C3));
     let along = code.add(constant(UPPER), lower);
@@ -106,14 +113,14 @@ fn on_axis() -> Chart {
         [(H, 0.0), (C1, 1.0), (S1, 0.0)].map(|(unknown, value)| Step::Set { unknown, value: constant(value) }).to_vec();
     steps.extend(links(&mut code, square));
     let guards = vec![near("d", parameter(3), Operand::Magnitude), away("z^2", square, scale)];
-    Chart { label: "d = 0".into(), guard_code, guards, steps, free: vec![0], open: false, first_branch: 4 }
+    Chart { label: "d = 0".into(), guard_code, guards, steps, pivot: None, free: vec![0], open: false, first_branch: 4 }
 }
 
 fn at_origin() -> Chart {
     let guards: Vec<Guard> =
         [("d", 3), ("z", 2)].map(|(text, index)| near(text, parameter(index), Operand::Magnitude)).to_vec();
     let label = "d = z = 0".into();
-    Chart { label, guard_code: vec![], guards, steps: vec![], free: vec![], open: true, first_branch: 6 }
+    Chart { label, guard_code: vec![], guards, steps: vec![], pivot: None, free: vec![], open: true, first_branch: 6 }
 }
 
 fn checks() -> Checks {

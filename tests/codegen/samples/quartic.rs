@@ -1,7 +1,7 @@
 //! The real roots of a polynomial of degree 4, 3 or 2, whichever leads; its names are awkward on purpose.
 
 use crate::codegen::builder::*;
-use groebot::solver::{Chart, Checks, Joint, JointValue, Program, Rule, Step, Unit};
+use groebot::solver::{Chart, Checks, Joint, JointValue, Program, Rule, Unit};
 
 /// Coefficients of the monic polynomial with these roots, constant term first.
 pub fn with_roots(roots: [f64; 4]) -> [f64; 5] {
@@ -25,7 +25,8 @@ pub fn program() -> Program {
         unknowns: vec!["angle".into()],
         joints: vec![joint],
         scale: 1.0,
-        charts: vec![chart()],
+        conditions: vec![],
+        blocks: one_block(vec![chart()]),
         checks: checks(),
         preference: None,
         capacity: 4,
@@ -35,9 +36,9 @@ pub fn program() -> Program {
 fn chart() -> Chart {
     let line = |length: usize| (0..length).map(parameter).collect::<Vec<_>>();
     let polynomials = vec![line(5), line(4), line(3)];
-    let steps = vec![Step::Roots { unknown: 0, polynomials }];
+    let steps = vec![roots(0, polynomials)];
     let label = "generic".into();
-    Chart { label, guard_code: vec![], guards: vec![], steps, free: vec![], open: false, first_branch: 0 }
+    Chart { label, guard_code: vec![], guards: vec![], steps, pivot: None, free: vec![], open: false, first_branch: 0 }
 }
 
 fn checks() -> Checks {

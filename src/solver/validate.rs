@@ -1,0 +1,214 @@
+//! The check that a program is well formed: [`Program::validate`].
+
+use super::instruction::{Instruction, Operand};
+use super::program::{Block, Chart, Checks, Condition, JointValue, Program, Rule, Step};
+use super::{MAX_JOINTS, Unit};
+use crate::{Error, ErrorKind, Result, roots};
+
+/// The most answers of a program.
+const MOST_ANSWERS: usize = 4096;
+/// The most blocks, and the most unknowns.
+const MOST: usize = 256;
+/// Branch numbers stay below this: a double holds them all.
+const MOST_BRANCHES: usize = 1 << 53;
+
+impl Program {
+    /// Checks that every index is in range, registers are written once and before they are read, every unknown is set once along
+    /// every path through the blocks, and sizes agree: a valid program never panics.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] saying which part is wrong.
+    pub fn validate(&self) -> Result<()> {
+        self.validate_names()?;
+        self.conditions.iter().try_for_each(|condition| self.validate_condition(condition))?;
+        let mut context =
+            Context { program: self, parameters: 0, registers: 0, unknowns: Vec::new(), magnitude: false };
+        context.parameters()?;
+        context.blocks(&self.blocks)?;
+        context.checks(&self.checks)?;
+        let branches = self.blocks.iter().map(Block::branches).try_fold(1usize, usize::checked_mul);
+        ensure(branches.is_some_and(|branches| branches <= MOST_BRANCHES), "too many branches")?;
+        let least = usize::from(self.charts().any(|chart| !chart.open));
+        ensure((least..=MOST_ANSWERS).contains(&self.capacity), "capacity: 1 to 4096 is allowed")
+    }
+
+    fn validate_names(&self) -> Result<()> {
+        let word = |name: &str| {
+            let rest = name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
+            rest && name.bytes().next().is_some_and(|b| !b.is_ascii_digit())
+        };
+        ensure(word(&self.name), "name: letters, digits and `_` are allowed")?;
+        ensure((1..=MAX_JOINTS).contains(&self.joints.len()), &format!("joints: 1 to {MAX_JOINTS} are allowed"))?;
+        ensure(self.unknowns.len() <= MOST, &format!("unknowns: at most {MOST} are allowed"))?;
+        ensure((1..=MOST).contains(&self.blocks.len()), &format!("blocks: 1 to {MOST} are allowed"))?;
+        ensure(self.scale.is_finite() && self.scale > 0.0, "scale: a positive number is allowed")?;
+        for joint in &self.joints {
+            ensure(self.has_unknowns(joint.value), &format!("joint `{}`", joint.name))?;
+        }
+        let known = self.preference.is_none_or(|preference| preference.unknown < self.unknowns.len());
+        ensure(known, "preference")
+    }
+
+    fn has_unknowns(&self, value: JointValue) -> bool {
+        match value {
+            JointValue::Angle { cosine, sine } => cosine.max(sine) < self.unknowns.len(),
+            JointValue::Plain(unknown) => unknown < self.unknowns.len(),
+        }
+    }
+
+    fn validate_condition(&self, condition: &Condition) -> Result<()> {
+        let (first, count) = condition.inputs();
+        let inputs = first.checked_add(count).and_then(|end| self.inputs.get(first..end));
+        let plain = inputs.is_some_and(|inputs| inputs.iter().all(|input| input.unit == Unit::One));
+        ensure(plain, "condition: its inputs do not exist or are no plain numbers")
+    }
+}
+
+fn ensure(condition: bool, place: &str) -> Result<()> {
+    if condition { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, format!("malformed program: {place}"))) }
+}
+
+/// What is defined at a point of the program.
+struct Context<'a> {
+    program: &'a Program,
+    parameters: usize,
+    registers: usize,
+    unknowns: Vec<bool>,
+    magnitude: bool,
+}
+
+impl Context<'_> {
+    fn operand(&self, operand: Operand, place: &str) -> Result<()> {
+        let defined = match operand {
+            Operand::Constant(value) => value.is_finite(),
+            Operand::Parameter(index) => index < self.parameters,
+            Operand::Unknown(index) => self.unknowns.get(index).copied().unwrap_or(false),
+            Operand::Register(index) => index < self.registers,
+            Operand::Magnitude => self.magnitude,
+        };
+        ensure(defined, &format!("{place}: `{operand}` is not defined here"))
+    }
+
+    fn code(&mut self, code: &[Instruction], place: &str) -> Result<()> {
+        for instruction in code {
+            let (left, right) = instruction.operation.operands();
+            self.operand(left, place)?;
+            right.map_or(Ok(()), |right| self.operand(right, place))?;
+            ensure(instruction.target == self.registers, &format!("{place}: `{instruction}` is out of order"))?;
+            self.registers += 1;
+        }
+        Ok(())
+    }
+
+    fn set(&mut self, unknown: usize, place: &str) -> Result<()> {
+        let fresh = self.unknowns.get(unknown).is_some_and(|set| !set);
+        ensure(fresh, &format!("{place}: unknown {unknown} is set twice or does not exist"))?;
+        self.unknowns[unknown] = true;
+        Ok(())
+    }
+
+    fn parameters(&mut self) -> Result<()> {
+        let program = self.program;
+        for (index, parameter) in program.parameters.iter().enumerate() {
+            self.parameters = index;
+            self.registers = 0;
+            let place = format!("parameter `{}`", parameter.name);
+            match &parameter.rule {
+                Rule::Input(i) | Rule::Cosine(i) | Rule::Sine(i) => ensure(*i < program.inputs.len(), &place)?,
+                Rule::Root { code, value } => {
+                    self.code(code, &place)?;
+                    self.operand(*value, &place)?;
+                }
+            }
+        }
+        self.parameters = program.parameters.len();
+        self.magnitude = true;
+        Ok(())
+    }
+
+    /// The blocks one after the other; what is behind a block without a closed chart is never reached.
+    fn blocks(&mut self, blocks: &[Block]) -> Result<()> {
+        self.unknowns = vec![false; self.program.unknowns.len()];
+        let mut reached = true;
+        for block in blocks {
+            self.block(block)?;
+            reached &= block.charts.iter().any(|chart| !chart.open);
+        }
+        let place = blocks.last().map_or("", |block| block.label.as_str());
+        ensure(!reached || self.unknowns.iter().all(|&set| set), &format!("block `{place}`: an unknown is never set"))
+    }
+
+    fn block(&mut self, block: &Block) -> Result<()> {
+        self.registers = 0;
+        self.code(&block.code, &format!("block `{}`", block.label))?;
+        let (entry, shared) = (self.unknowns.clone(), self.registers);
+        let mut after: Option<Vec<bool>> = None;
+        for chart in &block.charts {
+            (self.unknowns, self.registers) = (entry.clone(), shared);
+            self.chart(chart)?;
+            if !chart.open {
+                let alike = after.get_or_insert_with(|| self.unknowns.clone()) == &self.unknowns;
+                let text =
+                    || format!("chart `{}` does not set what the other charts of `{}` set", chart.label, block.label);
+                ensure(alike, &text())?;
+            }
+        }
+        self.unknowns = after.unwrap_or(entry);
+        Ok(())
+    }
+
+    fn chart(&mut self, chart: &Chart) -> Result<()> {
+        let place = format!("chart `{}`", chart.label);
+        self.code(&chart.guard_code, &place)?;
+        for guard in &chart.guards {
+            self.operand(guard.value, &place)?;
+            self.operand(guard.scale, &place)?;
+        }
+        if let Some(pivot) = &chart.pivot {
+            self.operand(pivot.value, &place)?;
+        }
+        let bare = chart.steps.is_empty() && chart.pivot.is_none();
+        ensure(!chart.open || bare, &format!("{place}: an open chart has steps or a pivot"))?;
+        ensure(chart.free.iter().all(|&joint| joint < self.program.joints.len()), &place)?;
+        ensure(chart.first_branch < MOST_BRANCHES, &place)?;
+        chart.steps.iter().try_for_each(|step| self.step(step, &place))
+    }
+
+    fn step(&mut self, step: &Step, place: &str) -> Result<()> {
+        match step {
+            Step::Compute(code) => self.code(code, place),
+            Step::Set { unknown, value } => self.operand(*value, place).and_then(|()| self.set(*unknown, place)),
+            Step::Roots { unknown, polynomials, typical } => {
+                for coefficients in polynomials {
+                    let degree = coefficients.len().saturating_sub(1);
+                    ensure((1..=roots::MAX_DEGREE).contains(&degree), &format!("{place}: degree {degree}"))?;
+                    coefficients.iter().try_for_each(|&operand| self.operand(operand, place))?;
+                }
+                ensure(!polynomials.is_empty(), &format!("{place}: no polynomial"))?;
+                typical.map_or(Ok(()), |typical| self.operand(typical, place))?;
+                self.set(*unknown, place)
+            }
+            Step::Sample { joint, values } => {
+                let finite = !values.is_empty() && values.iter().all(|value| value.is_finite());
+                ensure(finite, &format!("{place}: finite values are allowed in a sample"))?;
+                match *joint {
+                    JointValue::Angle { cosine, sine } => self.set(cosine, place).and_then(|()| self.set(sine, place)),
+                    JointValue::Plain(unknown) => self.set(unknown, place),
+                }
+            }
+        }
+    }
+
+    fn checks(&mut self, checks: &Checks) -> Result<()> {
+        self.registers = 0;
+        self.unknowns = vec![true; self.program.unknowns.len()];
+        self.code(&checks.code, "checks")?;
+        let equations = checks.residuals.len();
+        let square = checks.scales.len() == equations
+            && checks.jacobian.len() == equations
+            && checks.jacobian.iter().all(|row| row.len() == self.program.joints.len());
+        ensure(square && equations > 0, "checks: sizes differ")?;
+        let operands = checks.residuals.iter().chain(&checks.scales).chain(checks.jacobian.iter().flatten());
+        operands.copied().try_for_each(|operand| self.operand(operand, "checks"))
+    }
+}

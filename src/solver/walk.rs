@@ -1,0 +1,169 @@
+//! The walk through a program's blocks: every chart that applies, every root, every sample.
+
+use super::answers::Answers;
+use super::frame::Frame;
+use super::instruction::Operand;
+use super::program::{Block, Chart, JointValue, Program, Step};
+use super::{MAX_JOINTS, PIVOT};
+use crate::{Error, ErrorKind, Result, roots};
+
+/// The choices made on the way to a candidate.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Path {
+    /// The branch number as far as it is known, in mixed radix over the blocks.
+    pub branch: usize,
+    /// The end of the branch numbers of the first block's chart.
+    pub last: usize,
+    /// The choice of roots in the running chart, in mixed radix over its root steps.
+    choice: usize,
+    /// By joint: whether a chart on the way leaves it free.
+    pub free: [bool; MAX_JOINTS],
+}
+
+/// What is known of a block before it runs.
+struct Place {
+    /// Where its registers begin.
+    base: usize,
+    /// Its number of branch numbers.
+    radix: usize,
+}
+
+/// A run of a program for one target.
+pub(super) struct Walk<'a> {
+    program: &'a Program,
+    places: Vec<Place>,
+    frame: Frame<'a>,
+    answers: Answers<'a>,
+}
+
+impl<'a> Walk<'a> {
+    pub fn new(program: &'a Program, parameters: &'a [f64], magnitude: f64, answers: Answers<'a>) -> Self {
+        let mut registers = 0;
+        let place = |block: &Block| {
+            let base = registers;
+            registers += block.registers();
+            Place { base, radix: block.branches() }
+        };
+        let places = program.blocks.iter().map(place).collect();
+        Walk { program, places, frame: Frame::new(parameters, magnitude, program.unknowns.len(), registers), answers }
+    }
+
+    /// Walks all paths.
+    pub fn run(mut self) -> Result<Answers<'a>> {
+        self.block(0, Path::default())?;
+        Ok(self.answers)
+    }
+
+    /// Runs block `index`, and all behind it, for the unknowns found so far; behind the last one there is a candidate.
+    fn block(&mut self, index: usize, path: Path) -> Result<()> {
+        let Some(block) = self.program.blocks.get(index) else {
+            self.answers.propose(&path, &self.frame.unknowns);
+            return Ok(());
+        };
+        let outer = std::mem::replace(&mut self.frame.base, self.places[index].base);
+        self.frame.run(&block.code);
+        for first in (0..block.charts.len()).filter(|&chart| block.opens_group(chart)) {
+            if let Some(chart) = self.elect(&block.charts, first) {
+                self.chart(index, chart, path)?;
+            }
+        }
+        self.frame.base = outer;
+        Ok(())
+    }
+
+    /// The chart with index `first` if its guards hold, or the best of its pivot group; its guards' code has run last.
+    fn elect(&mut self, charts: &'a [Chart], first: usize) -> Option<&'a Chart> {
+        let Some(pivot) = charts[first].pivot else {
+            return self.applies(&charts[first]).then_some(&charts[first]);
+        };
+        let (mut greatest, mut elected) = (-1.0, None);
+        for chart in &charts[first..] {
+            let Some(claim) = chart.pivot.filter(|claim| claim.group == pivot.group) else { continue };
+            if self.applies(chart) && self.frame.value(claim.value).abs() > greatest {
+                (greatest, elected) = (self.frame.value(claim.value).abs(), Some(chart));
+            }
+        }
+        elected.inspect(|chart| self.frame.run(&chart.guard_code))
+    }
+
+    fn applies(&mut self, chart: &Chart) -> bool {
+        self.frame.run(&chart.guard_code);
+        chart.guards.iter().all(|guard| self.frame.holds(guard))
+    }
+
+    fn chart(&mut self, block: usize, chart: &Chart, mut path: Path) -> Result<()> {
+        if chart.open {
+            let text = format!("the target lies on `{}`, a stratum that could not be derived", chart.label);
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+        let radix = self.places[block].radix;
+        path.last = if block == 0 { chart.first_branch + Program::branches(chart) } else { path.last * radix };
+        path.branch = path.branch * radix + chart.first_branch;
+        path.choice = 0;
+        chart.free.iter().for_each(|&joint| path.free[joint] = true);
+        self.steps(block, &chart.steps, path)
+    }
+
+    /// Runs the steps, once for each choice of roots and samples, and then the next block.
+    fn steps(&mut self, block: usize, steps: &[Step], mut path: Path) -> Result<()> {
+        for (index, step) in steps.iter().enumerate() {
+            match step {
+                Step::Compute(code) => self.frame.run(code),
+                Step::Set { unknown, value } => self.frame.unknowns[*unknown] = self.frame.value(*value),
+                Step::Roots { unknown, polynomials, typical } => {
+                    let roots = self.find_roots(*unknown, polynomials, *typical);
+                    path.choice *= step.slots();
+                    for (choice, root) in roots.as_slice().iter().enumerate() {
+                        self.frame.unknowns[*unknown] = *root;
+                        let path = Path { choice: path.choice + choice, ..path };
+                        self.steps(block, &steps[index + 1..], path)?;
+                    }
+                    return Ok(());
+                }
+                Step::Sample { joint, values } => {
+                    for value in values {
+                        self.put(*joint, *value);
+                        self.steps(block, &steps[index + 1..], path)?;
+                    }
+                    return Ok(());
+                }
+            }
+        }
+        path.branch += path.choice;
+        self.block(block + 1, path)
+    }
+
+    fn put(&mut self, joint: JointValue, value: f64) {
+        match joint {
+            JointValue::Angle { cosine, sine } => {
+                self.frame.unknowns[cosine] = value.cos();
+                self.frame.unknowns[sine] = value.sin();
+            }
+            JointValue::Plain(unknown) => self.frame.unknowns[unknown] = value,
+        }
+    }
+
+    /// The real roots of the first polynomial whose leading coefficient is not negligible.
+    fn find_roots(&self, unknown: usize, polynomials: &[Vec<Operand>], typical: Option<Operand>) -> roots::Roots {
+        let frame = &self.frame;
+        let usual = if self.program.is_plain(unknown) { Operand::Magnitude } else { Operand::Constant(1.0) };
+        let typical = frame.value(typical.unwrap_or(usual));
+        let values = |coefficients: &[Operand]| {
+            let mut line = [0.0; roots::MAX_DEGREE + 1];
+            for (slot, operand) in line.iter_mut().zip(coefficients) {
+                *slot = frame.value(*operand);
+            }
+            line
+        };
+        let (last, earlier) = polynomials.split_last().expect("a valid program has a polynomial for each root step");
+        for coefficients in earlier {
+            let line = values(coefficients);
+            let line = &line[..coefficients.len()];
+            let largest = line.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+            if line.last().is_some_and(|lead| lead.abs() > PIVOT * largest) {
+                return roots::real_roots(line, typical);
+            }
+        }
+        roots::real_roots(&values(last)[..last.len()], typical)
+    }
+}
