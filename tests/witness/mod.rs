@@ -1,5 +1,6 @@
 //! The checks of derived programs: right programs pass, damaged ones do not.
 
+mod chain;
 mod chains;
 mod screws;
 
