@@ -126,16 +126,18 @@ impl Context<'_> {
         Ok(())
     }
 
-    /// The blocks one after the other; what is behind a block without a closed chart is never reached.
+    /// The blocks one after the other. Only a single block may be all open.
     fn blocks(&mut self, blocks: &[Block]) -> Result<()> {
         self.unknowns = vec![false; self.program.unknowns.len()];
-        let mut reached = true;
         for block in blocks {
             self.block(block)?;
-            reached &= block.charts.iter().any(|chart| !chart.open);
+            let ends = !block.charts.iter().any(|chart| !chart.open);
+            ensure(!ends || blocks.len() == 1, &format!("block `{}` has no chart that goes on", block.label))?;
+            if ends {
+                return Ok(());
+            }
         }
-        let place = blocks.last().map_or("", |block| block.label.as_str());
-        ensure(!reached || self.unknowns.iter().all(|&set| set), &format!("block `{place}`: an unknown is never set"))
+        ensure(self.unknowns.iter().all(|&set| set), "an unknown is never set")
     }
 
     fn block(&mut self, block: &Block) -> Result<()> {

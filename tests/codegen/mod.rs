@@ -1,10 +1,10 @@
 //! Printed solvers: compiled, run, and compared with the evaluator of the same program.
 
-mod builder;
+pub mod builder;
 mod derivations;
 pub mod harness;
 mod names;
-mod samples;
+pub mod samples;
 mod text;
 
 use harness::compare;
