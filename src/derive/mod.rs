@@ -7,6 +7,7 @@ mod check;
 pub mod compile;
 mod constants;
 pub mod derivation;
+pub mod ends;
 pub mod formulate;
 mod generic;
 mod grow;
@@ -25,9 +26,10 @@ pub mod triangular;
 
 pub use crate::kinematics::{Choice, LengthUnit, Root};
 pub use derivation::Derivation;
+pub use ends::Ends;
 pub use formulate::formulate;
 pub use grow::{derive_tree, describe};
-pub use input::{Description, Ends, InputFile, Source};
+pub use input::{Description, InputFile, Source};
 pub use prover::Orders;
 pub use system::{
     Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,

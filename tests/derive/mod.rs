@@ -2,6 +2,7 @@
 
 mod certificate;
 mod chains;
+mod ends;
 mod renamed;
 mod seed;
 mod strata;
