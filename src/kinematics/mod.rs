@@ -6,7 +6,7 @@ pub mod chain_toml;
 pub mod dh;
 pub mod dh_toml;
 mod exact_rotation;
-mod exact_serde;
+pub(crate) mod exact_serde;
 pub mod fk;
 pub mod geometry;
 pub mod jacobian;

@@ -3,6 +3,8 @@
 mod certificate;
 mod chains;
 mod ends;
+mod closure;
+mod random_chains;
 mod renamed;
 mod seed;
 mod strata;

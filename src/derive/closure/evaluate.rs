@@ -1,0 +1,520 @@
+//! The evaluation of relations with any [`Arithmetic`]: at known joints, or as polynomials in the unknown ones.
+//!
+//! Every letter is a motion x -> o2 + R (x - o1). With y' = o2 + R (y - o1) of a point, its square |y'|^2 = |y|^2 - 2 o1.y + |o1|^2 +
+//! 2 o2.y' - |o2|^2 and the moments of lines go along without a product of two images, so that the joint's cosine and sine
+//! occur to the first degree.
+
+use super::arithmetic::{Arithmetic, Factor, Multilinear};
+use super::mechanism::Mechanism;
+use super::relation::{Letter, Measure, Object, Relation, Word};
+use super::vector;
+use crate::kinematics::{ExactMatrix, ExactVector, Task};
+use crate::number::BigRational;
+use crate::{Error, ErrorKind, Result};
+
+/// What is known about a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JointValue<V> {
+    /// Nothing: its unknowns stay.
+    Unknown,
+    /// The cosine c of its angle and s', the sine divided by the length of the axis vector.
+    Angle {
+        /// c.
+        cosine: V,
+        /// s'.
+        sine: V,
+    },
+    /// d', its shift divided by the length of the axis vector.
+    Length(V),
+}
+
+/// The rotation of a target, as far as the task knows it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Turn<V> {
+    /// Not at all.
+    Nothing,
+    /// Where it takes the direction that the task aims, [`Mechanism::aim`].
+    Direction([V; 3]),
+    /// Its matrix, base_from_tip, by rows.
+    Matrix([[V; 3]; 3]),
+}
+
+/// The target T: the position of the tip and its rotation, as far as the task knows them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target<V> {
+    /// The position of the tip; where the task does not know it, any: that at zero.
+    pub position: [V; 3],
+    /// The rotation.
+    pub turn: Turn<V>,
+}
+
+/// The values of the joints and of the target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment<V> {
+    /// One for each joint.
+    pub joints: Vec<JointValue<V>>,
+    /// The target.
+    pub target: Target<V>,
+}
+
+impl<V: Clone> Target<V> {
+    /// The target of these `parameters`, in the order of [`Mechanism::parameters`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when there are not as many as the task has.
+    pub fn new<A: Arithmetic<Value = V>>(mechanism: &Mechanism, parameters: &[V], arithmetic: &mut A) -> Result<Self> {
+        let wanted = mechanism.parameters().len();
+        if parameters.len() != wanted {
+            let text = format!("{} numbers of the target are given; the task has {wanted}", parameters.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let mut position = mechanism.tip_point().each_ref().map(|entry| arithmetic.rational(entry));
+        let turn = match mechanism.task() {
+            Task::Pose => {
+                position.clone_from_slice(&parameters[..3]);
+                Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 + 3 * i + j].clone())))
+            }
+            Task::Position => {
+                position.clone_from_slice(parameters);
+                Turn::Nothing
+            }
+            Task::PlanarPosition { plane } => {
+                plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
+                Turn::Nothing
+            }
+            Task::Ray => {
+                position.clone_from_slice(&parameters[..3]);
+                Turn::Direction(std::array::from_fn(|k| parameters[3 + k].clone()))
+            }
+            Task::Direction => Turn::Direction(std::array::from_fn(|k| parameters[k].clone())),
+            Task::Rotation => {
+                Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 * i + j].clone())))
+            }
+            Task::PlanarPose { plane } => {
+                plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
+                Turn::Matrix(about(plane.normal(), &parameters[2], &parameters[3], arithmetic))
+            }
+        };
+        Ok(Target { position, turn })
+    }
+}
+
+/// The rotation about a coordinate axis with this cosine and sine.
+fn about<A: Arithmetic>(normal: usize, c: &A::Value, s: &A::Value, arithmetic: &mut A) -> [[A::Value; 3]; 3] {
+    let (a, b) = ((normal + 1) % 3, (normal + 2) % 3);
+    let mut rows = vector::identity().map(|row| row.map(|entry| arithmetic.rational(&entry)));
+    rows[a][a] = c.clone();
+    rows[b][b] = c.clone();
+    rows[b][a] = s.clone();
+    rows[a][b] = arithmetic.neg(s);
+    rows
+}
+
+/// Coordinates as polynomials in the unknown joints.
+pub type Vector<V> = [Multilinear<V>; 3];
+
+/// An object with what is carried along for its measure.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Image<V> {
+    /// A point.
+    Point(Vector<V>),
+    /// A point and the square of its distance from the origin.
+    PointSquare(Vector<V>, Multilinear<V>),
+    /// A direction.
+    Direction(Vector<V>),
+    /// The normal v of a plane, and v.x of its points x.
+    Plane(Vector<V>, Multilinear<V>),
+    /// The direction v of a line, and x cross v of its points x.
+    Line(Vector<V>, Vector<V>),
+}
+
+/// The value of `relation`, a polynomial in the joints that `assignment` leaves unknown: zero where the loop is closed.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] when the objects do not fit the measure, a joint occurs twice in a word, or the assignment has other
+/// joints than the mechanism.
+pub fn evaluate<A: Arithmetic>(
+    mechanism: &Mechanism,
+    relation: &Relation,
+    assignment: &Assignment<A::Value>,
+    arithmetic: &mut A,
+) -> Result<Multilinear<A::Value>> {
+    let mut evaluation = Evaluation { mechanism, assignment, arithmetic };
+    let left = evaluation.side(relation, &relation.left)?;
+    let right = evaluation.side(relation, &relation.right)?;
+    Ok(left.sub(&right, arithmetic))
+}
+
+/// `measure(fixed, word moved)`, one side of `relation`.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn evaluate_side<A: Arithmetic>(
+    mechanism: &Mechanism,
+    relation: &Relation,
+    word: &Word,
+    assignment: &Assignment<A::Value>,
+    arithmetic: &mut A,
+) -> Result<Multilinear<A::Value>> {
+    Evaluation { mechanism, assignment, arithmetic }.side(relation, word)
+}
+
+/// The image of `object` under `word`, with what `measure` needs.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn carry<A: Arithmetic>(
+    mechanism: &Mechanism,
+    word: &Word,
+    object: &Object,
+    measure: Measure,
+    assignment: &Assignment<A::Value>,
+    arithmetic: &mut A,
+) -> Result<Image<A::Value>> {
+    Evaluation { mechanism, assignment, arithmetic }.carry(word, object, measure)
+}
+
+struct Evaluation<'a, A: Arithmetic> {
+    mechanism: &'a Mechanism,
+    assignment: &'a Assignment<A::Value>,
+    arithmetic: &'a mut A,
+}
+
+/// The motion x -> after + R (x - before).
+struct Motion<'a, V> {
+    before: Vector<V>,
+    after: Vector<V>,
+    rotation: Rotation<'a, V>,
+}
+
+/// R.
+enum Rotation<'a, V> {
+    Identity,
+    /// About an axis vector, by the angle of a joint; the other way round when inverse.
+    Axis {
+        axis: &'a ExactVector,
+        square: &'a BigRational,
+        joint: usize,
+        value: &'a JointValue<V>,
+        inverse: bool,
+    },
+    /// R_T R_M^T.
+    Target(&'a Turn<V>),
+    /// R_M R_T^T.
+    TargetInverse(&'a Turn<V>),
+}
+
+impl<'a, A: Arithmetic> Evaluation<'a, A> {
+    fn side(&mut self, relation: &Relation, word: &Word) -> Result<Multilinear<A::Value>> {
+        let image = self.carry(word, &relation.moved, relation.measure)?;
+        self.measure(relation.measure, &relation.fixed, &image)
+    }
+
+    fn carry(&mut self, word: &Word, object: &Object, measure: Measure) -> Result<Image<A::Value>> {
+        self.check(word)?;
+        let mut image = self.start(object, measure);
+        for &letter in word.0.iter().rev() {
+            let motion = self.motion(letter);
+            image = self.apply(&motion, &image);
+        }
+        Ok(image)
+    }
+
+    fn check(&self, word: &Word) -> Result<()> {
+        let count = self.mechanism.joints().len();
+        let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
+        if self.assignment.joints.len() != count {
+            return bad(format!(
+                "{} joint values are given; the chain has {count} joints",
+                self.assignment.joints.len()
+            ));
+        }
+        for (at, letter) in word.0.iter().enumerate() {
+            let Some(joint) = letter.joint() else { continue };
+            if joint >= count || word.0[..at].iter().any(|other| other.joint() == Some(joint)) {
+                return bad(format!("the word `{word}` may have each of the {count} joints once"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The object itself, with what its measure needs.
+    fn start(&mut self, object: &Object, measure: Measure) -> Image<A::Value> {
+        match (object, measure) {
+            (Object::Point(point), Measure::Distance) => {
+                let square = self.number(&vector::dot(point, point));
+                Image::PointSquare(self.numbers(point), square)
+            }
+            (Object::Point(point), _) => Image::Point(self.numbers(point)),
+            (Object::Direction(direction), _) => Image::Direction(self.numbers(direction)),
+            (Object::Line { point, direction }, Measure::Offset) => {
+                let offset = self.number(&vector::dot(point, direction));
+                Image::Plane(self.numbers(direction), offset)
+            }
+            (Object::Line { point, direction }, _) => {
+                Image::Line(self.numbers(direction), self.numbers(&vector::cross(point, direction)))
+            }
+        }
+    }
+
+    /// The invariant of what is fixed and of a moved image.
+    fn measure(&mut self, measure: Measure, fixed: &Object, image: &Image<A::Value>) -> Result<Multilinear<A::Value>> {
+        match (measure, fixed, image) {
+            (Measure::Angle, Object::Direction(a), Image::Direction(x))
+            | (Measure::Offset, Object::Direction(a), Image::Point(x)) => Ok(self.dot_number(a, x)),
+            (Measure::Offset, Object::Point(a), Image::Plane(normal, offset)) => {
+                let along = self.dot_number(a, normal);
+                Ok(along.sub(offset, self.arithmetic))
+            }
+            (Measure::Distance, Object::Point(a), Image::PointSquare(x, square)) => {
+                let twice = self.dot_number(&vector::scale(a, &integer(2)), x);
+                let own = self.number(&vector::dot(a, a));
+                let sum = square.add(&own, self.arithmetic);
+                Ok(sum.sub(&twice, self.arithmetic))
+            }
+            (Measure::Moment, Object::Line { point, direction }, Image::Line(v, moment)) => {
+                // (a - x).(v x w) = v.(w x a) - w.(x x v) with w the fixed direction.
+                let first = self.dot_number(&vector::cross(direction, point), v);
+                let second = self.dot_number(direction, moment);
+                Ok(first.sub(&second, self.arithmetic))
+            }
+            _ => {
+                let text = "a relation compares two directions (angle), a direction and a point or a point and a plane \
+                            (offset), two points (distance) or two lines (moment)";
+                Err(Error::new(ErrorKind::BadValue, text))
+            }
+        }
+    }
+
+    fn number(&mut self, number: &BigRational) -> Multilinear<A::Value> {
+        let value = self.arithmetic.rational(number);
+        Multilinear::constant(value, self.arithmetic)
+    }
+
+    fn numbers(&mut self, vector: &ExactVector) -> Vector<A::Value> {
+        vector.each_ref().map(|entry| self.number(entry))
+    }
+
+    fn values(&mut self, vector: &[A::Value; 3]) -> Vector<A::Value> {
+        vector.each_ref().map(|entry| Multilinear::constant(entry.clone(), self.arithmetic))
+    }
+
+    fn motion(&mut self, letter: Letter) -> Motion<'a, A::Value> {
+        let (mechanism, assignment) = (self.mechanism, self.assignment);
+        match letter {
+            Letter::Joint(joint) | Letter::Inverse(joint) => {
+                self.joint_motion(joint, matches!(letter, Letter::Inverse(_)))
+            }
+            Letter::Target => Motion {
+                before: self.numbers(mechanism.tip_point()),
+                after: self.values(&assignment.target.position),
+                rotation: Rotation::Target(&assignment.target.turn),
+            },
+            Letter::TargetInverse => Motion {
+                before: self.values(&assignment.target.position),
+                after: self.numbers(mechanism.tip_point()),
+                rotation: Rotation::TargetInverse(&assignment.target.turn),
+            },
+        }
+    }
+
+    fn joint_motion(&mut self, joint: usize, inverse: bool) -> Motion<'a, A::Value> {
+        let (screw, value) = (&self.mechanism.joints()[joint], &self.assignment.joints[joint]);
+        if screw.is_revolute() {
+            let centre = self.numbers(&screw.point);
+            let (axis, square) = (&screw.axis, &screw.square);
+            let rotation = Rotation::Axis { axis, square, joint, value, inverse };
+            return Motion { before: centre.clone(), after: centre, rotation };
+        }
+        let axis = self.numbers(&screw.axis);
+        let shift = axis.map(|entry| self.times_length(&entry, joint, value, inverse));
+        Motion { before: self.numbers(&vector::zero()), after: shift, rotation: Rotation::Identity }
+    }
+
+    /// `entry` times d', or -d'.
+    fn times_length(
+        &mut self,
+        entry: &Multilinear<A::Value>,
+        joint: usize,
+        value: &JointValue<A::Value>,
+        inverse: bool,
+    ) -> Multilinear<A::Value> {
+        let product = match value {
+            JointValue::Length(length) => self.times_value(entry, length),
+            _ => entry.times_unknown(Factor::Length(joint), self.arithmetic),
+        };
+        if inverse { product.neg(self.arithmetic) } else { product }
+    }
+
+    fn times_value(&mut self, entry: &Multilinear<A::Value>, value: &A::Value) -> Multilinear<A::Value> {
+        entry.mul(&Multilinear::constant(value.clone(), self.arithmetic), self.arithmetic)
+    }
+
+    fn apply(&mut self, motion: &Motion<'_, A::Value>, image: &Image<A::Value>) -> Image<A::Value> {
+        let (before, after) = (&motion.before, &motion.after);
+        match image {
+            Image::Point(x) => Image::Point(self.move_point(motion, x)),
+            Image::PointSquare(x, square) => {
+                let moved = self.move_point(motion, x);
+                // |x|^2 - 2 o1.x + |o1|^2 = |x - o1|^2 = |x' - o2|^2, and |x'|^2 = |x' - o2|^2 + 2 o2.x' - |o2|^2.
+                let near = self.completed(square, before, x, false);
+                let square = self.completed(&near, after, &moved, true);
+                Image::PointSquare(moved, square)
+            }
+            Image::Direction(v) => Image::Direction(self.rotate(&motion.rotation, v)),
+            Image::Plane(v, offset) => {
+                let turned = self.rotate(&motion.rotation, v);
+                let near = self.dot(before, v);
+                let far = self.dot(after, &turned);
+                let offset = offset.sub(&near, self.arithmetic).add(&far, self.arithmetic);
+                Image::Plane(turned, offset)
+            }
+            Image::Line(v, moment) => {
+                let turned = self.rotate(&motion.rotation, v);
+                let near = self.cross(before, v);
+                let arm = self.minus(moment, &near);
+                let (arm, far) = (self.rotate(&motion.rotation, &arm), self.cross(after, &turned));
+                let moment = self.plus(&far, &arm);
+                Image::Line(turned, moment)
+            }
+        }
+    }
+
+    fn move_point(&mut self, motion: &Motion<'_, A::Value>, x: &Vector<A::Value>) -> Vector<A::Value> {
+        let arm = self.minus(x, &motion.before);
+        let turned = self.rotate(&motion.rotation, &arm);
+        self.plus(&motion.after, &turned)
+    }
+
+    /// `square - 2 o.x + |o|^2`, or `square + 2 o.x - |o|^2`.
+    fn completed(
+        &mut self,
+        square: &Multilinear<A::Value>,
+        o: &Vector<A::Value>,
+        x: &Vector<A::Value>,
+        outward: bool,
+    ) -> Multilinear<A::Value> {
+        let once = self.dot(o, x);
+        let (twice, own) = (once.add(&once, self.arithmetic), self.dot(o, o));
+        let change = twice.sub(&own, self.arithmetic);
+        if outward { square.add(&change, self.arithmetic) } else { square.sub(&change, self.arithmetic) }
+    }
+
+    fn rotate(&mut self, rotation: &Rotation<'_, A::Value>, v: &Vector<A::Value>) -> Vector<A::Value> {
+        let mechanism = self.mechanism;
+        match *rotation {
+            Rotation::Identity => v.clone(),
+            Rotation::Axis { axis, square, joint, value, inverse } => {
+                let [along, across, third] = self.split(axis, square, v);
+                let third = if inverse { third.map(|entry| entry.neg(self.arithmetic)) } else { third };
+                let turned = self.combine(joint, value, &across, &third);
+                self.plus(&along, &turned)
+            }
+            Rotation::Target(turn) => self.target_rotation(turn, v),
+            Rotation::TargetInverse(Turn::Matrix(rows)) => {
+                let columns: [[A::Value; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| rows[j][i].clone()));
+                let body = columns.each_ref().map(|row| self.dot_values(row, v));
+                mechanism.tip_rotation().each_ref().map(|row| self.dot_number(row, &body))
+            }
+            // The other tasks know too little for the inverse, and their relations do not use it.
+            Rotation::TargetInverse(_) => std::array::from_fn(|_| Multilinear::zero()),
+        }
+    }
+
+    fn target_rotation(&mut self, turn: &Turn<A::Value>, v: &Vector<A::Value>) -> Vector<A::Value> {
+        let mechanism = self.mechanism;
+        match turn {
+            // Only the tip itself is carried, whose arm is zero.
+            Turn::Nothing => std::array::from_fn(|_| Multilinear::zero()),
+            Turn::Direction(aim) => {
+                // Only multiples of the direction are carried: v = k a with k = a.v / a.a.
+                let own = mechanism.aim();
+                let factor = self.dot_number(&vector::scale(own, &vector::dot(own, own).recip()), v);
+                aim.each_ref().map(|entry| self.times_value(&factor, entry))
+            }
+            Turn::Matrix(rows) => {
+                let back = transposed(mechanism.tip_rotation());
+                let body = back.each_ref().map(|row| self.dot_number(row, v));
+                rows.each_ref().map(|row| self.dot_values(row, &body))
+            }
+        }
+    }
+
+    /// The part of `v` along the axis, the part across it, and w cross v.
+    fn split(&mut self, axis: &ExactVector, square: &BigRational, v: &Vector<A::Value>) -> [Vector<A::Value>; 3] {
+        let share = self.dot_number(&vector::scale(axis, &square.recip()), v);
+        let along = axis.each_ref().map(|entry| share.scale(entry, self.arithmetic));
+        let across = self.minus(v, &along);
+        let third = std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let (first, second) = (v[j].scale(&axis[i], self.arithmetic), v[i].scale(&axis[j], self.arithmetic));
+            first.sub(&second, self.arithmetic)
+        });
+        [along, across, third]
+    }
+
+    /// `c across + s' third` with the cosine and sine of the joint.
+    fn combine(
+        &mut self,
+        joint: usize,
+        value: &JointValue<A::Value>,
+        across: &Vector<A::Value>,
+        third: &Vector<A::Value>,
+    ) -> Vector<A::Value> {
+        std::array::from_fn(|k| {
+            let (first, second) = match value {
+                JointValue::Angle { cosine, sine } => {
+                    (self.times_value(&across[k], cosine), self.times_value(&third[k], sine))
+                }
+                _ => (
+                    across[k].times_unknown(Factor::Cosine(joint), self.arithmetic),
+                    third[k].times_unknown(Factor::Sine(joint), self.arithmetic),
+                ),
+            };
+            first.add(&second, self.arithmetic)
+        })
+    }
+
+    fn plus(&mut self, a: &Vector<A::Value>, b: &Vector<A::Value>) -> Vector<A::Value> {
+        std::array::from_fn(|k| a[k].add(&b[k], self.arithmetic))
+    }
+
+    fn minus(&mut self, a: &Vector<A::Value>, b: &Vector<A::Value>) -> Vector<A::Value> {
+        std::array::from_fn(|k| a[k].sub(&b[k], self.arithmetic))
+    }
+
+    fn dot(&mut self, a: &Vector<A::Value>, b: &Vector<A::Value>) -> Multilinear<A::Value> {
+        let products = std::array::from_fn(|k| a[k].mul(&b[k], self.arithmetic));
+        self.sum(products)
+    }
+
+    fn cross(&mut self, a: &Vector<A::Value>, b: &Vector<A::Value>) -> Vector<A::Value> {
+        std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let (first, second) = (a[i].mul(&b[j], self.arithmetic), a[j].mul(&b[i], self.arithmetic));
+            first.sub(&second, self.arithmetic)
+        })
+    }
+
+    fn dot_number(&mut self, a: &ExactVector, b: &Vector<A::Value>) -> Multilinear<A::Value> {
+        let products = std::array::from_fn(|k| b[k].scale(&a[k], self.arithmetic));
+        self.sum(products)
+    }
+
+    fn dot_values(&mut self, a: &[A::Value; 3], b: &Vector<A::Value>) -> Multilinear<A::Value> {
+        let products = std::array::from_fn(|k| self.times_value(&b[k], &a[k]));
+        self.sum(products)
+    }
+
+    fn sum(&mut self, [x, y, z]: Vector<A::Value>) -> Multilinear<A::Value> {
+        x.add(&y, self.arithmetic).add(&z, self.arithmetic)
+    }
+}
+
+fn transposed(matrix: &ExactMatrix) -> ExactMatrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[j][i].clone()))
+}
+
+fn integer(n: i64) -> BigRational {
+    BigRational::from_integer(n.into())
+}

@@ -1,0 +1,166 @@
+//! A chain as exact screws with its task: what relations are made of. Main type: [`Mechanism`].
+
+use super::vector;
+use crate::kinematics::{Chain, ExactMatrix, ExactVector, JointKind, Plane, Task};
+use crate::number::BigRational;
+use crate::{Error, ErrorKind, Result};
+
+/// A joint's screw in the base frame at the zero configuration. A revolute joint has the unknowns c, the cosine of its angle, and
+/// s' = s / |w|; a prismatic one d' = d / |w|: so no root enters the algebra.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScrewJoint {
+    /// The name of the joint.
+    pub name: String,
+    /// What follows c, s or d in the names of its unknowns.
+    pub symbol: String,
+    /// How it moves.
+    pub kind: JointKind,
+    /// w: along the axis; of length one where that is rational, else of coprime integers.
+    pub axis: ExactVector,
+    /// |w|^2, so that c^2 + |w|^2 s'^2 = 1.
+    pub square: BigRational,
+    /// o: a point of the axis.
+    pub point: ExactVector,
+}
+
+impl ScrewJoint {
+    fn new(name: &str, symbol: &str, kind: JointKind, axis: &ExactVector, point: &ExactVector) -> Self {
+        let axis = vector::normalised(axis);
+        let (square, point) = (vector::dot(&axis, &axis), point.clone());
+        ScrewJoint { name: name.to_owned(), symbol: symbol.to_owned(), kind, axis, square, point }
+    }
+
+    /// Whether it turns.
+    pub fn is_revolute(&self) -> bool {
+        self.kind == JointKind::Revolute
+    }
+}
+
+/// A chain as exact screws, what is asked of its tip, and which joints the user gives.
+///
+/// With T the pose asked for and M that of the tip at zero, the loop is E1 ... En = G, where G = T M^-1 moves the whole body from
+/// where it is at zero (RH0 2-20).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mechanism {
+    joints: Vec<ScrewJoint>,
+    tip_point: ExactVector,
+    tip_rotation: ExactMatrix,
+    aim: ExactVector,
+    task: Task,
+    given: Vec<usize>,
+    /// Motions of the tip that the task does not see, as joints behind the last one.
+    unseen: Vec<ScrewJoint>,
+}
+
+impl Mechanism {
+    /// The mechanism of `chain`, with its task and the joints that it gives.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a given joint that the chain has not.
+    pub fn new(chain: &Chain) -> Result<Self> {
+        let joints: Vec<ScrewJoint> = chain
+            .joints()
+            .iter()
+            .map(|joint| ScrewJoint::new(&joint.name, &joint.symbol, joint.kind, &joint.axis, &joint.point))
+            .collect();
+        let task = chain.task();
+        // The angle of a planar pose is counted from the zero configuration.
+        let tip_rotation = match task {
+            Task::PlanarPose { .. } => vector::identity(),
+            _ => chain.tip().rotation.clone(),
+        };
+        let tip_point = chain.tip().point.clone();
+        let aim = vector::normalised(&vector::turn(&chain.tip().rotation, chain.direction()));
+        let unseen = unseen(task, &tip_point, &aim);
+        Mechanism { joints, tip_point, tip_rotation, aim, task, given: Vec::new(), unseen }.with_given(&chain.given())
+    }
+
+    /// The same mechanism with these joints, by their places, given by the user.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a place beyond the last joint.
+    pub fn with_given(mut self, given: &[usize]) -> Result<Self> {
+        if let Some(place) = given.iter().find(|&&place| place >= self.joints.len()) {
+            let text = format!("joint {} cannot be given: the chain has {} joints", place + 1, self.joints.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        self.given = given.to_vec();
+        self.given.sort_unstable();
+        self.given.dedup();
+        Ok(self)
+    }
+
+    /// The joints from base to tip.
+    pub fn joints(&self) -> &[ScrewJoint] {
+        &self.joints
+    }
+
+    /// The origin of the tip at zero, in the base frame.
+    pub fn tip_point(&self) -> &ExactVector {
+        &self.tip_point
+    }
+
+    /// The rotation of the tip at zero, base_from_tip; for a planar pose, whose angle is counted from there, the identity.
+    pub fn tip_rotation(&self) -> &ExactMatrix {
+        &self.tip_rotation
+    }
+
+    /// The direction that the tasks `ray` and `direction` aim, at zero in the base frame: of length one where that is rational, else
+    /// of coprime integers. The parameters dx, dy, dz of the relations are a vector of *this* length.
+    pub fn aim(&self) -> &ExactVector {
+        &self.aim
+    }
+
+    /// What is asked of the tip.
+    pub fn task(&self) -> Task {
+        self.task
+    }
+
+    /// The places of the joints that the user gives, ascending.
+    pub fn given(&self) -> &[usize] {
+        &self.given
+    }
+
+    /// The places of the joints that are not given, ascending.
+    pub fn unknown(&self) -> Vec<usize> {
+        (0..self.joints.len()).filter(|joint| !self.given.contains(joint)).collect()
+    }
+
+    /// The motions that the task does not see, as joints behind the tip: of the tip about its line for a ray, and so on.
+    pub(super) fn unseen(&self) -> &[ScrewJoint] {
+        &self.unseen
+    }
+
+    /// The names of the numbers of the target, in the order of [`super::Target::new`]: px, py, pz, r11 ... r33 and so on.
+    pub fn parameters(&self) -> Vec<String> {
+        let coordinates = |prefix: char, axes: &[usize]| -> Vec<String> {
+            axes.iter().map(|&axis| format!("{prefix}{}", ["x", "y", "z"][axis])).collect()
+        };
+        let position = || coordinates('p', &[0, 1, 2]);
+        let rotation = || (1..=3).flat_map(|row| (1..=3).map(move |column| format!("r{row}{column}")));
+        let planar = |plane: Plane| coordinates('p', &plane.coordinates());
+        match self.task {
+            Task::Pose => position().into_iter().chain(rotation()).collect(),
+            Task::Position => position(),
+            Task::PlanarPosition { plane } => planar(plane),
+            Task::PlanarPose { plane } => planar(plane).into_iter().chain(["cphi".into(), "sphi".into()]).collect(),
+            Task::Ray => position().into_iter().chain(coordinates('d', &[0, 1, 2])).collect(),
+            Task::Direction => coordinates('d', &[0, 1, 2]),
+            Task::Rotation => rotation().collect(),
+        }
+    }
+}
+
+/// The motions of the tip that `task` does not see, as joints behind the last one.
+fn unseen(task: Task, tip: &ExactVector, aim: &ExactVector) -> Vec<ScrewJoint> {
+    let joint = |kind, axis: &ExactVector| ScrewJoint::new("", "", kind, axis, tip);
+    let every = |kind| (0..3).map(move |k| joint(kind, &vector::unit(k)));
+    let about_aim = joint(JointKind::Revolute, aim);
+    match task {
+        Task::Pose | Task::PlanarPose { .. } => Vec::new(),
+        Task::Position | Task::PlanarPosition { .. } => every(JointKind::Revolute).collect(),
+        Task::Ray => vec![about_aim],
+        Task::Direction => every(JointKind::Prismatic).chain([about_aim]).collect(),
+        Task::Rotation => every(JointKind::Prismatic).collect(),
+    }
+}

@@ -1,0 +1,76 @@
+//! Why a chain has no plan, in words: what is free, or what the geometry lacks.
+
+use super::evidence::is_finite;
+use super::types::Evidence;
+use crate::derive::closure::{Mechanism, Relation};
+use crate::kinematics::ExactVector;
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The error of a mechanism with infinitely many solutions: it names the joints of which one may be given.
+///
+/// # Errors
+/// What `watch` stops with.
+pub fn free(mechanism: &Mechanism, relations: &[Relation], watch: &Watch) -> Result<Error> {
+    let unknown = mechanism.unknown();
+    let mut suits = Vec::new();
+    for &joint in &unknown {
+        let given: Vec<usize> = mechanism.given().iter().copied().chain([joint]).collect();
+        if unknown.len() > 1 && is_finite(&mechanism.clone().with_given(&given)?, relations, watch)? {
+            suits.push(format!("`{}`", mechanism.joints()[joint].name));
+        }
+    }
+    let (task, freedoms) = (mechanism.task().name(), mechanism.task().freedoms());
+    let many = format!("the `{task}` task leaves some of the {} unknown joints free", unknown.len());
+    let advice = match suits.as_slice() {
+        [] => format!(
+            "it determines {freedoms} joints at most, and two or more of these must be given; or give another task"
+        ),
+        [one] => format!("give the value of the joint {one}"),
+        list => format!("give the value of one of the joints {}", list.join(", ")),
+    };
+    Ok(Error::new(ErrorKind::PositiveDimensional, format!("{many}: {advice}")))
+}
+
+/// The error of a mechanism whose joints are not found one at a time with at most four solutions each.
+pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize>) -> Error {
+    let degree = |&joint: &usize| format!("`{}` {}", mechanism.joints()[joint].name, evidence.degrees[joint]);
+    let degrees: Vec<String> = mechanism.unknown().iter().map(degree).collect();
+    let found = match product {
+        None => "no order of the joints determines one at a time with at most 4 values each".to_owned(),
+        Some(product) => format!("the best order of the joints gives {product} solutions, some of them false"),
+    };
+    let text = format!(
+        "a target of the `{}` task has {} complex solutions (values of the joints: {}); {found}; {}",
+        mechanism.task().name(),
+        evidence.dimension,
+        degrees.join(", "),
+        lacking(mechanism)
+    );
+    Error::new(ErrorKind::Unsupported, text)
+}
+
+/// Which neighbouring axes meet or are parallel, and which would have to.
+fn lacking(mechanism: &Mechanism) -> String {
+    let count = mechanism.joints().len();
+    let triples: Vec<usize> = (0..count.saturating_sub(2)).collect();
+    let names = |first: &usize| format!("{}-{}-{}", first + 1, first + 2, first + 3);
+    let list = |triples: &[usize]| triples.iter().map(names).collect::<Vec<_>>().join(", ");
+    let (good, bad): (Vec<usize>, Vec<usize>) = triples.into_iter().partition(|&first| is_special(mechanism, first));
+    match (good.as_slice(), bad.as_slice()) {
+        ([], []) => "no three axes follow one another".to_owned(),
+        ([], bad) => format!(
+            "three neighbouring axes would have to meet in one point or be parallel (joints {}); none do",
+            list(bad)
+        ),
+        (good, _) => format!("that joints {} meet in one point, are parallel or slide is not enough", list(good)),
+    }
+}
+
+/// Whether three neighbouring joints have parallel axes, axes through one point, or slide.
+fn is_special(mechanism: &Mechanism, first: usize) -> bool {
+    let joints = &mechanism.joints()[first..first + 3];
+    let along = |a: &ExactVector, b: &ExactVector| (0..3).all(|k| &a[k] * &b[(k + 1) % 3] == &a[(k + 1) % 3] * &b[k]);
+    joints.iter().all(|joint| along(&joint.axis, &joints[0].axis))
+        || joints.iter().filter(|joint| !joint.is_revolute()).count() > 1
+        || crate::derive::closure::common_point(joints).is_some()
+}
