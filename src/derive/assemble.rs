@@ -16,8 +16,16 @@ pub(super) struct FlatTerm {
     pub powers: Vec<(usize, u32)>,
 }
 
+impl FlatTerm {
+    /// The term with these exponents of all symbols.
+    pub fn new(coefficient: BigRational, exponents: &[u32]) -> Self {
+        let powers = exponents.iter().enumerate().filter(|(_, e)| **e > 0).map(|(s, e)| (s, *e)).collect();
+        FlatTerm { coefficient, powers }
+    }
+}
+
 /// Collects instructions; asking twice for the same operation gives the same register.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Assembler {
     code: Vec<Instruction>,
     registers: usize,
@@ -28,6 +36,18 @@ impl Assembler {
     /// The instructions since the last call.
     pub fn take(&mut self) -> Vec<Instruction> {
         std::mem::take(&mut self.code)
+    }
+
+    /// Another collector that knows the same registers and goes on behind them.
+    pub fn branch(&self) -> Assembler {
+        Assembler { code: Vec::new(), ..self.clone() }
+    }
+
+    pub fn sqrt(&mut self, a: Operand) -> Operand {
+        match a {
+            Operand::Constant(x) => Operand::Constant(x.max(0.0).sqrt()),
+            _ => self.emit(Operation::Sqrt(a)),
+        }
     }
 
     fn emit(&mut self, operation: Operation) -> Operand {
@@ -75,6 +95,7 @@ impl Assembler {
 
     pub fn div(&mut self, a: Operand, b: Operand) -> Operand {
         match (a, b) {
+            (Operand::Constant(x), Operand::Constant(y)) if y != 0.0 => Operand::Constant(x / y),
             (_, Operand::Constant(1.0)) => a,
             _ => self.emit(Operation::Div(a, b)),
         }

@@ -36,7 +36,7 @@ struct Record {
 /// The claim about one stratum.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Entry {
+pub(super) struct Entry {
     stratum: String,
     claim: Claim,
 }
@@ -111,7 +111,7 @@ fn refused(text: String) -> Error {
     Error::new(ErrorKind::Certificate, text)
 }
 
-fn replay(system: &System, entries: &[Entry]) -> Result<Node> {
+pub(super) fn replay(system: &System, entries: &[Entry]) -> Result<Node> {
     let mut replay = Replay { system, entries: entries.iter() };
     let node = grow(system, &mut replay)?;
     match (replay.entries.next(), &node.outcome) {
@@ -121,7 +121,7 @@ fn replay(system: &System, entries: &[Entry]) -> Result<Node> {
     }
 }
 
-fn entries(node: &Node) -> Result<Vec<Entry>> {
+pub(super) fn entries(node: &Node) -> Result<Vec<Entry>> {
     let mut list = Vec::new();
     for node in node.walk() {
         push_entry(node, &mut list)?;

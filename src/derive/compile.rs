@@ -353,7 +353,7 @@ fn flat_power(coefficient: BigRational, exponent: u32) -> FlatTerm {
 }
 
 /// The terms of `f`, whose denominators are one, over parameters and then unknowns.
-fn flatten(ring: &Unknowns, f: &Poly) -> Vec<FlatTerm> {
+pub(super) fn flatten(ring: &Unknowns, f: &Poly) -> Vec<FlatTerm> {
     let ground = ring.field().ring();
     let mut terms = Vec::new();
     for term in f.terms() {

@@ -13,6 +13,7 @@ pub mod formulate;
 mod generic;
 mod grow;
 pub mod input;
+pub mod lift;
 pub mod plan;
 pub mod planner;
 mod print;

@@ -3,6 +3,7 @@
 mod certificate;
 mod chains;
 mod ends;
+mod lift;
 mod closure;
 mod random_chains;
 mod renamed;

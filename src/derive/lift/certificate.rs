@@ -1,0 +1,139 @@
+//! The stored proof of a chain's solver: the plan with its relations as words, and the strata of each template with cofactors.
+//!
+//! Reading it proves everything anew but for the searches: every relation is reduced to its normal form modulo the loop
+//! ([`crate::derive::closure::prove`]), every step may use only what is known before it, its equations must have the form that the plan
+//! counts solutions by, and every template's bases are checked by [`crate::groebner::verify`] on all strata. So no solution is lost, and
+//! the product of the degrees is the number of solutions that the plan claims. That number itself was counted modulo primes: the
+//! certificate records with which poses.
+
+use serde::{Deserialize, Serialize};
+
+use super::shape::shape;
+use super::template::{Form, Template};
+use super::{Derived, Lifted};
+use crate::derive::certificate::{Entry, entries, replay};
+use crate::derive::closure::{self, Mechanism};
+use crate::derive::planner::{Plan, PlanStep};
+use crate::kinematics::Chain;
+use crate::{Error, ErrorKind, Result};
+
+/// The version of the format; that of a system of equations has number 1.
+const FORMAT: u32 = 2;
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    format: u32,
+    groebot: String,
+    name: String,
+    plan: Plan,
+    templates: Vec<Proof>,
+}
+
+/// What is claimed about a form.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Proof {
+    form: Form,
+    strata: Vec<Entry>,
+}
+
+/// The text of `certificate.json`.
+///
+/// # Errors
+/// When a template's field cannot be built: never for a derivation that was made by this crate.
+pub fn write(derived: &Derived) -> Result<String> {
+    let proof = |template: &Template| Ok(Proof { form: template.form, strata: entries(&template.tree)? });
+    let record = Record {
+        format: FORMAT,
+        groebot: env!("CARGO_PKG_VERSION").to_owned(),
+        name: derived.chain.name().to_owned(),
+        plan: derived.plan.clone(),
+        templates: derived.templates.iter().map(proof).collect::<Result<_>>()?,
+    };
+    let text = serde_json::to_string_pretty(&record).expect("a record holds nothing that JSON cannot say");
+    Ok(text + "\n")
+}
+
+/// Proves the derivation of `chain` anew from the text of its certificate, without search and without the Groebner engine.
+///
+/// # Errors
+/// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the step or the form for a
+/// claim that does not hold.
+pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
+    let record: Record = serde_json::from_str(text)
+        .map_err(|error| Error::new(ErrorKind::Syntax, format!("certificate: {error}")).at_line(error.line()))?;
+    if record.format != FORMAT || record.name != chain.name() {
+        let text = format!(
+            "this certificate is of format {} for `{}`; format {FORMAT} for `{}` is allowed",
+            record.format,
+            record.name,
+            chain.name()
+        );
+        return Err(refused(text));
+    }
+    let mechanism = Mechanism::new(chain)?;
+    let steps = prove_plan(&mechanism, &record.plan)?;
+    let templates = record.templates.iter().map(prove_template).collect::<Result<Vec<_>>>()?;
+    let needed: Vec<Form> = Template::needed(&steps);
+    if templates.iter().map(|template| template.form).ne(needed) {
+        return Err(refused("the templates are not those of the plan's forms, in their order".to_owned()));
+    }
+    Derived::assemble(chain, &mechanism, record.plan, steps, templates)
+}
+
+fn refused(text: String) -> Error {
+    Error::new(ErrorKind::Certificate, text)
+}
+
+fn prove_template(proof: &Proof) -> Result<Template> {
+    let system = proof.form.system()?;
+    let tree = replay(&system, &proof.strata)
+        .map_err(|error| refused(format!("template `{}`: {}", proof.form.name(), error.message())))?;
+    Ok(Template { form: proof.form, system, tree })
+}
+
+/// Every step of `plan`, proved; together they find each joint once, with as many solutions as the plan says.
+///
+/// # Errors
+/// [`ErrorKind::Certificate`] that names the step.
+pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan) -> Result<Vec<Lifted>> {
+    let count = mechanism.joints().len();
+    if plan.given != mechanism.given() {
+        return Err(refused("the plan's given joints are not those of the chain".to_owned()));
+    }
+    let mut known = plan.given.clone();
+    let mut steps = Vec::new();
+    for (index, step) in plan.steps.iter().enumerate() {
+        let proved = if step.joint < count { prove_step(mechanism, step, &known) } else { Err(refused("no such joint".into())) };
+        let name = mechanism.joints().get(step.joint).map_or("?", |joint| joint.name.as_str());
+        steps.push(proved.map_err(|error| refused(format!("step {}, `{name}`: {}", index + 1, error.message())))?);
+        known.push(step.joint);
+    }
+    if steps.len() + plan.given.len() != count {
+        return Err(refused("the plan does not find every joint".to_owned()));
+    }
+    if plan.product() != plan.dimension {
+        let text = format!("the steps give {} solutions, {} are claimed", plan.product(), plan.dimension);
+        return Err(refused(text));
+    }
+    Ok(steps)
+}
+
+fn prove_step(mechanism: &Mechanism, step: &PlanStep, known: &[usize]) -> Result<Lifted> {
+    if known.contains(&step.joint) {
+        return Err(refused("the joint is known already".to_owned()));
+    }
+    for relation in step.way.relations() {
+        if let Some(other) = relation.joints().into_iter().find(|joint| *joint != step.joint && !known.contains(joint)) {
+            return Err(refused(format!("`{relation}` holds joint {}, which is not known yet", other + 1)));
+        }
+        closure::prove(mechanism, relation)?;
+    }
+    let shape = shape(mechanism, step)?;
+    if shape.form.degree() != step.degree {
+        let text = format!("its equations give {} solutions, {} are claimed", shape.form.degree(), step.degree);
+        return Err(refused(text));
+    }
+    Ok(Lifted { joint: step.joint, relations: step.way.relations().to_vec(), shape })
+}

@@ -1,0 +1,274 @@
+//! From the strata of a [`Template`] to the charts of a block: its symbols become operands, its unknowns those of the program.
+
+use num_traits::Signed;
+
+use super::template::{Form, Template};
+use crate::derive::assemble::{Assembler, FlatTerm};
+use crate::derive::setting::{ParameterPoly, Setting, Unknowns};
+use crate::derive::strata::{self, ZeroSet};
+use crate::derive::tree::{Node, Outcome, Solved, collect_denominators};
+use crate::derive::triangular::Stair;
+use crate::number::{Rationals, Ring, Style};
+use crate::poly::PolynomialRing;
+use crate::solver::{Chart, Guard, JointValue, NEAR, Operand, Step, TINY};
+use crate::{Error, ErrorKind, Result};
+
+/// A chart for a stratum runs where each factor's symbols are below this share of their sizes.
+const CLOSE: f64 = 1e-5;
+/// A chart does not run where a denominator's symbols are below this share of their sizes: rounding has left nothing of them, and
+/// all values of the joint that they determine solve the equations equally well.
+const LOST: f64 = 1e-13;
+
+/// The value of a symbol and the sum of its terms' magnitudes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sized {
+    pub value: Operand,
+    pub size: Operand,
+}
+
+impl Sized {
+    pub fn negated(self, assembler: &mut Assembler) -> Self {
+        Sized { value: assembler.mul(Operand::Constant(-1.0), self.value), size: self.size }
+    }
+}
+
+/// Where a template is put to use.
+pub(super) struct Place {
+    /// Index of the joint that it determines.
+    pub joint: usize,
+    /// The joint's unknowns.
+    pub value: JointValue,
+    /// The auxiliary unknown `w`.
+    pub auxiliary: Option<usize>,
+    /// The symbols, in the template's order.
+    pub symbols: Vec<Sized>,
+    /// The values that a free joint is put at.
+    pub samples: Vec<f64>,
+}
+
+impl Place {
+    /// The program's unknown for the template's unknown `name`.
+    fn unknown(&self, name: &str) -> Result<usize> {
+        let found = match (name, self.value) {
+            ("c", JointValue::Angle { cosine, .. }) => Some(cosine),
+            ("s", JointValue::Angle { sine, .. }) => Some(sine),
+            ("d", JointValue::Plain(unknown)) => Some(unknown),
+            ("w", _) => self.auxiliary,
+            _ => None,
+        };
+        found.ok_or_else(|| Error::new(ErrorKind::UnknownName, format!("the joint has no unknown `{name}`")))
+    }
+}
+
+/// The charts of `template` at `place`, behind a block's code in `assembler`. All have `guards` before their own.
+pub(super) fn charts(
+    template: &Template,
+    place: &Place,
+    assembler: &Assembler,
+    guards: &[Guard],
+) -> Result<Vec<Chart>> {
+    let mut list = Vec::new();
+    for node in template.tree.walk() {
+        let chart = match &node.outcome {
+            Outcome::Solved(solved) if !solved.inherited => {
+                Builder::new(template, place, assembler, guards).solved(node, solved)?
+            }
+            Outcome::Family(_) => Builder::new(template, place, assembler, guards).family(node)?,
+            _ => None,
+        };
+        list.extend(chart);
+    }
+    Ok(list)
+}
+
+struct Builder<'a> {
+    template: &'a Template,
+    place: &'a Place,
+    assembler: Assembler,
+    guards: Vec<Guard>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(template: &'a Template, place: &'a Place, assembler: &Assembler, guards: &[Guard]) -> Self {
+        Builder { template, place, assembler: assembler.branch(), guards: guards.to_vec() }
+    }
+
+    /// The chart of a stratum with formulas of its own; none when its guards never hold.
+    fn solved(mut self, node: &Node, solved: &Solved) -> Result<Option<Chart>> {
+        let field = node.setting.field()?;
+        let ground = field.ring();
+        let mut denominators = Vec::new();
+        collect_denominators(ground, solved.certified.basis.iter(), &mut denominators);
+        let mut possible = self.near(node)?;
+        for factor in strata::factors(ground, &denominators) {
+            if !matches!(strata::zero_set(&node.setting, &factor)?, ZeroSet::Empty(_)) {
+                possible &= self.guard(ground, &factor, false)?;
+            }
+        }
+        let guard_code = self.assembler.take();
+        let mut steps = Vec::new();
+        let mut values = Vec::new();
+        for stair in &solved.triangular.stairs {
+            self.stair(&node.setting, &solved.triangular.ring, stair, &mut steps, &mut values)?;
+        }
+        self.put(&values, &mut steps)?;
+        Ok(possible.then(|| self.chart(node, guard_code, steps, Vec::new())))
+    }
+
+    /// The chart of a stratum where the joint is free.
+    fn family(mut self, node: &Node) -> Result<Option<Chart>> {
+        let possible = self.near(node)?;
+        let guard_code = self.assembler.take();
+        let (joint, values) = (self.place.value, self.place.samples.clone());
+        let mut steps = vec![Step::Sample { joint, values }];
+        if let Some(unknown) = self.place.auxiliary {
+            steps.insert(0, Step::Set { unknown, value: Operand::Constant(0.0) });
+        }
+        let free = vec![self.place.joint];
+        Ok(possible.then(|| self.chart(node, guard_code, steps, free)))
+    }
+
+    fn chart(
+        self,
+        node: &Node,
+        guard_code: Vec<crate::solver::Instruction>,
+        steps: Vec<Step>,
+        free: Vec<usize>,
+    ) -> Chart {
+        Chart {
+            label: node.label.clone(),
+            guard_code,
+            guards: self.guards,
+            pivot: None,
+            steps,
+            free,
+            open: false,
+            first_branch: 0,
+        }
+    }
+
+    /// Guards for the factors that vanish on a stratum, which are polynomials of the template's own symbols.
+    fn near(&mut self, node: &Node) -> Result<bool> {
+        let field = self.template.tree.setting.field()?;
+        let ground = field.ring();
+        let mut possible = true;
+        for factor in &node.factors {
+            possible &= self.guard(ground, &factor.evaluate(ground)?, true)?;
+        }
+        Ok(possible)
+    }
+
+    /// Adds a guard on a factor, unless numbers decide it now; false when it never holds.
+    fn guard(&mut self, ground: &PolynomialRing<Rationals>, factor: &ParameterPoly, near: bool) -> Result<bool> {
+        let symbols = self.symbols(ground.variables())?;
+        let (values, sizes): (Vec<Operand>, Vec<Operand>) = symbols.iter().map(|s| (s.value, s.size)).unzip();
+        let exponents = |t: &crate::poly::Term<_>| ground.layout().exponents(&t.monomial);
+        let flat: Vec<FlatTerm> =
+            factor.terms().iter().map(|t| FlatTerm::new(t.coefficient.clone(), &exponents(t))).collect();
+        let value = self.assembler.horner(&flat, &values);
+        if let Operand::Constant(value) = value {
+            return Ok((value == 0.0) == near);
+        }
+        let flat: Vec<FlatTerm> =
+            factor.terms().iter().map(|t| FlatTerm::new(t.coefficient.abs(), &exponents(t))).collect();
+        let size = self.assembler.horner(&flat, &sizes);
+        let degree = ground.degree(factor) as i32;
+        let share = if near { CLOSE.powi(degree) / NEAR } else { LOST.powi(degree) / TINY };
+        let scale = self.assembler.mul(Operand::Constant(share), size);
+        self.guards.push(Guard { text: ground.format(factor, Style::Text), value, scale, near });
+        Ok(true)
+    }
+
+    fn symbols(&self, names: &[String]) -> Result<Vec<Sized>> {
+        let all = self.template.form.symbols();
+        let symbol = |name: &String| {
+            let index = all.iter().position(|symbol| symbol == name);
+            index.map(|index| self.place.symbols[index]).ok_or_else(|| {
+                Error::new(ErrorKind::UnknownName, format!("`{name}` is no symbol of `{}`", self.template.form.name()))
+            })
+        };
+        names.iter().map(symbol).collect()
+    }
+
+    /// One unknown: a step for the auxiliary one, a value to be put for the joint's own.
+    fn stair(
+        &mut self,
+        setting: &Setting,
+        ring: &Unknowns,
+        stair: &Stair,
+        steps: &mut Vec<Step>,
+        values: &mut Vec<(usize, Operand)>,
+    ) -> Result<()> {
+        let unknown = self.place.unknown(&ring.variables()[stair.unknown])?;
+        let mut operands: Vec<Operand> =
+            self.symbols(setting.field()?.ring().variables())?.iter().map(|s| s.value).collect();
+        for name in ring.variables() {
+            let own = self.place.unknown(name)?;
+            let value = values.iter().find(|(unknown, _)| *unknown == own);
+            operands.push(value.map_or(Operand::Unknown(own), |(_, value)| *value));
+        }
+        let parts = ring.coefficients_in(&stair.polynomials[0], stair.unknown);
+        let coefficients: Vec<Operand> = parts
+            .iter()
+            .map(|part| self.assembler.horner(&crate::derive::compile::flatten(ring, part), &operands))
+            .collect();
+        match coefficients.as_slice() {
+            [low, high] => {
+                let top = self.assembler.mul(Operand::Constant(-1.0), *low);
+                values.push((unknown, self.assembler.div(top, *high)));
+            }
+            _ => {
+                let typical = self.typical()?;
+                push_code(steps, &mut self.assembler);
+                steps.push(Step::Roots { unknown, polynomials: vec![coefficients], typical: Some(typical) });
+            }
+        }
+        Ok(())
+    }
+
+    /// The size of the auxiliary unknown: `w` is the other leg of a right-angled triangle, or half the difference of two roots.
+    fn typical(&mut self) -> Result<Operand> {
+        let squares: &[(usize, usize)] = match self.template.form {
+            Form::Quadratic => &[(1, 1), (0, 2)],
+            _ => &[(0, 0), (1, 1)],
+        };
+        let size = |index: usize| self.place.symbols[index].size;
+        let assembler = &mut self.assembler;
+        let sum = squares.iter().fold(Operand::Constant(0.0), |sum, &(i, j)| {
+            let product = assembler.mul(size(i), size(j));
+            assembler.add(sum, product)
+        });
+        Ok(self.assembler.sqrt(sum))
+    }
+
+    /// Puts the joint's values, a cosine and a sine on the circle.
+    fn put(&mut self, values: &[(usize, Operand)], steps: &mut Vec<Step>) -> Result<()> {
+        let value = |unknown: usize| values.iter().find(|(u, _)| *u == unknown).map(|(_, value)| *value);
+        let missing = || Error::new(ErrorKind::Unsupported, "a stair of a template is not linear");
+        let put: Vec<(usize, Operand)> = match self.place.value {
+            JointValue::Angle { cosine, sine } => {
+                let (c, s) = value(cosine).zip(value(sine)).ok_or_else(missing)?;
+                let squares = [self.assembler.mul(c, c), self.assembler.mul(s, s)];
+                let sum = self.assembler.add(squares[0], squares[1]);
+                let length = self.assembler.sqrt(sum);
+                vec![(cosine, self.assembler.div(c, length)), (sine, self.assembler.div(s, length))]
+            }
+            JointValue::Plain(unknown) => vec![(unknown, value(unknown).ok_or_else(missing)?)],
+        };
+        push_code(steps, &mut self.assembler);
+        if let Some(unknown) = self.place.auxiliary
+            && !steps.iter().any(|step| matches!(step, Step::Roots { unknown: w, .. } if *w == unknown))
+        {
+            steps.push(Step::Set { unknown, value: value(unknown).unwrap_or(Operand::Constant(0.0)) });
+        }
+        steps.extend(put.into_iter().map(|(unknown, value)| Step::Set { unknown, value }));
+        Ok(())
+    }
+}
+
+fn push_code(steps: &mut Vec<Step>, assembler: &mut Assembler) {
+    let code = assembler.take();
+    if !code.is_empty() {
+        steps.push(Step::Compute(code));
+    }
+}

@@ -1,0 +1,254 @@
+//! The equations that measure and polish each answer: forward kinematics against the target, with derivatives by the joints.
+//!
+//! The frame of each joint is carried along the chain (RH0 2-20); column j of the Jacobian is the twist of joint j as the tip feels
+//! it (RH0 2-43): `z x (p - o)` and `z x R` of a revolute joint, `z` and 0 of a prismatic one.
+
+use num_traits::{One, ToPrimitive};
+
+use super::emit::{Emitted, Emitter};
+use super::layout::Layout;
+use crate::derive::assemble::Assembler;
+use crate::derive::closure::{Arithmetic, Mechanism, ScrewJoint};
+use crate::kinematics::{ExactVector, Plane, Task};
+use crate::number::BigRational;
+use crate::solver::{Checks, JointValue, Operand};
+
+type Vector = [Emitted; 3];
+
+/// The checks of a mechanism whose unknowns and parameters stand as `layout` says. `reach` is the size of its positions.
+pub(super) fn checks(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Checks {
+    let mut assembler = Assembler::default();
+    let mut forward = Forward::new(mechanism, layout, &mut assembler);
+    mechanism.joints().iter().enumerate().for_each(|(index, joint)| forward.pass(index, joint));
+    forward.compare(mechanism, reach);
+    let mut checks = forward.checks;
+    checks.code = assembler.take();
+    checks
+}
+
+/// A frame on its way from base to tip.
+struct Forward<'a> {
+    emitter: Emitter<'a>,
+    layout: &'a Layout,
+    /// By columns.
+    rotation: [Vector; 3],
+    position: Vector,
+    /// The twist of each joint passed: its unit axis and, when it turns, a point of it.
+    twists: Vec<(Vector, Option<Vector>)>,
+    /// The sum of the magnitudes of all shifts.
+    shifts: Operand,
+    checks: Checks,
+}
+
+impl<'a> Forward<'a> {
+    fn new(mechanism: &Mechanism, layout: &'a Layout, assembler: &'a mut Assembler) -> Self {
+        let number = |here: bool| Emitted::integer(i32::from(here));
+        Forward {
+            emitter: Emitter(assembler),
+            layout,
+            rotation: std::array::from_fn(|column| std::array::from_fn(|row| number(row == column))),
+            position: std::array::from_fn(|_| number(false)),
+            twists: Vec::with_capacity(mechanism.joints().len()),
+            shifts: Operand::Constant(0.0),
+            checks: Checks { code: Vec::new(), residuals: Vec::new(), scales: Vec::new(), jacobian: Vec::new() },
+        }
+    }
+
+    /// Goes past a joint.
+    fn pass(&mut self, index: usize, joint: &ScrewJoint) {
+        let unit = 1.0 / joint.square.to_f64().unwrap_or(1.0).sqrt();
+        let along = self.turned(&joint.axis);
+        let axis = along.clone().map(|entry| self.times(unit, &entry));
+        match self.layout.joints[index] {
+            JointValue::Plain(unknown) => {
+                let shift = Emitted::Code(Operand::Unknown(unknown));
+                let size = self.emitter.0.abs(Operand::Unknown(unknown));
+                self.shifts = self.emitter.0.add(self.shifts, size);
+                self.position = std::array::from_fn(|k| self.add_product(&self.position[k].clone(), &axis[k], &shift));
+                self.twists.push((axis, None));
+            }
+            JointValue::Angle { cosine, sine } => {
+                let centre = self.moved(&joint.point);
+                self.rotation = self.turn(joint, Operand::Unknown(cosine), Operand::Unknown(sine), unit);
+                let arm = self.turned(&joint.point);
+                self.position = std::array::from_fn(|k| self.emitter.sub(&centre[k], &arm[k]));
+                self.twists.push((axis, Some(centre)));
+            }
+        }
+    }
+
+    /// The rotation behind a joint: the columns of `R (c + s' [w] + (1 - c) w w^T / n)`.
+    fn turn(&mut self, joint: &ScrewJoint, cosine: Operand, sine: Operand, unit: f64) -> [Vector; 3] {
+        let cosine = Emitted::Code(cosine);
+        let sine = self.times(unit, &Emitted::Code(sine));
+        let versine = self.emitter.sub(&Emitted::integer(1), &cosine);
+        let w = &joint.axis;
+        let columns: [Vector; 3] = std::array::from_fn(|column| {
+            std::array::from_fn(|row| {
+                let square = Emitted::Number(&w[row] * &w[column] / &joint.square);
+                let straight = self.emitter.mul(&versine, &square);
+                let turned = if row == column {
+                    cosine.clone()
+                } else {
+                    let other = 3 - row - column;
+                    let sign = if (row + 1) % 3 == column { -BigRational::one() } else { BigRational::one() };
+                    self.emitter.mul(&sine, &Emitted::Number(&w[other] * sign))
+                };
+                self.emitter.add(&turned, &straight)
+            })
+        });
+        columns.map(|column| self.combination(&column))
+    }
+
+    /// `R v` for a vector with emitted coordinates.
+    fn combination(&mut self, v: &Vector) -> Vector {
+        let rotation = self.rotation.clone();
+        std::array::from_fn(|row| {
+            (0..3).fold(Emitted::integer(0), |sum, column| self.add_product(&sum, &rotation[column][row], &v[column]))
+        })
+    }
+
+    fn turned(&mut self, v: &ExactVector) -> Vector {
+        self.combination(&v.each_ref().map(|entry| Emitted::Number(entry.clone())))
+    }
+
+    fn moved(&mut self, point: &ExactVector) -> Vector {
+        let turned = self.turned(point);
+        std::array::from_fn(|k| self.emitter.add(&self.position[k], &turned[k]))
+    }
+
+    fn add_product(&mut self, sum: &Emitted, a: &Emitted, b: &Emitted) -> Emitted {
+        let product = self.emitter.mul(a, b);
+        self.emitter.add(sum, &product)
+    }
+
+    fn times(&mut self, factor: f64, value: &Emitted) -> Emitted {
+        if factor == 1.0 || self.emitter.is_zero(value) {
+            return value.clone();
+        }
+        Emitted::Code(self.emitter.0.mul(Operand::Constant(factor), value.operand()))
+    }
+
+    fn cross(&mut self, a: &Vector, b: &Vector) -> Vector {
+        std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let (left, right) = (self.emitter.mul(&a[i], &b[j]), self.emitter.mul(&a[j], &b[i]));
+            self.emitter.sub(&left, &right)
+        })
+    }
+
+    /// The equations of the task, and of the joints that are given.
+    fn compare(&mut self, mechanism: &Mechanism, reach: f64) {
+        let task = mechanism.task();
+        let tip = self.moved(mechanism.tip_point());
+        let columns: [Vector; 3] =
+            std::array::from_fn(|column| self.turned(&mechanism.tip_rotation().each_ref().map(|row| row[column].clone())));
+        let size = self.emitter.0.add(Operand::Constant(reach), self.shifts);
+        match task {
+            Task::Pose | Task::Position | Task::Ray => self.at(&tip, &[0, 1, 2], 0, size),
+            Task::PlanarPosition { plane } | Task::PlanarPose { plane } => self.at(&tip, &plane.coordinates(), 0, size),
+            Task::Direction | Task::Rotation => {}
+        }
+        match task {
+            Task::Pose => self.oriented(&columns, 3),
+            Task::Rotation => self.oriented(&columns, 0),
+            Task::Ray => self.aimed(mechanism, 3),
+            Task::Direction => self.aimed(mechanism, 0),
+            Task::PlanarPose { plane } => self.tilted(&columns, plane),
+            Task::Position | Task::PlanarPosition { .. } => {}
+        }
+        mechanism.given().iter().for_each(|&joint| self.given(joint));
+    }
+
+    /// `tip - p` in some coordinates, whose parameters stand from `first` on.
+    fn at(&mut self, tip: &Vector, coordinates: &[usize], first: usize, size: Operand) {
+        let twists = self.twists.clone();
+        let columns: Vec<Vector> = twists
+            .iter()
+            .map(|(axis, centre)| match centre {
+                None => axis.clone(),
+                Some(centre) => {
+                    let arm = std::array::from_fn(|k| self.emitter.sub(&tip[k], &centre[k]));
+                    self.cross(axis, &arm)
+                }
+            })
+            .collect();
+        for (index, &k) in coordinates.iter().enumerate() {
+            let row = columns.iter().map(|column| column[k].operand()).collect();
+            self.equation(&tip[k], Operand::Parameter(first + index), size, row);
+        }
+    }
+
+    /// `R - T`, by rows, whose parameters stand from `first` on.
+    fn oriented(&mut self, columns: &[Vector; 3], first: usize) {
+        for (index, column) in columns.iter().enumerate() {
+            let rates = self.rates(column);
+            for k in 0..3 {
+                let row = rates.iter().map(|rate| rate[k].operand()).collect();
+                self.equation(&column[k], Operand::Parameter(first + 3 * k + index), Operand::Constant(1.0), row);
+            }
+        }
+    }
+
+    /// The direction that the tip aims, as a unit vector, against the one asked for.
+    fn aimed(&mut self, mechanism: &Mechanism, first: usize) {
+        let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
+        let unit = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
+        let aim = self.turned(mechanism.aim()).map(|entry| self.times(unit, &entry));
+        let rates = self.rates(&aim);
+        for k in 0..3 {
+            let row = rates.iter().map(|rate| rate[k].operand()).collect();
+            self.equation(&aim[k], Operand::Parameter(first + k), Operand::Constant(1.0), row);
+        }
+    }
+
+    /// The cosine and the sine of the turn about a plane's normal.
+    fn tilted(&mut self, columns: &[Vector; 3], plane: Plane) {
+        let (a, b) = ((plane.normal() + 1) % 3, (plane.normal() + 2) % 3);
+        let rates = self.rates(&columns[a]);
+        for (index, k) in [a, b].into_iter().enumerate() {
+            let row = rates.iter().map(|rate| rate[k].operand()).collect();
+            self.equation(&columns[a][k], Operand::Parameter(2 + index), Operand::Constant(1.0), row);
+        }
+    }
+
+    /// How a direction changes with each joint.
+    fn rates(&mut self, direction: &Vector) -> Vec<Vector> {
+        let twists = self.twists.clone();
+        let rate = |(axis, centre): &(Vector, Option<Vector>)| match centre {
+            Some(_) => self.cross(axis, direction),
+            None => std::array::from_fn(|_| Emitted::integer(0)),
+        };
+        twists.iter().map(rate).collect()
+    }
+
+    /// A given joint is where it is told to be.
+    fn given(&mut self, joint: usize) {
+        let count = self.twists.len();
+        let row = |derivative: Operand| {
+            let mut row = vec![Operand::Constant(0.0); count];
+            row[joint] = derivative;
+            row
+        };
+        let parameters = self.layout.given[joint].clone();
+        match (self.layout.joints[joint], parameters.as_slice()) {
+            (JointValue::Angle { cosine, sine }, &[c, s]) => {
+                let fall = self.emitter.0.mul(Operand::Constant(-1.0), Operand::Unknown(sine));
+                let (one, rise) = (Operand::Constant(1.0), Operand::Unknown(cosine));
+                self.equation(&Emitted::Code(rise), Operand::Parameter(c), one, row(fall));
+                self.equation(&Emitted::Code(Operand::Unknown(sine)), Operand::Parameter(s), one, row(rise));
+            }
+            (JointValue::Plain(unknown), &[d]) => {
+                let value = Emitted::Code(Operand::Unknown(unknown));
+                self.equation(&value, Operand::Parameter(d), Operand::Magnitude, row(Operand::Constant(1.0)));
+            }
+            _ => {}
+        }
+    }
+
+    fn equation(&mut self, value: &Emitted, target: Operand, scale: Operand, row: Vec<Operand>) {
+        self.checks.residuals.push(self.emitter.0.sub(value.operand(), target));
+        self.checks.scales.push(scale);
+        self.checks.jacobian.push(row);
+    }
+}

@@ -1,0 +1,162 @@
+//! Where a program keeps what: inputs, parameters and unknowns of a [`Mechanism`]'s solver ([`Layout`]).
+
+use num_traits::ToPrimitive;
+
+use super::emit::{Emitted, Emitter};
+use crate::derive::assemble::Assembler;
+use crate::derive::closure::{self, Assignment, Mechanism, Target};
+use crate::kinematics::{JointKind, LengthUnit, Task};
+use crate::number::BigRational;
+use crate::solver::{Condition, Input, JointValue, Operand, ParameterRule, Rule, Unit};
+use crate::Result;
+
+/// The names and places of all numbers of a program.
+pub(super) struct Layout {
+    pub inputs: Vec<Input>,
+    pub conditions: Vec<Condition>,
+    pub parameters: Vec<ParameterRule>,
+    pub unknowns: Vec<String>,
+    /// By joint: its unknowns.
+    pub joints: Vec<JointValue>,
+    /// By joint: the parameters that are its value when it is given: a cosine and a sine, or a length.
+    pub given: Vec<Vec<usize>>,
+}
+
+impl Layout {
+    /// The layout for `mechanism` with lengths in `unit`.
+    pub fn new(mechanism: &Mechanism, unit: LengthUnit) -> Self {
+        let mut layout = Layout {
+            inputs: Vec::new(),
+            conditions: Vec::new(),
+            parameters: Vec::new(),
+            unknowns: Vec::new(),
+            joints: Vec::new(),
+            given: vec![Vec::new(); mechanism.joints().len()],
+        };
+        let length = match unit {
+            LengthUnit::Metre => Unit::Metre,
+            LengthUnit::Millimetre => Unit::Millimetre,
+        };
+        layout.target(mechanism, length);
+        for joint in mechanism.joints() {
+            let value = match joint.kind {
+                JointKind::Revolute => JointValue::Angle {
+                    cosine: layout.unknown(&format!("c{}", joint.symbol)),
+                    sine: layout.unknown(&format!("s{}", joint.symbol)),
+                },
+                JointKind::Prismatic => JointValue::Plain(layout.unknown(&format!("d{}", joint.symbol))),
+            };
+            layout.joints.push(value);
+        }
+        for &index in mechanism.given() {
+            let joint = &mechanism.joints()[index];
+            let input = layout.inputs.len();
+            let (unit, rules): (Unit, Vec<(char, Rule)>) = match joint.kind {
+                JointKind::Revolute => (Unit::Radian, vec![('c', Rule::Cosine(input)), ('s', Rule::Sine(input))]),
+                JointKind::Prismatic => (length, vec![('d', Rule::Input(input))]),
+            };
+            layout.inputs.push(Input { name: joint.name.clone(), unit });
+            for (letter, rule) in rules {
+                layout.given[index].push(layout.parameters.len());
+                layout.parameters.push(ParameterRule { name: format!("{letter}{}", joint.symbol), rule });
+            }
+        }
+        layout
+    }
+
+    /// The inputs and parameters of the task.
+    fn target(&mut self, mechanism: &Mechanism, length: Unit) {
+        let names = mechanism.parameters();
+        let planar = matches!(mechanism.task(), Task::PlanarPose { .. });
+        for name in names {
+            let input = self.inputs.len();
+            let rule = match name.as_str() {
+                "cphi" if planar => Rule::Cosine(input),
+                "sphi" if planar => Rule::Sine(input - 1),
+                _ => Rule::Input(input),
+            };
+            match rule {
+                Rule::Sine(_) => {}
+                Rule::Cosine(_) => self.inputs.push(Input { name: "phi".to_owned(), unit: Unit::Radian }),
+                _ => {
+                    let unit = if name.starts_with('p') { length } else { Unit::One };
+                    self.inputs.push(Input { name: name.clone(), unit });
+                }
+            }
+            self.parameters.push(ParameterRule { name, rule });
+        }
+        self.conditions = match mechanism.task() {
+            Task::Pose => vec![Condition::Rotation(3)],
+            Task::Rotation => vec![Condition::Rotation(0)],
+            Task::Ray => vec![Condition::Unit(3)],
+            Task::Direction => vec![Condition::Unit(0)],
+            _ => Vec::new(),
+        };
+    }
+
+    /// A new unknown.
+    pub fn unknown(&mut self, name: &str) -> usize {
+        self.unknowns.push(name.to_owned());
+        self.unknowns.len() - 1
+    }
+
+    /// What relations see of the target and of the joints in `known`; others stay unknown.
+    pub fn assignment(
+        &self,
+        mechanism: &Mechanism,
+        known: &[usize],
+        assembler: &mut Assembler,
+    ) -> Result<Assignment<Emitted>> {
+        let emitter = &mut Emitter(assembler);
+        let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
+        let aim = square.to_f64().unwrap_or(1.0).sqrt();
+        let aimed = match mechanism.task() {
+            Task::Ray => 3..6,
+            Task::Direction => 0..3,
+            _ => 0..0,
+        };
+        let parameter = |index: usize| {
+            let value = Operand::Parameter(index);
+            let factor = Operand::Constant(if aimed.contains(&index) { aim } else { 1.0 });
+            Emitted::Code(emitter.0.mul(factor, value))
+        };
+        let parameters: Vec<Emitted> = (0..mechanism.parameters().len()).map(parameter).collect();
+        let target = Target::new(mechanism, &parameters, emitter)?;
+        let joints = (0..self.joints.len()).map(|joint| {
+            if known.contains(&joint) { self.known(mechanism, joint, emitter) } else { closure::JointValue::Unknown }
+        });
+        Ok(Assignment { joints: joints.collect(), target })
+    }
+
+    /// The values that a joint has in relations: c and s / sqrt n, or d / sqrt n.
+    fn known(&self, mechanism: &Mechanism, joint: usize, emitter: &mut Emitter<'_>) -> closure::JointValue<Emitted> {
+        let square = &mechanism.joints()[joint].square;
+        let factor = Operand::Constant(1.0 / square.to_f64().unwrap_or(1.0).sqrt());
+        let mut scaled = |unknown: usize| Emitted::Code(emitter.0.mul(factor, Operand::Unknown(unknown)));
+        match self.joints[joint] {
+            JointValue::Angle { cosine, sine } => {
+                closure::JointValue::Angle { cosine: Emitted::Code(Operand::Unknown(cosine)), sine: scaled(sine) }
+            }
+            JointValue::Plain(unknown) => closure::JointValue::Length(scaled(unknown)),
+        }
+    }
+
+    /// The same with magnitudes: cosines, sines and rotation entries count as one, lengths as the greatest of them.
+    pub fn sizes(&self, mechanism: &Mechanism, known: &[usize], assembler: &mut Assembler) -> Result<Assignment<Emitted>> {
+        let emitter = &mut super::emit::Sizes(assembler);
+        let size = |input: &str| if input.starts_with('p') { Emitted::Code(Operand::Magnitude) } else { Emitted::integer(1) };
+        let parameters: Vec<Emitted> = mechanism.parameters().iter().map(|name| size(name)).collect();
+        let target = Target::new(mechanism, &parameters, emitter)?;
+        let joints = (0..self.joints.len()).map(|joint| match self.joints[joint] {
+            _ if !known.contains(&joint) => closure::JointValue::Unknown,
+            JointValue::Angle { .. } => {
+                closure::JointValue::Angle { cosine: Emitted::integer(1), sine: Emitted::integer(1) }
+            }
+            JointValue::Plain(unknown) => {
+                closure::JointValue::Length(Emitted::Code(emitter.0.abs(Operand::Unknown(unknown))))
+            }
+        });
+        let joints = joints.collect();
+        Ok(Assignment { joints, target })
+    }
+}

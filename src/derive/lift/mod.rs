@@ -1,0 +1,82 @@
+//! From a plan to a solver: each step's equations become a [`Template`] with free symbols, proved on all strata, and the symbols
+//! become code that computes their values from the target and the joints before.
+
+pub mod certificate;
+mod charts;
+mod checks;
+mod emit;
+mod layout;
+mod program;
+mod shape;
+mod stages;
+mod template;
+
+pub use shape::Shape;
+pub use template::{Form, Template};
+
+use super::closure::{Mechanism, Relation};
+use super::planner::{self, Plan};
+use crate::kinematics::Chain;
+use crate::solver::Program;
+use crate::{Result, Watch};
+
+/// A step of a plan whose equations have been recognised.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lifted {
+    /// The place of the joint.
+    pub joint: usize,
+    /// The equations.
+    pub relations: Vec<Relation>,
+    /// Their shape in the joint.
+    pub shape: Shape,
+}
+
+/// The derivation of a chain's solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derived {
+    /// The chain.
+    pub chain: Chain,
+    /// In which order its joints are found.
+    pub plan: Plan,
+    /// The steps.
+    pub steps: Vec<Lifted>,
+    /// The forms that the steps use, solved.
+    pub templates: Vec<Template>,
+    /// The solver.
+    pub program: Program,
+}
+
+impl Derived {
+    /// Plans, lifts and proves the solver of `chain` for its task.
+    ///
+    /// # Errors
+    /// As [`planner::plan`]; [`crate::ErrorKind::Unsupported`] for a step that no form fits.
+    pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
+        let mechanism = Mechanism::new(chain)?;
+        let plan = planner::plan(&mechanism, watch)?;
+        Derived::of_plan(chain, &mechanism, plan, watch)
+    }
+
+    /// Lifts and proves `plan`, one of `mechanism`, which is that of `chain`.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Certificate`] that names the step when the plan is wrong; [`crate::ErrorKind::Unsupported`] for a step that
+    /// no form fits; what `watch` stops with.
+    pub fn of_plan(chain: &Chain, mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
+        let steps = certificate::prove_plan(mechanism, &plan)?;
+        let forms = Template::needed(&steps);
+        let templates = forms.into_iter().map(|form| Template::derive(form, watch)).collect::<Result<_>>()?;
+        Derived::assemble(chain, mechanism, plan, steps, templates)
+    }
+
+    fn assemble(
+        chain: &Chain,
+        mechanism: &Mechanism,
+        plan: Plan,
+        steps: Vec<Lifted>,
+        templates: Vec<Template>,
+    ) -> Result<Self> {
+        let program = program::compile(chain, mechanism, plan.dimension, &steps, &templates)?;
+        Ok(Derived { chain: chain.clone(), plan, steps, templates, program })
+    }
+}

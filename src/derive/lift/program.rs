@@ -1,0 +1,237 @@
+//! From a plan's steps to a [`Program`]: a block for each joint, the checks behind them.
+
+use num_traits::ToPrimitive;
+
+use super::charts::{Place, Sized, charts};
+use super::checks::checks;
+use super::emit::{Emitted, Emitter, Sizes};
+use super::layout::Layout;
+use super::shape::Shape;
+use super::template::{Form, Template};
+use super::Lifted;
+use crate::derive::assemble::Assembler;
+use crate::derive::closure::{Assignment, Factor, Mechanism, Multilinear, Relation, evaluate};
+use crate::kinematics::{Chain, LengthUnit};
+use crate::number::BigRational;
+use crate::solver::{Block, Chart, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
+use crate::{Error, ErrorKind, Result};
+
+/// A free angle is put at eight places round the circle, none of them one that a solution is likely to have by itself.
+const FIRST_SAMPLE: f64 = 0.4;
+
+/// Two linear equations are nearly dependent when their determinant is below this share of its size.
+const DEPENDENT: f64 = 1e-6;
+
+/// The program of a chain whose plan has been lifted.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for what a program cannot hold.
+pub(super) fn compile(
+    chain: &Chain,
+    mechanism: &Mechanism,
+    dimension: usize,
+    lifted: &[Lifted],
+    templates: &[Template],
+) -> Result<Program> {
+    let mut layout = Layout::new(mechanism, chain.length_unit());
+    let reach = reach(chain);
+    let mut known = mechanism.given().to_vec();
+    let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
+    for step in lifted {
+        let template = template(templates, step.shape.form)?;
+        let second = matches!(step.shape.form, Form::Pair).then(|| self::template(templates, Form::Angle)).transpose()?;
+        let context = Context { mechanism, known: &known, step, reach };
+        blocks.push(context.block(&mut layout, template, second)?);
+        known.push(step.joint);
+    }
+    let program = Program {
+        name: chain.name().to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        checks: checks(mechanism, &layout, reach),
+        joints: joints(chain, &layout),
+        inputs: layout.inputs,
+        conditions: layout.conditions,
+        parameters: layout.parameters,
+        unknowns: layout.unknowns,
+        scale: reach,
+        capacity: (2 * dimension + blocks.len()).min(4096),
+        blocks,
+        preference: None,
+    };
+    program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;
+    Ok(program)
+}
+
+/// The size of the chain's positions; one when it is a point.
+fn reach(chain: &Chain) -> f64 {
+    let first = chain.joints().first().map_or(0.0, |joint| joint.location().coords.norm());
+    let reach = chain.reach() + first;
+    if reach > 0.0 { reach } else { 1.0 }
+}
+
+fn joints(chain: &Chain, layout: &Layout) -> Vec<Joint> {
+    let unit = |value: &JointValue| match (value, chain.length_unit()) {
+        (JointValue::Angle { .. }, _) => Unit::Radian,
+        (JointValue::Plain(_), LengthUnit::Metre) => Unit::Metre,
+        (JointValue::Plain(_), LengthUnit::Millimetre) => Unit::Millimetre,
+    };
+    let joint = |(joint, value): (&crate::kinematics::Joint, &JointValue)| Joint {
+        name: joint.name.clone(),
+        unit: unit(value),
+        value: *value,
+    };
+    chain.joints().iter().zip(&layout.joints).map(joint).collect()
+}
+
+fn template(templates: &[Template], form: Form) -> Result<&Template> {
+    let missing = || Error::new(ErrorKind::Certificate, format!("the template `{}` is missing", form.name()));
+    templates.iter().find(|template| template.form == form).ok_or_else(missing)
+}
+
+/// The block that puts a given joint where the user says.
+fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Block {
+    let unknowns = match layout.joints[joint] {
+        JointValue::Angle { cosine, sine } => vec![cosine, sine],
+        JointValue::Plain(unknown) => vec![unknown],
+    };
+    let values = layout.given[joint].iter().map(|&parameter| Operand::Parameter(parameter));
+    let steps = unknowns.into_iter().zip(values).map(|(unknown, value)| Step::Set { unknown, value }).collect();
+    let label = mechanism.joints()[joint].name.as_str();
+    let chart = Chart {
+        label: "given".to_owned(),
+        guard_code: Vec::new(),
+        guards: Vec::new(),
+        pivot: None,
+        steps,
+        free: Vec::new(),
+        open: false,
+        first_branch: 0,
+    };
+    Block::numbered(label, Vec::new(), vec![chart])
+}
+
+/// A step and what is known when it runs.
+struct Context<'a> {
+    mechanism: &'a Mechanism,
+    known: &'a [usize],
+    step: &'a Lifted,
+    reach: f64,
+}
+
+impl Context<'_> {
+    fn block(&self, layout: &mut Layout, template: &Template, second: Option<&Template>) -> Result<Block> {
+        let joint = self.step.joint;
+        let screw = &self.mechanism.joints()[joint];
+        let auxiliary = match self.step.shape.form {
+            Form::Angle | Form::Quadratic | Form::Pair => Some(layout.unknown(&format!("w{}", screw.symbol))),
+            Form::Turn | Form::Linear => None,
+        };
+        let mut assembler = Assembler::default();
+        let symbols = self.symbols(layout, &mut assembler)?;
+        let code = assembler.take();
+        let place = |symbols: Vec<Sized>| Place {
+            joint,
+            value: layout.joints[joint],
+            auxiliary,
+            symbols,
+            samples: self.samples(layout.joints[joint]),
+        };
+        let Some(single) = second else {
+            let list = charts(template, &place(symbols), &assembler, &[])?;
+            return Ok(Block::numbered(&screw.name, code, list));
+        };
+        let [a, b, e, f, x, y] = symbols[..] else {
+            return Err(Error::new(ErrorKind::Unsupported, "a pair has six symbols"));
+        };
+        let singles = [vec![a, b, x.negated(&mut assembler)], vec![e, f, y.negated(&mut assembler)]];
+        let guard = dependent([a, b, e, f], &mut assembler);
+        let code = [code, assembler.take()].concat();
+        let mut list = charts(template, &place(symbols), &assembler, &[])?;
+        for symbols in singles {
+            list.extend(charts(single, &place(symbols), &assembler, std::slice::from_ref(&guard))?);
+        }
+        Ok(Block::numbered(&screw.name, code, list))
+    }
+
+    fn samples(&self, value: JointValue) -> Vec<f64> {
+        match value {
+            JointValue::Angle { .. } => {
+                (0..8).map(|k| FIRST_SAMPLE + f64::from(k - 4) * std::f64::consts::FRAC_PI_4).collect()
+            }
+            JointValue::Plain(_) => (0..5).map(|k| self.reach * (f64::from(k - 2) / 2.0 + 0.1)).collect(),
+        }
+    }
+
+    /// The symbols of the step's form. Their sizes matter only where a guard asks for them.
+    fn symbols(&self, layout: &Layout, assembler: &mut Assembler) -> Result<Vec<Sized>> {
+        let assignment = layout.assignment(self.mechanism, self.known, assembler)?;
+        let mut equations = Vec::new();
+        for relation in &self.step.relations {
+            equations.push(evaluate(self.mechanism, relation, &assignment, &mut Emitter(assembler))?);
+        }
+        let values = self.combine(&equations, assembler);
+        if values.first().is_some_and(is_number) && self.step.shape.form != Form::Pair {
+            return Ok(values.into_iter().map(|value| Sized { value, size: Operand::Constant(1.0) }).collect());
+        }
+        let assignment = layout.sizes(self.mechanism, self.known, assembler)?;
+        let sizes = self.sizes(&assignment, assembler)?;
+        Ok(values.into_iter().zip(sizes).map(|(value, size)| Sized { value, size }).collect())
+    }
+
+    fn sizes(&self, assignment: &Assignment<Emitted>, assembler: &mut Assembler) -> Result<Vec<Operand>> {
+        let mut equations = Vec::new();
+        for relation in &self.step.relations {
+            let relation: &Relation = relation;
+            equations.push(evaluate(self.mechanism, relation, assignment, &mut Sizes(assembler))?);
+        }
+        Ok(self.combine(&equations, assembler).into_iter().map(|size| assembler.abs(size)).collect())
+    }
+
+    /// The symbols from the equations' coefficients. With the true sine `s = sqrt(n) s'`.
+    fn combine(&self, equations: &[Multilinear<Emitted>], assembler: &mut Assembler) -> Vec<Operand> {
+        let joint = self.step.joint;
+        let square = self.mechanism.joints()[joint].square.to_f64().unwrap_or(1.0);
+        let root = square.sqrt();
+        let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors) {
+            None => Operand::Constant(0.0),
+            Some(value) => assembler.mul(Operand::Constant(factor), value.operand()),
+        };
+        let (c, s, d, dd) =
+            ([Factor::Cosine(joint)], [Factor::Sine(joint)], [Factor::Length(joint)], [Factor::LengthSquared(joint)]);
+        match self.step.shape {
+            Shape { form: Form::Angle, .. } => vec![take(0, &c, 1.0), take(0, &s, 1.0 / root), take(0, &[], 1.0)],
+            Shape { form: Form::Turn, ref ratio } => {
+                let ratio = ratio.as_ref().and_then(BigRational::to_f64).unwrap_or(1.0);
+                vec![take(0, &c, 1.0), take(0, &s, -1.0 / root), take(0, &[], -1.0), take(1, &[], -root / ratio)]
+            }
+            Shape { form: Form::Pair, .. } => vec![
+                take(0, &c, 1.0),
+                take(0, &s, 1.0 / root),
+                take(1, &c, 1.0),
+                take(1, &s, 1.0 / root),
+                take(0, &[], -1.0),
+                take(1, &[], -1.0),
+            ],
+            Shape { form: Form::Linear, .. } => vec![take(0, &d, 1.0 / root), take(0, &[], 1.0)],
+            Shape { form: Form::Quadratic, .. } => {
+                vec![take(0, &dd, 1.0 / square), take(0, &d, 0.5 / root), take(0, &[], 1.0)]
+            }
+        }
+    }
+}
+
+/// The guard that two linear equations are nearly dependent, so that each is solved alone as well: answers are measured in the end.
+fn dependent([a, b, e, f]: [Sized; 4], assembler: &mut Assembler) -> Guard {
+    let mut determinant = |part: fn(&Sized) -> Operand, sum: bool| {
+        let (left, right) = (assembler.mul(part(&a), part(&f)), assembler.mul(part(&b), part(&e)));
+        if sum { assembler.add(left, right) } else { assembler.sub(left, right) }
+    };
+    let (value, size) = (determinant(|s| s.value, false), determinant(|s| s.size, true));
+    let scale = assembler.mul(Operand::Constant(DEPENDENT / NEAR), size);
+    Guard { text: "A*F - B*E".to_owned(), value, scale, near: true }
+}
+
+/// Whether it is a number other than zero.
+fn is_number(value: &Operand) -> bool {
+    matches!(value, Operand::Constant(value) if *value != 0.0)
+}
