@@ -18,6 +18,7 @@ mod vector;
 pub use arithmetic::{Arithmetic, Exact, Factor, Factors, Modular, Multilinear};
 pub use evaluate::{Assignment, Image, JointValue, Target, Turn, Vector, carry, evaluate, evaluate_side};
 pub(super) use feature::common_point_of as common_point;
+pub(crate) use explain::show;
 pub use mechanism::{Mechanism, ScrewJoint};
 pub use prove::prove;
 pub use relation::{Letter, Measure, Object, Relation, Word};
