@@ -3,6 +3,7 @@
 mod certificate;
 mod chains;
 mod ends;
+mod families;
 mod lift;
 mod closure;
 mod random_chains;

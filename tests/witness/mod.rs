@@ -2,6 +2,7 @@
 
 mod chain;
 mod chains;
+mod derived;
 mod screws;
 
 use groebot::Watch;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::model::Model;
+use super::model::{Model, RESIDUAL};
 use super::singular::{least_squares, null_vector};
 
 /// A family's own configurations are at most this ordinary.
@@ -17,6 +17,8 @@ const STEP: f64 = 0.2;
 const CORRECTIONS: usize = 20;
 /// Singular values below this share of the largest are taken as zero.
 const RANK: f64 = 1e-8;
+/// A way between two joint vectors bends by at most this share of its length, or of the square of its length when that is more.
+const STRAIGHT: f64 = 1e-2;
 /// How near a path must come to the answer it leads to.
 const ARRIVED: f64 = 1e-6;
 
@@ -32,7 +34,19 @@ impl Model<'_> {
             moved[joint] += PROBE * share * self.unit(joint);
         }
         let across = |_: &[f64]| DMatrix::from_row_slice(1, tangent.len(), tangent.as_slice());
-        self.corrected(target, moved, &self.unknown, &across).is_some()
+        self.corrected(target, moved, &self.unknown, &across, MEMBER).is_some()
+    }
+
+    /// Whether joint vectors next to the straight way from `a` to `b` reach the target.
+    pub fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        let none = |_: &[f64]| DMatrix::zeros(0, self.unknown.len());
+        let width = self.distance(a, b);
+        [0.25, 0.5, 0.75].iter().all(|share| {
+            let point = |joint: usize| a[joint] + share * self.difference(joint, b[joint], a[joint]);
+            let between: Vec<f64> = (0..a.len()).map(point).collect();
+            let found = self.corrected(target, between.clone(), &self.unknown, &none, RESIDUAL);
+            found.is_some_and(|found| self.distance(&found, &between) <= width * width.max(STRAIGHT))
+        })
     }
 
     /// Whether the free joints of `answer` can be led from their values in `q` to those in `answer`, either way round, while the
@@ -59,7 +73,7 @@ impl Model<'_> {
             for (&joint, way) in free.iter().zip(way) {
                 at[joint] = q[joint] + way * step as f64 / steps;
             }
-            self.corrected(target, at, &others, &none)
+            self.corrected(target, at, &others, &none, MEMBER)
         })
     }
 
@@ -71,10 +85,11 @@ impl Model<'_> {
         mut q: Vec<f64>,
         moving: &[usize],
         across: &dyn Fn(&[f64]) -> DMatrix<f64>,
+        tolerance: f64,
     ) -> Option<Vec<f64>> {
         let fixed = across(&q);
         for _ in 0..CORRECTIONS {
-            if self.residual(target, &q) <= MEMBER {
+            if self.residual(target, &q) <= tolerance {
                 break;
             }
             let slopes = self.slopes(target, &q, moving);
@@ -88,7 +103,7 @@ impl Model<'_> {
                 q[joint] -= step * self.unit(joint);
             }
         }
-        (self.residual(target, &q) <= MEMBER).then_some(q)
+        (self.residual(target, &q) <= tolerance).then_some(q)
     }
 
     /// Central differences of the misses by the joints `moving` in their units.

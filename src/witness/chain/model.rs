@@ -200,21 +200,13 @@ impl<'a> Model<'a> {
     }
 
     /// Whether `b` is the same answer as `a`: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), and then
-    /// the target must be reached all the way between the two.
+    /// a path must lead from one to the other that reaches the target all the way.
     pub fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let (distance, sigma) = (self.distance(a, b), self.sigma(a));
         if sigma > ORDINARY {
             return distance <= 1e-9;
         }
-        distance <= (1e-13 / sigma).max(1e-7) && self.reaches_between(target, a, b)
-    }
-
-    fn reaches_between(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
-        [0.25, 0.5, 0.75].iter().all(|share| {
-            let point = |joint: usize| a[joint] + share * self.difference(joint, b[joint], a[joint]);
-            let q: Vec<f64> = (0..a.len()).map(point).collect();
-            self.residual(target, &q) <= RESIDUAL
-        })
+        distance <= (1e-13 / sigma).max(1e-7) && self.is_joined(target, a, b)
     }
 
     /// `q` with every angle in (-pi, pi].
