@@ -7,8 +7,10 @@ use crate::{Error, ErrorKind, Result, roots};
 
 /// The most answers of a program.
 const MOST_ANSWERS: usize = 4096;
-/// The most blocks, and the most unknowns.
-const MOST: usize = 256;
+/// The most blocks.
+const MOST_BLOCKS: usize = 64;
+/// The most unknowns.
+const MOST_UNKNOWNS: usize = 1024;
 /// Branch numbers stay below this: a double holds them all.
 const MOST_BRANCHES: usize = 1 << 53;
 
@@ -39,8 +41,8 @@ impl Program {
         };
         ensure(word(&self.name), "name: letters, digits and `_` are allowed")?;
         ensure((1..=MAX_JOINTS).contains(&self.joints.len()), &format!("joints: 1 to {MAX_JOINTS} are allowed"))?;
-        ensure(self.unknowns.len() <= MOST, &format!("unknowns: at most {MOST} are allowed"))?;
-        ensure((1..=MOST).contains(&self.blocks.len()), &format!("blocks: 1 to {MOST} are allowed"))?;
+        ensure(self.unknowns.len() <= MOST_UNKNOWNS, &format!("unknowns: at most {MOST_UNKNOWNS} are allowed"))?;
+        ensure((1..=MOST_BLOCKS).contains(&self.blocks.len()), &format!("blocks: 1 to {MOST_BLOCKS} are allowed"))?;
         ensure(self.scale.is_finite() && self.scale > 0.0, "scale: a positive number is allowed")?;
         for joint in &self.joints {
             ensure(self.has_unknowns(joint.value), &format!("joint `{}`", joint.name))?;
