@@ -6,6 +6,7 @@ mod ends;
 mod families;
 mod lift;
 mod closure;
+mod planner;
 mod random_chains;
 mod renamed;
 mod seed;

@@ -193,7 +193,7 @@ enum Rotation<'a, V> {
     /// About an axis vector, by the angle of a joint; the other way round when inverse.
     Axis {
         axis: &'a ExactVector,
-        square: &'a BigRational,
+        dual: &'a ExactVector,
         joint: usize,
         value: &'a JointValue<V>,
         inverse: bool,
@@ -322,8 +322,8 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         let (screw, value) = (&self.mechanism.joints()[joint], &self.assignment.joints[joint]);
         if screw.is_revolute() {
             let centre = self.numbers(&screw.point);
-            let (axis, square) = (&screw.axis, &screw.square);
-            let rotation = Rotation::Axis { axis, square, joint, value, inverse };
+            let (axis, dual) = (&screw.axis, &screw.dual);
+            let rotation = Rotation::Axis { axis, dual, joint, value, inverse };
             return Motion { before: centre.clone(), after: centre, rotation };
         }
         let axis = self.numbers(&screw.axis);
@@ -404,8 +404,8 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         let mechanism = self.mechanism;
         match *rotation {
             Rotation::Identity => v.clone(),
-            Rotation::Axis { axis, square, joint, value, inverse } => {
-                let [along, across, third] = self.split(axis, square, v);
+            Rotation::Axis { axis, dual, joint, value, inverse } => {
+                let [along, across, third] = self.split(axis, dual, v);
                 let third = if inverse { third.map(|entry| entry.neg(self.arithmetic)) } else { third };
                 let turned = self.combine(joint, value, &across, &third);
                 self.plus(&along, &turned)
@@ -441,8 +441,8 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
     }
 
     /// The part of `v` along the axis, the part across it, and w cross v.
-    fn split(&mut self, axis: &ExactVector, square: &BigRational, v: &Vector<A::Value>) -> [Vector<A::Value>; 3] {
-        let share = self.dot_number(&vector::scale(axis, &square.recip()), v);
+    fn split(&mut self, axis: &ExactVector, dual: &ExactVector, v: &Vector<A::Value>) -> [Vector<A::Value>; 3] {
+        let share = self.dot_number(dual, v);
         let along = axis.each_ref().map(|entry| share.scale(entry, self.arithmetic));
         let across = self.minus(v, &along);
         let third = std::array::from_fn(|k| {

@@ -9,7 +9,7 @@ use crate::derive::closure::{Arithmetic, Factor, Factors, Mechanism, Modular, Mu
 use crate::number::{Ring, Zp};
 
 /// So many targets.
-const SPECIMENS: usize = 3;
+pub const SPECIMENS: usize = 3;
 
 /// A coefficient at all targets.
 pub type Sample = [u64; SPECIMENS];
@@ -104,9 +104,9 @@ fn gather(values: &[Multilinear<u64>]) -> Sight {
     sight
 }
 
-/// The coefficient of a single factor.
-pub fn coefficient(sight: &Sight, factor: Factor) -> Sample {
-    let found = sight.iter().find(|(product, _)| product.list() == [factor]);
+/// The coefficient of a product.
+pub fn coefficient(sight: &Sight, factors: &[Factor]) -> Sample {
+    let found = sight.iter().find(|(product, _)| product.list() == factors);
     found.map_or([0; SPECIMENS], |(_, sample)| *sample)
 }
 
