@@ -54,7 +54,7 @@ fn derive(c: &mut Criterion) {
     let mut group = c.benchmark_group("derive");
     group.sample_size(10);
     for name in MECHANISMS {
-        let system = source(name).system;
+        let system = source(name).system.unwrap();
         group.bench_function(name, |b| b.iter(|| Derivation::new(black_box(system.clone()), &Watch::none())));
     }
     group.finish();
@@ -64,7 +64,7 @@ fn prove(c: &mut Criterion) {
     let mut group = c.benchmark_group("prove");
     group.sample_size(10);
     for name in MECHANISMS {
-        let system = source(name).system;
+        let system = source(name).system.unwrap();
         let derivation = Derivation::new(system.clone(), &Watch::none()).expect("it derives");
         let text = certificate::write(&derivation).expect("it prints");
         group.bench_function(name, |b| b.iter(|| certificate::prove(black_box(&system), &text)));
@@ -75,7 +75,7 @@ fn prove(c: &mut Criterion) {
 fn solve(c: &mut Criterion) {
     let mut group = c.benchmark_group("solve");
     for name in MECHANISMS {
-        let program = Derivation::new(source(name).system, &Watch::none()).expect("it derives").program;
+        let program = Derivation::new(source(name).system.unwrap(), &Watch::none()).expect("it derives").program;
         group.bench_function(name, |b| b.iter(|| program.solve(black_box(&[60.0, 150.0]))));
     }
     group.finish();

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::console::{self, Paint};
-use super::derive::refuse_failures;
+use super::derive::{check, refuse_failures};
 use super::ends::EndArguments;
 use super::files::{CHECKS, is_ours, printed_solvers};
 use super::{Halt, Outcome};
-use crate::derive::{Derivation, Source, certificate};
+use crate::derive::lift::Derived;
+use crate::derive::{Derivation, Proved, Source};
 use crate::document::read_text;
 use crate::solver::Program;
-use crate::witness::{Check, Options};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest stage file that is read, in bytes.
@@ -57,18 +57,39 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// The derivation that the stored certificate proves.
-fn reprove(folder: &Path, source: &Source) -> Result<Derivation> {
+fn reprove(folder: &Path, source: &Source) -> Result<Proved> {
     let path = folder.join(CERTIFICATE);
     let text = read_text(&path, LIMIT)?;
-    certificate::prove(&source.system, &text).map_err(|error| error.in_file(&path))
+    Proved::again(source, &text).map_err(|error| error.in_file(&path))
 }
 
 fn read(source: &Source) -> Finding {
-    let verdict = Ok(format!("{} equations in {}", source.system.equations.len(), source.system.order.join(", ")));
-    Finding { what: source.name.to_owned(), verdict }
+    let text = match (source.chain_by_steps(), &source.system) {
+        (None, Some(system)) => format!("{} equations in {}", system.equations.len(), system.order.join(", ")),
+        (chain, _) => format!("a chain of {} joints", chain.map_or(0, |chain| chain.joints().len())),
+    };
+    Finding { what: source.name.to_owned(), verdict: Ok(text) }
 }
 
-fn proved(derivation: &Derivation) -> String {
+fn proved(proved: &Proved) -> String {
+    match proved {
+        Proved::Equations(derivation) => proved_equations(derivation),
+        Proved::Chain(derived) => proved_chain(derived),
+    }
+}
+
+fn proved_chain(derived: &Derived) -> String {
+    let relations: usize = derived.steps.iter().map(|step| step.relations.len()).sum();
+    let bases: usize =
+        derived.templates.iter().flat_map(|template| template.tree.walk()).map(|node| node.proofs().len()).sum();
+    format!(
+        "{} steps proved again: {relations} equations follow from the loop, {bases} bases of {} forms",
+        derived.steps.len(),
+        derived.templates.len()
+    )
+}
+
+fn proved_equations(derivation: &Derivation) -> String {
     let trees = derivation.trees();
     let nodes: Vec<_> = trees.iter().flat_map(|(_, node)| node.walk()).collect();
     let proofs: Vec<_> = nodes.iter().flat_map(|node| node.proofs()).map(|(_, certified)| certified.proof).collect();
@@ -81,16 +102,16 @@ fn proved(derivation: &Derivation) -> String {
 }
 
 /// Compares every stage file with what the proved derivation says.
-fn stored_stages(folder: &Path, derivation: &Derivation) -> Result<Vec<Finding>> {
+fn stored_stages(folder: &Path, derivation: &Proved) -> Result<Vec<Finding>> {
     let mut findings = Vec::new();
     let stages = derivation.stage_files()?;
-    for (name, bytes) in stages.into_iter().chain(printed_solvers(&derivation.program)) {
+    for (name, bytes) in stages.into_iter().chain(printed_solvers(derivation.program())) {
         if name == CERTIFICATE || !is_ours(folder, &name) {
             continue;
         }
         let path = folder.join(&name);
         let verdict = read_text(&path, LIMIT).and_then(|stored| match name.as_str() {
-            PROGRAM => same_program(&stored, &derivation.program),
+            PROGRAM => same_program(&stored, derivation.program()),
             _ => same_text(&stored, &String::from_utf8_lossy(&bytes)),
         });
         findings.push(Finding { what: name, verdict: verdict.map_err(|error| error.in_file(&path)) });
@@ -99,8 +120,8 @@ fn stored_stages(folder: &Path, derivation: &Derivation) -> Result<Vec<Finding>>
 }
 
 /// Runs the numeric checks again and looks at what the stored ones say.
-fn numeric_checks(folder: &Path, source: &Source, derivation: &Derivation) -> Result<Finding> {
-    let checked = Check::run(source, &derivation.program, &Options::default(), &Watch::none())?;
+fn numeric_checks(folder: &Path, source: &Source, derivation: &Proved) -> Result<Finding> {
+    let checked = check(source, derivation, &Watch::none())?;
     let path = folder.join(CHECKS);
     let stored = read_text(&path, LIMIT).and_then(|stored| same_table(&stored, &checked.to_csv()));
     let verdict = refuse_failures(&checked).and(stored.map_err(|error| error.in_file(&path)));

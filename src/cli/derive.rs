@@ -4,12 +4,13 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use super::Outcome;
+use super::chain_check;
 use super::console::{self, Paint};
 use super::ends::EndArguments;
 use super::files::{assemble_files, destination};
 use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
-use crate::derive::{Derivation, Source};
+use crate::derive::{Proved, Source};
 use crate::files::write_folder_atomically;
 use crate::witness::{self, Check, Options};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -54,7 +55,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     clock.lap("read");
     let derivation = derive(&source, &session.watch)?;
     clock.lap("derive and prove");
-    let checked = Check::run(&source, &derivation.program, &Options::default(), &session.watch)?;
+    let checked = check(&source, &derivation, &session.watch)?;
     refuse_failures(&checked)?;
     clock.lap("check numerically");
     let files = assemble_files(&source, &derivation, &checked, &folder)?;
@@ -67,7 +68,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     let told = Report {
-        source: &source,
         derivation: &derivation,
         checked: &checked,
         folder: &folder,
@@ -77,8 +77,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
     console::print(&report(&told, Paint::of(&std::io::stdout()))?)
 }
 
-fn derive(source: &Source, watch: &Watch) -> Result<Derivation> {
-    Derivation::new(source.system.clone(), watch).map_err(|error| match error.kind() {
+/// The numeric checks of a derivation.
+///
+/// # Errors
+/// As [`Check::run`].
+pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness::Report> {
+    match proved {
+        Proved::Equations(derivation) => Check::run(source, &derivation.program, &Options::default(), watch),
+        Proved::Chain(derived) => chain_check::check(derived, watch),
+    }
+}
+
+fn derive(source: &Source, watch: &Watch) -> Result<Proved> {
+    Proved::of(source, watch).map_err(|error| match error.kind() {
         ErrorKind::Cancelled => error,
         _ => error.in_file(&source.path),
     })

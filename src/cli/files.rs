@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::codegen;
 use crate::derive::input::INPUT_NAMES;
-use crate::derive::{Derivation, Source, stages};
+use crate::derive::{Proved, Source, stages};
 use crate::solver::Program;
 use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
@@ -45,10 +45,10 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
 /// does not hold it yet.
 ///
 /// # Errors
-/// As [`Derivation::stage_files`].
+/// As [`Proved::stage_files`].
 pub fn assemble_files(
     source: &Source,
-    derivation: &Derivation,
+    derivation: &Proved,
     checked: &Report,
     folder: &Path,
 ) -> Result<Vec<(String, Vec<u8>)>> {
@@ -58,7 +58,7 @@ pub fn assemble_files(
     }
     files.extend(source.task_file());
     files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
-    files.extend(printed_solvers(&derivation.program));
+    files.extend(printed_solvers(derivation.program()));
     files.push((CHECKS.to_owned(), checked.to_csv().into_bytes()));
     files.sort_by(|a, b| a.0.cmp(&b.0));
     Ok(files)

@@ -5,12 +5,13 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::algebra::{divisor, readable, with_decimals, wrap};
+use super::chain_report;
 use super::console::Paint;
 use super::strata;
 use crate::Result;
 use crate::derive::setting::{Poly, Unknowns};
 use crate::derive::triangular::{Stair, Triangular};
-use crate::derive::{Derivation, JointKindUnknown, ParameterSource, Quantity, Root, Source, System};
+use crate::derive::{Derivation, JointKindUnknown, Proved, ParameterSource, Quantity, Root, System};
 use crate::groebner::Basis;
 use crate::witness;
 
@@ -19,10 +20,8 @@ const WIDTH: usize = 100;
 
 /// What there is to tell.
 pub struct Report<'a> {
-    /// The input.
-    pub source: &'a Source,
     /// What came of it.
-    pub derivation: &'a Derivation,
+    pub derivation: &'a Proved,
     /// What the numeric witnesses found.
     pub checked: &'a witness::Report,
     /// Where the files are.
@@ -38,21 +37,33 @@ pub struct Report<'a> {
 /// # Errors
 /// When a setting's field cannot be built: never for a derivation that was made by this crate.
 pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
-    let (system, derivation) = (&told.source.system, told.derivation);
     let mut page = Page { text: String::new(), paint };
-    introduce(&mut page, system);
-    equations(&mut page, system);
-    if let Some(solved) = derivation.requested.solved() {
-        basis(&mut page, system, &solved.triangular);
-        way(&mut page, system, &solved.triangular);
+    match told.derivation {
+        Proved::Equations(derivation) => block(&mut page, derivation)?,
+        Proved::Chain(derived) => {
+            page.text += &format!("{}\n", derived.chain);
+            chain_report::describe(&mut page, derived);
+        }
     }
-    run_time(&mut page, derivation)?;
-    count(&mut page, derivation);
-    strata::describe(&mut page, derivation);
-    proofs(&mut page, derivation);
     checks(&mut page, told.checked);
     written(&mut page, told);
     Ok(page.text)
+}
+
+/// A derivation of equations that are solved as one block.
+fn block(page: &mut Page, derivation: &Derivation) -> Result<()> {
+    let system = &derivation.system;
+    introduce(page, system);
+    equations(page, system);
+    if let Some(solved) = derivation.requested.solved() {
+        basis(page, system, &solved.triangular);
+        way(page, system, &solved.triangular);
+    }
+    run_time(page, derivation)?;
+    count(page, derivation);
+    strata::describe(page, derivation);
+    proofs(page, derivation);
+    Ok(())
 }
 
 /// Headings and the lines under them.
@@ -280,7 +291,7 @@ fn written(page: &mut Page, told: &Report<'_>) {
         let _ = write!(times, "{}{stage} {}", if times.is_empty() { "" } else { ", " }, duration(*time));
     }
     page.line(&times);
-    let names: Vec<&str> = told.source.system.inputs.iter().map(|input| input.name.as_str()).collect();
+    let names: Vec<&str> = told.derivation.program().inputs.iter().map(|input| input.name.as_str()).collect();
     page.heading("Next");
     page.line(&format!("groebot solve {} --target {}", folder.display(), names.join(",")));
 }

@@ -117,8 +117,8 @@ pub struct Source {
     pub text: String,
     /// The chain, when it describes one.
     pub chain: Option<Chain>,
-    /// The equations.
-    pub system: System,
+    /// The equations; none for a chain whose task is only solved joint by joint.
+    pub system: Option<System>,
     /// What was asked of it, when not all by default.
     pub ends: Ends,
 }
@@ -143,8 +143,8 @@ impl Source {
         let ends = ends.or(&input.ends);
         let InputFile { path, name, text, description, .. } = input;
         let system = match (&chain, description) {
-            (Some(chain), _) => formulate(chain).map_err(|error| error.in_file(&path))?,
-            (None, Description::System(system)) => system,
+            (Some(chain), _) => formulated(chain).map_err(|error| error.in_file(&path))?,
+            (None, Description::System(system)) => Some(system),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
         Ok(Source { path, name, text, chain, system, ends })
@@ -153,6 +153,21 @@ impl Source {
     /// The file that keeps in a derivation's folder what was asked of the input: its name, [`TASK_NAME`], and its text.
     pub fn task_file(&self) -> Option<(String, Vec<u8>)> {
         (self.ends != Ends::default()).then(|| (TASK_NAME.to_owned(), self.ends.to_toml().into_bytes()))
+    }
+
+    /// The chain, when it is to be solved joint by joint: it asks for no order of unknowns and no choice of root, which belong to
+    /// equations that are solved together.
+    pub fn chain_by_steps(&self) -> Option<&Chain> {
+        self.chain.as_ref().filter(|chain| chain.order().is_none() && chain.choice().is_none())
+    }
+}
+
+/// The equations of `chain`, where its task has any that are solved together.
+fn formulated(chain: &Chain) -> Result<Option<System>> {
+    match formulate(chain) {
+        Ok(system) => Ok(Some(system)),
+        Err(error) if error.kind() == ErrorKind::Unsupported => Ok(None),
+        Err(error) => Err(error),
     }
 }
 

@@ -17,6 +17,7 @@ pub mod lift;
 pub mod plan;
 pub mod planner;
 mod print;
+pub mod proved;
 mod prover;
 mod radicals;
 pub mod setting;
@@ -33,6 +34,8 @@ pub use ends::Ends;
 pub use formulate::formulate;
 pub use grow::{derive_tree, describe};
 pub use input::{Description, InputFile, Source};
+pub use input::{Description, Ends, InputFile, Source};
+pub use proved::Proved;
 pub use prover::Orders;
 pub use system::{
     Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,

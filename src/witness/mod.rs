@@ -72,7 +72,7 @@ impl<'a> Check<'a> {
     /// [`ErrorKind::Unsupported`] when no reachable target is found; what `watch` stops with. Failed checks are in the report.
     pub fn run(source: &Source, program: &Program, options: &Options, watch: &Watch) -> Result<Report> {
         program.validate()?;
-        let system = &source.system;
+        let system = equations(source)?;
         if program.inputs.len() != system.inputs.len() || program.joints.len() != system.joints.len() {
             let text = "the program has other inputs or joints than its source; derive it again";
             return Err(Error::new(ErrorKind::BadValue, text));
@@ -139,7 +139,7 @@ impl<'a> Check<'a> {
             faults.extend((!found).then_some(Fault::Missing));
         }
         if number < self.options.exact {
-            row.exact = exact::count(&self.source.system, &row.target, self.watch)?;
+            row.exact = exact::count(self.model.system, &row.target, self.watch)?;
             let wrong = row.exact.is_some_and(|exact| exact != answers.len()) && !self.is_tie(row, answers);
             faults.extend(wrong.then_some(Fault::Count));
         }
@@ -264,4 +264,10 @@ impl<'a> Check<'a> {
         let theirs = |answer: &Solution| !ordinary(&answer.q) || found.iter().any(|q| near(q, &answer.q));
         found.iter().all(ours) && answers.iter().all(theirs)
     }
+}
+
+/// The equations of a source that is solved as one block.
+fn equations(source: &Source) -> Result<&crate::derive::System> {
+    let text = "the source has no equations to be solved together";
+    source.system.as_ref().ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(&source.path))
 }

@@ -21,7 +21,7 @@ fn folder(name: &str) -> PathBuf {
 fn committed_files_are_what_a_derivation_writes() {
     for name in MECHANISMS {
         let source = Source::read(&folder(name)).unwrap();
-        let derivation = Derivation::new(source.system, &Watch::none()).unwrap();
+        let derivation = Derivation::new(source.system.clone().unwrap(), &Watch::none()).unwrap();
         let mut files = derivation.stage_files().unwrap();
         files.push(("5_solver.rs".to_owned(), codegen::rust::emit(&derivation.program).into_bytes()));
         files.push(("5_solver.c".to_owned(), codegen::c99::emit(&derivation.program).into_bytes()));

@@ -36,7 +36,7 @@ fn assert_basis(node: &Node, expected: &[String]) {
 fn generic_bases_are_singular_s() {
     for (mechanism, corpus) in [("nao_leg_sagittal", "nao_leg-lex-q_px_pz"), ("nao_arm_planar", "nao_arm-lex-q_py_pz")]
     {
-        assert_basis(&derive(source(mechanism).system).requested, &singular(corpus));
+        assert_basis(&derive(source(mechanism).system.unwrap()).requested, &singular(corpus));
     }
     assert_basis(&derive(symbolic_leg()).requested, &singular("nao_leg_symbolic-lex-q_px_pz_l1_l2"));
     assert_basis(&derive(super::seed::symbolic_arm()).requested, &singular("nao_arm_symbolic-lex-q_py_pz_l1_l2"));
@@ -44,15 +44,15 @@ fn generic_bases_are_singular_s() {
 
 #[test]
 fn the_stratum_where_the_source_divides_by_zero_is_derived() {
-    let leg = derive(source("nao_leg_sagittal").system);
+    let leg = derive(source("nao_leg_sagittal").system.unwrap());
     assert_basis(find(&leg.requested, "pz = 0"), &singular("nao_leg_pz0-lex-q_px"));
-    let arm = derive(source("nao_arm_planar").system);
+    let arm = derive(source("nao_arm_planar").system.unwrap());
     assert_basis(find(&arm.requested, "pz = 0"), &singular("nao_arm_pz0-lex-q_py"));
 }
 
 #[test]
 fn another_order_of_the_leg_has_no_such_stratum() {
-    let leg = derive(source("nao_leg_sagittal").system);
+    let leg = derive(source("nao_leg_sagittal").system.unwrap());
     let searched = leg.searched.as_ref().unwrap();
     assert_eq!(searched.solved().unwrap().certified.order, ["c4", "c3", "s3", "s4"]);
     assert_basis(searched, &singular("nao_leg_inverted-lex-q_px_pz"));
@@ -62,7 +62,7 @@ fn another_order_of_the_leg_has_no_such_stratum() {
 
 #[test]
 fn the_base_is_out_of_reach_unless_the_links_are_equal() {
-    let leg = derive(source("nao_leg_sagittal").system);
+    let leg = derive(source("nao_leg_sagittal").system.unwrap());
     assert!(matches!(find(&leg.requested, "pz = 0, px = 0").outcome, Outcome::Inconsistent(_)));
     assert_eq!(leg.program.solve(&[0.0, 0.0]).unwrap(), []);
 
@@ -97,7 +97,7 @@ fn lengths_assumed_positive_exclude_strata() {
 #[test]
 fn targets_near_a_stratum_are_solved_like_any_other() {
     for (name, free) in [("nao_leg_sagittal", 150.0), ("nao_arm_planar", 150.0)] {
-        let derivation = derive(source(name).system);
+        let derivation = derive(source(name).system.unwrap());
         for k in 0..=18 {
             for sign in [-1.0, 1.0] {
                 let small = sign * 10f64.powi(-k);
@@ -149,7 +149,7 @@ fn more_joints_than_equations_names_the_free_ones() {
 
 #[test]
 fn cancelled_and_bounded_derivations_end_with_their_reason() {
-    let system = source("nao_leg_sagittal").system;
+    let system = source("nao_leg_sagittal").system.unwrap();
     let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
     let error = Derivation::new(system.clone(), &Watch::none().with_cancel(flag)).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Cancelled);

@@ -12,7 +12,7 @@ fn the_seed_mechanisms_pass_in_both_orders() {
     for folder in ["nao_leg_sagittal", "nao_arm_planar"] {
         let source = read(folder);
         let derivation = derive(&source);
-        let requested = compile(&source.system, &derivation.requested).unwrap();
+        let requested = compile(&source.system.clone().unwrap(), &derivation.requested).unwrap();
         for program in [&derivation.program, &requested] {
             let report = assert_passes(&source, program, 150);
             let summary = report.summary();
@@ -176,12 +176,12 @@ fn without(program: &Program, chart: usize) -> Program {
 fn a_chart_that_is_left_out_is_missed() {
     let seed = read("nao_leg_sagittal");
     let equal = from_text(&two_link_text("100", "200"));
-    let requested = compile(&seed.system, &derive(&seed).requested).unwrap();
+    let requested = compile(&seed.system.clone().unwrap(), &derive(&seed).requested).unwrap();
     let labels: Vec<&str> = requested.charts().map(|chart| chart.label.as_str()).collect();
     assert!(labels.contains(&"pz = 0"), "{labels:?}");
     for (source, program) in [(&seed, requested), (&equal, derive(&equal).program)] {
         for (index, chart) in program.charts().enumerate() {
-            println!("{}: {}", source.system.name, chart.label);
+            println!("{}: {}", source.system.clone().unwrap().name, chart.label);
             let report = check(source, &without(&program, index), 150);
             let missed = report.failures().filter(|row| faults(&row.verdict).contains(&Fault::Missing)).count();
             assert!(missed > 0, "nobody misses the chart `{}`", chart.label);

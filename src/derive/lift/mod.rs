@@ -9,6 +9,7 @@ mod layout;
 mod program;
 mod shape;
 mod stages;
+mod target;
 mod template;
 
 pub use shape::Shape;

@@ -1,0 +1,28 @@
+//! What the derivation of a chain found, for a person to read.
+
+use super::report::Page;
+use crate::derive::lift::{Derived, Form};
+
+/// Tells about the plan, its steps and the proofs.
+pub fn describe(page: &mut Page, derived: &Derived) {
+    let plan = &derived.plan;
+    page.heading(&format!("Plan: {} solutions at most", plan.dimension));
+    for line in plan.to_string().lines().skip(1) {
+        page.line(line);
+    }
+    page.heading("What runs");
+    let blocks = derived.program.blocks.iter().map(|block| {
+        let charts: Vec<&str> = block.charts.iter().map(|chart| chart.label.as_str()).collect();
+        (block.label.clone(), charts.join("; "))
+    });
+    page.entries(&blocks.collect::<Vec<_>>());
+    page.heading("Proved, exactly and without trusting the engine");
+    let relations: usize = derived.steps.iter().map(|step| step.relations.len()).sum();
+    let proofs: usize =
+        derived.templates.iter().flat_map(|template| template.tree.walk()).map(|node| node.proofs().len()).sum();
+    let forms: Vec<&str> = derived.templates.iter().map(|template| Form::name(template.form)).collect();
+    page.entries(&[
+        (relations.to_string(), "equations follow from the loop: their normal forms are zero".to_owned()),
+        (proofs.to_string(), format!("Groebner bases of the forms {} on all strata", forms.join(", "))),
+    ]);
+}

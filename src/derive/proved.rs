@@ -1,0 +1,69 @@
+//! A derivation of either kind, from a [`Source`]: [`Proved`].
+
+use super::lift::{self, Derived};
+use super::{Derivation, Source, certificate};
+use crate::solver::Program;
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// What a source's derivation gives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Proved {
+    /// Of equations that are solved as one block: those of a system, and of a chain that asks for an order or a root.
+    Equations(Box<Derivation>),
+    /// Of a chain, one joint at a time.
+    Chain(Box<Derived>),
+}
+
+impl Proved {
+    /// Derives and proves `source`.
+    ///
+    /// # Errors
+    /// As [`Derivation::new`] and [`Derived::of_chain`].
+    pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
+        match source.chain_by_steps() {
+            Some(chain) => Derived::of_chain(chain, watch).map(|derived| Proved::Chain(Box::new(derived))),
+            None => {
+                let derivation = Derivation::new(equations(source)?.clone(), watch)?;
+                Ok(Proved::Equations(Box::new(derivation)))
+            }
+        }
+    }
+
+    /// Proves the derivation of `source` anew from the text of its certificate, without the Groebner engine.
+    ///
+    /// # Errors
+    /// As [`certificate::prove`] and [`lift::certificate::prove`].
+    pub fn again(source: &Source, text: &str) -> Result<Self> {
+        match source.chain_by_steps() {
+            Some(chain) => lift::certificate::prove(chain, text).map(|derived| Proved::Chain(Box::new(derived))),
+            None => {
+                let derivation = certificate::prove(equations(source)?, text)?;
+                Ok(Proved::Equations(Box::new(derivation)))
+            }
+        }
+    }
+
+    /// The solver.
+    pub fn program(&self) -> &Program {
+        match self {
+            Proved::Equations(derivation) => &derivation.program,
+            Proved::Chain(derived) => &derived.program,
+        }
+    }
+
+    /// The stage files with their names: the same bytes at every run.
+    ///
+    /// # Errors
+    /// When a field cannot be built: never for a derivation that was made by this crate.
+    pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
+        match self {
+            Proved::Equations(derivation) => derivation.stage_files(),
+            Proved::Chain(derived) => derived.stage_files(),
+        }
+    }
+}
+
+fn equations(source: &Source) -> Result<&super::System> {
+    let none = || Error::new(ErrorKind::BadValue, "the source has neither equations nor a chain").in_file(&source.path);
+    source.system.as_ref().ok_or_else(none)
+}
