@@ -185,7 +185,7 @@ fn read_rpy(table: Table<'_>) -> Result<ExactRotation> {
     let degrees: ExactVector = node.exact_vector()?;
     let turns: Result<Vec<Turn>> = degrees.iter().map(Turn::from_degrees).collect();
     match turns.as_deref() {
-        Ok([roll, pitch, yaw]) if [roll, pitch, yaw].iter().all(|turn| turn.is_exact()) => {
+        Ok([roll, pitch, yaw]) if [roll, pitch, yaw].iter().all(|turn| turn.is_quarter()) => {
             Ok(ExactRotation::from_rpy([*roll, *pitch, *yaw]))
         }
         _ => {
