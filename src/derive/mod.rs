@@ -34,7 +34,6 @@ pub use ends::Ends;
 pub use formulate::formulate;
 pub use grow::{derive_tree, describe};
 pub use input::{Description, InputFile, Source};
-pub use input::{Description, Ends, InputFile, Source};
 pub use proved::Proved;
 pub use prover::Orders;
 pub use system::{

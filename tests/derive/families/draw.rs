@@ -123,6 +123,14 @@ impl Draw {
     }
 }
 
+/// The same chain asked for a ray along the axis of its last joint.
+pub fn along_the_last_axis(chain: &Chain) -> Chain {
+    let axis = &chain.joints()[chain.joints().len() - 1].axis;
+    let rotation = &chain.tip().rotation;
+    let direction = [0, 1, 2].map(|j| (0..3).map(|i| &rotation[i][j] * &axis[i]).sum());
+    chain.with_task(Task::Ray, direction, Vec::new()).expect("the task of an arm")
+}
+
 fn kind_of(letter: char) -> JointKind {
     if letter == 'P' { JointKind::Prismatic } else { JointKind::Revolute }
 }

@@ -2,7 +2,7 @@
 
 use groebot::kinematics::{Chain, Plane, Task};
 
-use super::draw::{Draw, Placed};
+use super::draw::{Draw, Placed, along_the_last_axis};
 
 /// Chains of one kind.
 pub struct Family {
@@ -37,7 +37,7 @@ fn planar(draw: &mut Draw, kinds: &str, task: Task) -> Chain {
     draw.chain(&joints, task, &[])
 }
 
-/// A humanoid's arm: two axes that meet in the shoulder, two in the elbow, one along the forearm.
+/// A humanoid's arm: two axes that meet in the shoulder, two in the elbow, and that of the forearm through the elbow too.
 fn arm(draw: &mut Draw) -> Vec<Placed> {
     let (shoulder, elbow) = (draw.meeting(2), draw.meeting(3));
     joined(&[&shoulder, &elbow])
@@ -52,10 +52,6 @@ pub const FAMILIES: &[Family] = &[
     family("second to fourth axis parallel", |draw| around(draw, "R", Draw::parallel, "RR")),
     family("third to fifth axis parallel", |draw| around(draw, "RR", Draw::parallel, "R")),
     family("fourth to sixth axis parallel", |draw| around(draw, "RRR", Draw::parallel, "")),
-    family("parallel pair, joint, spherical wrist", |draw| {
-        let joints = joined(&[&draw.anywhere("R"), &draw.parallel(2), &draw.meeting(3)]);
-        draw.chain(&joints, Task::Pose, &[])
-    }),
     family("RRP, spherical wrist", |draw| around(draw, "RRP", Draw::meeting, "")),
     family("RPR, spherical wrist", |draw| around(draw, "RPR", Draw::meeting, "")),
     family("PRR, spherical wrist", |draw| around(draw, "PRR", Draw::meeting, "")),
@@ -67,9 +63,25 @@ pub const FAMILIES: &[Family] = &[
     family("PPP to a position", |draw| simple(draw, "PPP", Task::Position)),
     family("RRR to a rotation", |draw| simple(draw, "RRR", Task::Rotation)),
     family("RR to a direction", |draw| simple(draw, "RR", Task::Direction)),
-    family("arm to a ray", |draw| {
+    family("arm to a ray along its last axis", |draw| {
         let joints = arm(draw);
-        draw.chain(&joints, Task::Ray, &[])
+        along_the_last_axis(&draw.chain(&joints, Task::Pose, &[]))
+    }),
+    family("leg: spherical hip, parallel pair, joint", |draw| {
+        let joints = joined(&[&draw.meeting(3), &draw.parallel(2), &draw.anywhere("R")]);
+        draw.chain(&joints, Task::Pose, &[])
+    }),
+    family("meeting pair, joint, spherical wrist", |draw| {
+        let joints = joined(&[&draw.meeting(2), &draw.anywhere("R"), &draw.meeting(3)]);
+        draw.chain(&joints, Task::Pose, &[])
+    }),
+    family("joint, parallel pair, spherical wrist", |draw| {
+        let joints = joined(&[&draw.anywhere("R"), &draw.parallel(2), &draw.meeting(3)]);
+        draw.chain(&joints, Task::Pose, &[])
+    }),
+    family("parallel pair, slide, spherical wrist", |draw| {
+        let joints = joined(&[&draw.parallel(2), &draw.anywhere("P"), &draw.meeting(3)]);
+        draw.chain(&joints, Task::Pose, &[])
     }),
     family("four joints to a position, one given", |draw| {
         let joints = draw.anywhere("RRRR");
