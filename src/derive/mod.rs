@@ -33,9 +33,8 @@ pub use derivation::Derivation;
 pub use ends::Ends;
 pub use formulate::formulate;
 pub use grow::{derive_tree, describe};
-pub use input::{Description, Ends, InputFile, Source};
-pub use proved::Proved;
 pub use input::{Description, InputFile, Source};
+pub use proved::Proved;
 pub use prover::Orders;
 pub use system::{
     Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,

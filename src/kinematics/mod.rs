@@ -7,7 +7,6 @@ pub mod dh;
 pub mod dh_toml;
 mod exact_rotation;
 pub(crate) mod exact_serde;
-mod exact_serde;
 mod exact_vector;
 pub mod fk;
 mod frame;

@@ -2,11 +2,12 @@
 
 mod certificate;
 mod chains;
+mod ends;
+mod families;
 mod lift;
 mod closure;
 mod planner;
 mod random_chains;
-mod ends;
 mod renamed;
 mod seed;
 mod strata;
