@@ -6,7 +6,7 @@ use num_traits::One;
 
 use super::shape::{Symbolic, TargetPoly};
 use super::template::{Form, Template};
-use super::{Derived, Lifted, certificate};
+use super::{Derived, Elimination, Lifted, certificate};
 use crate::derive::closure::{Factor, Mechanism, Multilinear};
 use crate::derive::describe;
 use crate::derive::stages::{MARK, PAGE, STAGES};
@@ -187,6 +187,7 @@ fn why(form: Form) -> &'static str {
         Form::Angle => "one linear equation in cosine and sine, a chord of the circle with two ends",
         Form::Turn => "two equations that turn a known vector to a known place, one angle",
         Form::Pair => "two independent linear equations in cosine and sine, one angle",
+        Form::Quartic => "an equation of degree two in cosine and sine, by the tangent of half the angle up to four angles",
         Form::Linear => "a linear equation, one length",
         Form::Quadratic => "a quadratic equation, two lengths",
     }
@@ -198,6 +199,7 @@ fn singular(form: Form) -> &'static str {
         Form::Angle => "where A = B = 0 no angle solves it, or with C = 0 each does: the joint is free. Where A^2 + B^2 = C^2 both ends meet.",
         Form::Turn => "where A = B = 0 no angle solves it, or with X = Y = 0 each does: the joint is free.",
         Form::Pair => "where A F = B E each equation is solved alone, and what solves both is kept.",
+        Form::Quartic => "where all coefficients vanish the joint is free. Where the quartic has a double root two answers meet.",
         Form::Linear => "never, where A is a number.",
         Form::Quadratic => "where B^2 = A C both roots meet.",
     }
@@ -284,6 +286,9 @@ fn symbols(index: usize, mechanism: &Mechanism, step: &Lifted) -> Vec<String> {
     let (c, s) = (letters(Factor::Cosine(step.joint)), letters(Factor::Sine(step.joint)));
     let (d, dd) = (letters(Factor::Length(step.joint)), letters(Factor::LengthSquared(step.joint)));
     let of = |number: usize, what: &str| format!("{what} in ({}.{number})", index + 1);
+    if let Some(elimination) = &step.elimination {
+        return left(index, mechanism, step, elimination);
+    }
     match step.shape.form {
         Form::Angle => vec![
             format!("A = the coefficient of {}", of(1, &c)),
@@ -301,6 +306,7 @@ fn symbols(index: usize, mechanism: &Mechanism, step: &Lifted) -> Vec<String> {
             format!("B, F = the coefficients of {s} in ({0}.1) and ({0}.2){root}", index + 1),
             format!("X, Y = minus the rests of ({0}.1) and ({0}.2)", index + 1),
         ],
+        Form::Quartic => vec![format!("A {c} {s} + B {s}^2 + C {c} + D {s} + E = 0 with the true sine")],
         Form::Linear => {
             vec![format!("A = the coefficient of {}{root}", of(1, &d)), format!("B = the rest of ({}.1)", index + 1)]
         }
@@ -310,4 +316,22 @@ fn symbols(index: usize, mechanism: &Mechanism, step: &Lifted) -> Vec<String> {
             format!("C = the rest of ({}.1)", index + 1),
         ],
     }
+}
+
+/// What an elimination leaves, in its own names.
+fn left(index: usize, mechanism: &Mechanism, step: &Lifted, elimination: &Elimination) -> Vec<String> {
+    let product = |factors: &[Factor]| match factors {
+        [] => "1".to_owned(),
+        list => list.iter().map(|factor| name(mechanism, *factor)).collect::<Vec<_>>().join(" "),
+    };
+    let mut lines = vec![format!("the other joints are eliminated from ({0}.1) to ({0}.{1}):", index + 1, step.relations.len())];
+    for (number, place) in elimination.symbols.iter().enumerate() {
+        let (what, relation) = (product(&place.factors), place.relation + 1);
+        lines.push(format!("S{number} = the coefficient of {what} in ({}.{relation})", index + 1));
+    }
+    let own = elimination.ring.variables()[elimination.sizes[0]..elimination.sizes[0] + elimination.sizes[1]].join(", ");
+    let text = elimination.ring.format(&elimination.member, Style::Decimal);
+    lines.push(format!("with {own} for {}:", joint_unknowns(mechanism, step.joint)));
+    lines.push(format!("{text} = 0"));
+    lines
 }

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Lifted;
+use super::{Lifted, half_angle};
 use crate::derive::tree::Node;
 use crate::derive::{
     Equation, Input, JointKindUnknown, JointUnknown, Orders, Parameter, ParameterSource, Quantity, System, SystemParts,
@@ -27,6 +27,8 @@ pub enum Form {
     Pair,
     /// `A d + B = 0`.
     Linear,
+    /// `A c s + B s^2 + C c + D s + E = 0`, solved by [`super::HalfAngles`].
+    Quartic,
     /// `A d^2 + 2 B d + C = 0`. The auxiliary `w = A d + B` has `w^2 = B^2 - A C`.
     Quadratic,
 }
@@ -58,6 +60,11 @@ impl Form {
                 equations: &["A*c + B*s - X", "E*c + F*s - Y"],
             },
             Form::Linear => Words { symbols: &["A", "B"], unknowns: &["d"], equations: &["A*d + B"] },
+            Form::Quartic => Words {
+                symbols: &half_angle::SYMBOLS,
+                unknowns: &["c", "s"],
+                equations: &[half_angle::EQUATION, "c^2 + s^2 - 1"],
+            },
             Form::Quadratic => Words {
                 symbols: &["A", "B", "C"],
                 unknowns: &["d", "w"],
@@ -77,6 +84,7 @@ impl Form {
             Form::Angle => &[Form::Angle],
             Form::Turn => &[Form::Turn],
             Form::Pair => &[Form::Pair, Form::Angle],
+            Form::Quartic => &[],
             Form::Linear => &[Form::Linear],
             Form::Quadratic => &[Form::Quadratic],
         }
@@ -86,6 +94,7 @@ impl Form {
     pub fn degree(self) -> usize {
         match self {
             Form::Angle | Form::Quadratic => 2,
+            Form::Quartic => 4,
             Form::Turn | Form::Pair | Form::Linear => 1,
         }
     }
@@ -97,6 +106,7 @@ impl Form {
             Form::Turn => "turn",
             Form::Pair => "pair",
             Form::Linear => "linear",
+            Form::Quartic => "quartic",
             Form::Quadratic => "quadratic",
         }
     }
