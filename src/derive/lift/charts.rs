@@ -298,9 +298,9 @@ impl<'a> Builder<'a> {
                 values.push((unknown, self.assembler.div(top, *high)));
             }
             _ => {
-                let typical = self.typical()?;
+                let typical = if self.form == Form::Lengths { None } else { Some(self.typical()?) };
                 push_code(steps, &mut self.assembler);
-                steps.push(Step::Roots { unknown, polynomials: vec![coefficients], typical: Some(typical) });
+                steps.push(Step::Roots { unknown, polynomials: vec![coefficients], typical });
             }
         }
         Ok(())
@@ -333,6 +333,7 @@ impl<'a> Builder<'a> {
                 let length = self.assembler.sqrt(sum);
                 vec![(cosine, self.assembler.div(c, length)), (sine, self.assembler.div(s, length))]
             }
+            JointValue::Plain(_) if self.form == Form::Lengths && values.is_empty() => Vec::new(),
             JointValue::Plain(unknown) => vec![(unknown, value(unknown).ok_or_else(missing)?)],
         };
         push_code(steps, &mut self.assembler);

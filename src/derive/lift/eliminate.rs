@@ -10,12 +10,16 @@ use num_traits::One;
 use serde::{Deserialize, Serialize};
 
 use super::shape::{Symbolic, TargetPoly};
+use super::squares::by_squares;
 use crate::derive::closure::{Factor, Mechanism};
 use crate::derive::planner::PlanStep;
 use crate::groebner::{Options, Strategy, basis};
 use crate::number::{BigRational, Rationals, Ring, Style};
 use crate::poly::{Block, Order, Polynomial, PolynomialRing, parse};
 use crate::{Error, ErrorKind, Result, Watch};
+
+/// The most terms of an elimination's basis.
+const MOST_TERMS: usize = 20_000;
 
 type Poly = Polynomial<BigRational>;
 /// A coefficient: by the unknowns of known joints, polynomials in the target.
@@ -62,7 +66,12 @@ impl Elimination {
     /// [`ErrorKind::Unsupported`] when nothing of use is left; what `watch` stops with.
     pub(super) fn derive(mechanism: &Mechanism, step: &PlanStep, away: &[usize], watch: &Watch) -> Result<Self> {
         let mut elimination = Setting::new(mechanism, step, away)?.finish()?;
+        if let Some((member, cofactors)) = elimination.by_squares(mechanism, step, away) {
+            (elimination.member, elimination.cofactors) = (member, cofactors);
+            return elimination.proved();
+        }
         let options = Options { strategy: Strategy::Sugar, cofactors: true };
+        let watch = &watch.clone().with_terms(MOST_TERMS);
         let found = basis(&elimination.ring, &elimination.generators, &options, watch)?;
         let degree = |f: &Poly| elimination.degree(f);
         let own = found.polynomials.iter().zip(&found.cofactors).filter(|(f, _)| elimination.is_own(f));
@@ -71,6 +80,27 @@ impl Elimination {
         })?;
         (elimination.member, elimination.cofactors) = (member.clone(), cofactors.clone());
         elimination.proved()
+    }
+
+    /// The sum of the squares of two relations that turn a vector by one joint, when no form's degree is too low for it.
+    fn by_squares(&self, mechanism: &Mechanism, step: &PlanStep, away: &[usize]) -> Option<(Poly, Vec<Poly>)> {
+        let ([joint], [f, g, ..]) = (away, self.generators.as_slice()) else { return None };
+        let screw = &mechanism.joints()[*joint];
+        if !screw.is_revolute() || step.way.relations().len() != 2 {
+            return None;
+        }
+        let squares = |pair: [&Poly; 2]| by_squares(&self.ring, pair, &screw.square);
+        let (member, [first, second, circle]) = match squares([f, g]) {
+            Some(found) => found,
+            None => squares([g, f]).map(|(member, [second, first, circle])| (member, [first, second, circle]))?,
+        };
+        let most = if mechanism.joints()[step.joint].is_revolute() { 2 } else { 4 };
+        if !self.is_own(&member) || self.degree(&member) > most {
+            return None;
+        }
+        let mut cofactors = vec![first, second, circle];
+        cofactors.resize(self.generators.len(), self.ring.zero());
+        Some((member, cofactors))
     }
 
     /// Proves a stored elimination anew.

@@ -10,6 +10,7 @@ mod half_angle;
 mod layout;
 mod program;
 mod shape;
+mod squares;
 mod stages;
 mod target;
 mod template;

@@ -123,7 +123,7 @@ impl Context<'_> {
         let screw = &self.mechanism.joints()[joint];
         let auxiliary = match self.step.shape.form {
             Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic => Some(layout.unknown(&format!("w{}", screw.symbol))),
-            Form::Turn | Form::Linear => None,
+            Form::Turn | Form::Linear | Form::Lengths => None,
         };
         let mut assembler = Assembler::default();
         let symbols = self.symbols(layout, &mut assembler)?;
@@ -223,7 +223,7 @@ impl Context<'_> {
                 take(1, &[], -1.0),
             ],
             Shape { form: Form::Linear, .. } => vec![take(0, &d, 1.0 / root), take(0, &[], 1.0)],
-            Shape { form: Form::Quartic, .. } => Vec::new(),
+            Shape { form: Form::Quartic | Form::Lengths, .. } => Vec::new(),
             Shape { form: Form::Quadratic, .. } => {
                 vec![take(0, &dd, 1.0 / square), take(0, &d, 0.5 / root), take(0, &[], 1.0)]
             }
@@ -257,6 +257,9 @@ impl Context<'_> {
         match self.step.shape.form {
             Form::Angle => vec![take(&[1, 0], 1.0), take(&[0, 1], sine), take(&[0, 0], 1.0)],
             Form::Linear => vec![take(&[1], sine), take(&[0], 1.0)],
+            Form::Lengths => {
+                (0..5).rev().map(|k: i32| take(&[k as u32], sine.powi(k))).collect()
+            }
             Form::Quadratic => vec![take(&[2], sine * sine), take(&[1], 0.5 * sine), take(&[0], 1.0)],
             _ => vec![
                 take(&[1, 1], sine),

@@ -103,8 +103,9 @@ pub(super) fn eliminated(mechanism: &Mechanism, step: &PlanStep, elimination: &E
         (true, 2) => Form::Quartic,
         (false, 1) => Form::Linear,
         (false, 2) => Form::Quadratic,
+        (false, 3 | 4) => Form::Lengths,
         _ => {
-            let text = format!("what the elimination leaves has degree {degree}; at most 2 is allowed");
+            let text = format!("what the elimination leaves has degree {degree}; at most 2 is allowed for an angle, 4 for a length");
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
     };

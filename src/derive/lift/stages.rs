@@ -188,6 +188,7 @@ fn why(form: Form) -> &'static str {
         Form::Turn => "two equations that turn a known vector to a known place, one angle",
         Form::Pair => "two independent linear equations in cosine and sine, one angle",
         Form::Quartic => "an equation of degree two in cosine and sine, by the tangent of half the angle up to four angles",
+        Form::Lengths => "an equation of degree four at most, up to four lengths",
         Form::Linear => "a linear equation, one length",
         Form::Quadratic => "a quadratic equation, two lengths",
     }
@@ -200,6 +201,7 @@ fn singular(form: Form) -> &'static str {
         Form::Turn => "where A = B = 0 no angle solves it, or with X = Y = 0 each does: the joint is free.",
         Form::Pair => "where A F = B E each equation is solved alone, and what solves both is kept.",
         Form::Quartic => "where all coefficients vanish the joint is free. Where the quartic has a double root two answers meet.",
+        Form::Lengths => "where the polynomial has a double root two answers meet.",
         Form::Linear => "never, where A is a number.",
         Form::Quadratic => "where B^2 = A C both roots meet.",
     }
@@ -306,6 +308,7 @@ fn symbols(index: usize, mechanism: &Mechanism, step: &Lifted) -> Vec<String> {
             format!("B, F = the coefficients of {s} in ({0}.1) and ({0}.2){root}", index + 1),
             format!("X, Y = minus the rests of ({0}.1) and ({0}.2)", index + 1),
         ],
+        Form::Lengths => vec!["A d^4 + B d^3 + C d^2 + D d + E = 0 with the true length".to_owned()],
         Form::Quartic => vec![format!("A {c} {s} + B {s}^2 + C {c} + D {s} + E = 0 with the true sine")],
         Form::Linear => {
             vec![format!("A = the coefficient of {}{root}", of(1, &d)), format!("B = the rest of ({}.1)", index + 1)]

@@ -29,6 +29,8 @@ pub enum Form {
     Linear,
     /// `A c s + B s^2 + C c + D s + E = 0`, solved by [`super::HalfAngles`].
     Quartic,
+    /// `A d^4 + B d^3 + C d^2 + D d + E = 0`.
+    Lengths,
     /// `A d^2 + 2 B d + C = 0`. The auxiliary `w = A d + B` has `w^2 = B^2 - A C`.
     Quadratic,
 }
@@ -65,6 +67,11 @@ impl Form {
                 unknowns: &["c", "s"],
                 equations: &[half_angle::EQUATION, "c^2 + s^2 - 1"],
             },
+            Form::Lengths => Words {
+                symbols: &half_angle::SYMBOLS,
+                unknowns: &["d"],
+                equations: &["A*d^4 + B*d^3 + C*d^2 + D*d + E"],
+            },
             Form::Quadratic => Words {
                 symbols: &["A", "B", "C"],
                 unknowns: &["d", "w"],
@@ -85,6 +92,7 @@ impl Form {
             Form::Turn => &[Form::Turn],
             Form::Pair => &[Form::Pair, Form::Angle],
             Form::Quartic => &[],
+            Form::Lengths => &[Form::Lengths],
             Form::Linear => &[Form::Linear],
             Form::Quadratic => &[Form::Quadratic],
         }
@@ -94,7 +102,7 @@ impl Form {
     pub fn degree(self) -> usize {
         match self {
             Form::Angle | Form::Quadratic => 2,
-            Form::Quartic => 4,
+            Form::Quartic | Form::Lengths => 4,
             Form::Turn | Form::Pair | Form::Linear => 1,
         }
     }
@@ -107,6 +115,7 @@ impl Form {
             Form::Pair => "pair",
             Form::Linear => "linear",
             Form::Quartic => "quartic",
+            Form::Lengths => "lengths",
             Form::Quadratic => "quadratic",
         }
     }
