@@ -2,8 +2,8 @@
 
 mod certificate;
 mod chains;
-mod lift;
 mod closure;
+mod lift;
 mod random_chains;
 mod renamed;
 mod seed;

@@ -13,7 +13,7 @@ use super::shape::{Symbolic, TargetPoly};
 use super::squares::by_squares;
 use crate::derive::closure::{Factor, Mechanism};
 use crate::derive::planner::PlanStep;
-use crate::groebner::{Options, Strategy, basis};
+use crate::groebner::{Options, Strategy, basis, divide};
 use crate::number::{BigRational, Rationals, Ring, Style};
 use crate::poly::{Block, Order, Polynomial, PolynomialRing, parse};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -94,13 +94,21 @@ impl Elimination {
             Some(found) => found,
             None => squares([g, f]).map(|(member, [second, first, circle])| (member, [first, second, circle]))?,
         };
-        let most = if mechanism.joints()[step.joint].is_revolute() { 2 } else { 4 };
-        if !self.is_own(&member) || self.degree(&member) > most {
-            return None;
-        }
         let mut cofactors = vec![first, second, circle];
         cofactors.resize(self.generators.len(), self.ring.zero());
-        Some((member, cofactors))
+        let member = match mechanism.joints()[step.joint].is_revolute() {
+            true => self.without_square(&member, cofactors.last_mut()?)?,
+            false => member,
+        };
+        let most = if mechanism.joints()[step.joint].is_revolute() { 2 } else { 4 };
+        (self.is_own(&member) && self.degree(&member) <= most).then_some((member, cofactors))
+    }
+
+    /// The remainder by the joint's own circle, the last generator: the square of the cosine goes.
+    fn without_square(&self, f: &Poly, cofactor: &mut Poly) -> Option<Poly> {
+        let division = divide(&self.ring, f, std::slice::from_ref(self.generators.last()?)).ok()?;
+        *cofactor = self.ring.sub(cofactor, division.quotients.first()?);
+        Some(division.remainder)
     }
 
     /// Proves a stored elimination anew.
@@ -137,12 +145,14 @@ impl Elimination {
         Ok(self)
     }
 
-    /// Whether a polynomial holds unknowns of the step's joint and no other, and is not its circle.
+    /// Whether a polynomial holds unknowns of the step's joint and no other, the cosine in the first power, and is not its circle.
     fn is_own(&self, f: &Poly) -> bool {
         let [away, own] = self.sizes;
         let foreign = (0..away).any(|v| self.ring.degree_in(f, v) > 0);
-        let circle = self.generators.last().is_some_and(|circle| own == 2 && self.ring.monic(circle) == self.ring.monic(f));
-        !foreign && !circle && self.degree(f) > 0
+        let circle =
+            self.generators.last().is_some_and(|circle| own == 2 && self.ring.monic(circle) == self.ring.monic(f));
+        let reduced = own == 1 || self.ring.degree_in(f, away) <= 1;
+        !foreign && !circle && reduced && self.degree(f) > 0
     }
 
     /// The total degree in the joint's unknowns.
@@ -189,7 +199,8 @@ impl<'a> Setting<'a> {
                 let copied = |list: Vec<&Factor>| list.into_iter().copied().collect::<Vec<Factor>>();
                 parts.entry(copied(own)).or_default().insert(copied(rest), value.clone());
             }
-            let entries = parts.into_iter().map(|(factors, c)| setting.entry(&symbolic, relation, factors, c)).collect();
+            let entries =
+                parts.into_iter().map(|(factors, c)| setting.entry(&symbolic, relation, factors, c)).collect();
             setting.relations.push(entries);
         }
         Ok(setting)
@@ -254,7 +265,8 @@ impl<'a> Setting<'a> {
             generators.push(sum);
         }
         for joint in self.joints.iter().filter(|joint| self.mechanism.joints()[**joint].is_revolute()) {
-            let square = |factor: Factor| place(&factor).map(|v| ring.pow(&ring.variable(v), 2)).unwrap_or_else(|| ring.zero());
+            let square =
+                |factor: Factor| place(&factor).map(|v| ring.pow(&ring.variable(v), 2)).unwrap_or_else(|| ring.zero());
             let sine = ring.scale(&square(Factor::Sine(*joint)), &self.mechanism.joints()[*joint].square);
             generators.push(ring.sub(&ring.add(&square(Factor::Cosine(*joint)), &sine), &ring.one()));
         }
@@ -268,6 +280,7 @@ impl<'a> Setting<'a> {
 fn ratio(symbolic: &Symbolic, a: &Coefficient, b: &Coefficient) -> Option<BigRational> {
     let (product, value) = b.iter().next()?;
     let ratio = &a.get(product)?.leading()?.coefficient / &value.leading()?.coefficient;
-    let same = |(product, value): (&Vec<Factor>, &TargetPoly)| a.get(product) == Some(&symbolic.ring.scale(value, &ratio));
+    let same =
+        |(product, value): (&Vec<Factor>, &TargetPoly)| a.get(product) == Some(&symbolic.ring.scale(value, &ratio));
     (a.len() == b.len() && b.iter().all(same)).then_some(ratio)
 }
