@@ -7,6 +7,8 @@ mod families;
 mod lift;
 mod closure;
 mod planner;
+mod closure;
+mod lift;
 mod random_chains;
 mod renamed;
 mod seed;
