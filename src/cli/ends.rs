@@ -1,8 +1,8 @@
-//! `--base`, `--tip`, `--task`, `--direction` and `--free`: which chain of a URDF, and what is asked of it.
+//! `--base`, `--tip`, `--task`, `--direction`, `--free` and `--snap`: which chain of a URDF, and what is asked of it.
 
 use crate::derive::Ends;
 use crate::kinematics::{Chain, ExactVector, Task};
-use crate::number::parse_rational;
+use crate::number::{BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
 /// The tasks that need no plane.
@@ -28,6 +28,21 @@ pub struct EndArguments {
     free: Vec<String>,
 }
 
+/// Whether the ideal robot is meant.
+#[derive(clap::Args)]
+pub struct SnapArgument {
+    /// Take the ideal robot within this tolerance (radians, and metres), such as 1e-5: axes that almost meet do
+    #[arg(long, value_name = "TOLERANCE", value_parser = exact)]
+    snap: Option<BigRational>,
+}
+
+impl SnapArgument {
+    /// What `arguments` ask, of the ideal robot.
+    pub fn ends(&self, arguments: &EndArguments) -> Ends {
+        Ends { snap: self.snap.clone(), ..arguments.ends() }
+    }
+}
+
 /// Three exact numbers, as one value of an option.
 #[derive(Clone)]
 struct Direction(ExactVector);
@@ -41,6 +56,7 @@ impl EndArguments {
             task: self.task,
             direction: self.direction.as_ref().map(|direction| direction.0.clone()),
             given: self.free.clone(),
+            snap: None,
         }
     }
 
@@ -60,6 +76,10 @@ impl EndArguments {
 fn task(text: &str) -> std::result::Result<Task, String> {
     let names = TASKS.map(Task::name).join(", ");
     TASKS.into_iter().find(|task| task.name() == text).ok_or_else(|| format!("give one of {names}"))
+}
+
+fn exact(text: &str) -> std::result::Result<BigRational, String> {
+    parse_rational(text.trim()).map_err(|error| error.message().to_owned())
 }
 
 fn direction(text: &str) -> std::result::Result<Direction, String> {

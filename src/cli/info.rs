@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use super::console::{self, Paint};
-use super::ends::EndArguments;
+use super::ends::{EndArguments, SnapArgument};
 use super::{Halt, Outcome};
 use crate::derive::{Description, Ends, InputFile, formulate};
+use crate::kinematics::snap::near_misses;
 use crate::kinematics::tree::TreeJointKind;
-use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind, Tree};
+use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind, SnapReport, Tree};
 use crate::{Error, ErrorKind, Result};
 use num_traits::ToPrimitive;
 
@@ -25,12 +26,14 @@ pub struct Arguments {
     input: PathBuf,
     #[command(flatten)]
     ends: EndArguments,
+    #[command(flatten)]
+    snap: SnapArgument,
 }
 
 /// Prints the input.
 pub fn run(arguments: &Arguments) -> Outcome {
     let input = InputFile::read(&arguments.input)?;
-    let ends = arguments.ends.ends().or(&input.ends);
+    let ends = arguments.snap.ends(&arguments.ends).or(&input.ends);
     let paint = Paint::of(&std::io::stdout());
     match &input.description {
         Description::Tree(tree) if ends == Ends::default() && tree.leaves().len() > 1 => {
@@ -40,13 +43,25 @@ pub fn run(arguments: &Arguments) -> Outcome {
         description => {
             let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
             let chain = input.chain(&ends)?.ok_or_else(none)?;
-            let notes = match description {
+            let mut notes = match description {
                 Description::Tree(tree) => notes(tree, &ends)?,
                 _ => Vec::new(),
             };
+            let ideal = ends.ideal(&chain)?;
+            notes.extend(imperfections(&chain, ideal.as_ref().map(|(_, report)| report)));
+            let chain = ideal.map_or(chain, |(ideal, _)| ideal);
             console::print(&(chain_page(&chain, &notes, paint) + &equations(&chain)?))
         }
     }
+}
+
+/// Relations of up to this are told [rad, m].
+const NEAR: f64 = 1e-3;
+
+/// What almost holds, or what was made of it.
+fn imperfections(chain: &Chain, snapped: Option<&SnapReport>) -> Vec<String> {
+    let near = || near_misses(chain, NEAR).iter().map(|near| near.words(chain.length_unit())).collect();
+    snapped.map_or_else(near, |report| report.to_string().lines().map(str::to_owned).collect())
 }
 
 fn notes(tree: &Tree, ends: &Ends) -> Result<Vec<String>> {

@@ -12,13 +12,17 @@
 //! direction = [1, 0, 0]
 //! ```
 //!
-//! Every key is optional; `task` and `given` are as in [`chain.toml`](mod@crate::kinematics::chain_toml).
+//! Every key is optional; `task` and `given` are as in [`chain.toml`](mod@crate::kinematics::chain_toml). `snap = 1e-5` asks for the
+//! ideal robot within that tolerance: [`Chain::snapped`].
 
 use std::path::Path;
 
+use num_traits::ToPrimitive;
+
 use crate::document::{Document, TEXT_LIMIT, read_text};
 use crate::kinematics::chain_toml::{read_given, read_task};
-use crate::kinematics::{Chain, ExactVector, Plane, Task};
+use crate::kinematics::{Chain, ExactVector, Plane, SnapReport, Task};
+use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
 /// The name of the file in a mechanism's folder that says what is asked of the input beside it.
@@ -37,6 +41,8 @@ pub struct Ends {
     pub direction: Option<ExactVector>,
     /// The joints whose values the user gives; when empty, those that the description names.
     pub given: Vec<String>,
+    /// The tolerance, in radians and metres, within which the ideal robot is meant.
+    pub snap: Option<BigRational>,
 }
 
 impl Ends {
@@ -56,9 +62,10 @@ impl Ends {
     pub fn from_toml(text: &str) -> Result<Ends> {
         let document = Document::parse(text)?;
         let root = document.root();
-        root.deny_unknown(&["base", "tip", "given", "task"])?;
+        root.deny_unknown(&["base", "tip", "given", "snap", "task"])?;
         let name = |key| root.optional(key).map(|node| node.text().map(str::to_owned)).transpose();
         let mut ends = Ends { base: name("base")?, tip: name("tip")?, given: read_given(root)?, ..Ends::default() };
+        ends.snap = root.optional("snap").map(|node| node.exact()).transpose()?;
         if let Some(node) = root.optional("task") {
             let (task, direction) = read_task(node.table()?)?;
             (ends.task, ends.direction) = (Some(task), task.aims().then_some(direction));
@@ -77,6 +84,7 @@ impl Ends {
             let names: Vec<String> = self.given.iter().map(|name| quoted(name)).collect();
             page += &format!("given = [{}]\n", names.join(", "));
         }
+        page += &self.snap.as_ref().map(|snap| format!("snap = {}\n", quoted(&snap.to_string()))).unwrap_or_default();
         if let Some(task) = self.task {
             let plane = task.plane().map(Plane::name).map(|plane| format!("plane = {}\n", quoted(plane)));
             page += &format!("\n[task]\nkind = {}\n{}", quoted(task.name()), plane.unwrap_or_default());
@@ -100,7 +108,17 @@ impl Ends {
             task,
             direction: direction.filter(|_| self.direction.is_some() || task.is_none_or(Task::aims)),
             given: if self.given.is_empty() { other.given.clone() } else { self.given.clone() },
+            snap: self.snap.clone().or_else(|| other.snap.clone()),
         }
+    }
+
+    /// The ideal robot of `chain`, and how it differs; none when it is not asked for.
+    ///
+    /// # Errors
+    /// As [`Chain::snapped`].
+    pub fn ideal(&self, chain: &Chain) -> Result<Option<(Chain, SnapReport)>> {
+        let tolerance = self.snap.as_ref().map(|snap| snap.to_f64().unwrap_or(f64::NAN));
+        tolerance.map(|tolerance| chain.snapped(tolerance)).transpose()
     }
 
     /// `chain` for the task that is asked.

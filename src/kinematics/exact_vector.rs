@@ -3,7 +3,8 @@
 use num_traits::{ToPrimitive, Zero};
 
 use super::ExactVector;
-use crate::number::BigRational;
+use super::exact_rotation::over_common;
+use crate::number::{BigInt, BigRational};
 
 /// `a + b`.
 pub fn add(a: &ExactVector, b: &ExactVector) -> ExactVector {
@@ -48,16 +49,27 @@ pub fn root(square: &BigRational) -> f64 {
     square.to_f64().unwrap_or(f64::INFINITY).sqrt()
 }
 
+/// The square root of a quotient, without its greatest divisor.
+fn ratio(a: &BigRational, b: &BigRational) -> f64 {
+    root(&BigRational::new_raw(a.numer() * b.denom(), a.denom() * b.numer()))
+}
+
 /// The sine of the angle between two vectors that are not zero, not negative; exactly zero when they are parallel.
 pub fn sine(a: &ExactVector, b: &ExactVector) -> f64 {
-    let normal = cross(a, b);
-    root(&(dot(&normal, &normal) / (dot(a, a) * dot(b, b))))
+    share(a, b, |product, lengths| lengths - product)
 }
 
 /// The magnitude of the cosine of that angle; exactly zero when they are perpendicular.
 pub fn cosine(a: &ExactVector, b: &ExactVector) -> f64 {
-    let product = dot(a, b);
-    root(&(&product * &product / (dot(a, a) * dot(b, b))))
+    share(a, b, |product, _| product.clone())
+}
+
+/// The square root of `part` over |a|^2 |b|^2, given (a . b)^2 and that: in whole numbers, which need no greatest divisors.
+fn share(a: &ExactVector, b: &ExactVector, part: impl Fn(&BigInt, &BigInt) -> BigInt) -> f64 {
+    let [a, b] = [a, b].map(|vector| over_common(vector.each_ref()).0);
+    let dot = |a: &[BigInt; 3], b: &[BigInt; 3]| -> BigInt { a.iter().zip(b).map(|(x, y)| x * y).sum() };
+    let (product, lengths) = (dot(&a, &b).pow(2), dot(&a, &a) * dot(&b, &b));
+    root(&BigRational::new_raw(part(&product, &lengths), lengths))
 }
 
 /// A line in space.
@@ -78,7 +90,8 @@ impl Line {
 
     /// The distance of `p`; exactly zero on the line.
     pub fn distance(&self, p: &ExactVector) -> f64 {
-        length(&sub(p, &self.foot(p)))
+        let moment = cross(&sub(p, &self.point), &self.direction);
+        ratio(&dot(&moment, &moment), &dot(&self.direction, &self.direction))
     }
 
     /// The point of this line that is nearest to a line that is not parallel to it.
@@ -91,6 +104,8 @@ impl Line {
 
     /// The distance of a line that is not parallel to this one; exactly zero when they meet.
     pub fn gap(&self, other: &Line) -> f64 {
-        other.distance(&self.nearest(other))
+        let normal = cross(&self.direction, &other.direction);
+        let volume = dot(&sub(&other.point, &self.point), &normal);
+        ratio(&(&volume * &volume), &dot(&normal, &normal))
     }
 }

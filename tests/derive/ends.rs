@@ -55,9 +55,10 @@ fn the_command_overrides_the_folder() {
 fn every_task_file_is_read_as_it_was_written() {
     let tasks = [Task::Pose, Task::Direction, Task::Rotation, Task::PlanarPose { plane: Plane::Xz }];
     for task in tasks {
-        let ends = Ends { base: Some("a \"b\" \\".into()), task: Some(task), ..Ends::default() };
+        let snap = Some(groebot::number::parse_rational("1e-5").unwrap());
+        let ends = Ends { base: Some("a \"b\" \\".into()), task: Some(task), snap, ..Ends::default() };
         let read = Ends::from_toml(&ends.to_toml()).unwrap();
-        assert_eq!((read.base, read.task), (ends.base, ends.task));
+        assert_eq!((read.base, read.task, read.snap), (ends.base, ends.task, ends.snap));
     }
     assert_eq!(Ends::from_toml("").unwrap(), Ends::default());
     assert_eq!(Ends::default().to_toml(), "");

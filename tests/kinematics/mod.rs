@@ -12,6 +12,7 @@ mod screw;
 mod snap;
 mod tree;
 mod urdf;
+mod urdf_angles;
 
 use groebot::number::{BigRational, parse_rational};
 

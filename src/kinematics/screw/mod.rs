@@ -4,6 +4,7 @@
 
 pub mod circles;
 mod feature;
+mod model;
 pub mod one_joint;
 mod parallel_pairs;
 mod plan;

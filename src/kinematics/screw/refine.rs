@@ -6,8 +6,8 @@ use smallvec::SmallVec;
 use super::reduced::Goal;
 use crate::spatial::{Pose, Screw};
 
-/// The most joints of a chain that has finitely many answers.
-pub(super) const MOST_JOINTS: usize = 6;
+/// The most joints: six for a pose, and one whose value is given.
+pub(super) const MOST_JOINTS: usize = 7;
 
 /// Steps at most.
 const STEPS: usize = 6;

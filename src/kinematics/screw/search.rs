@@ -12,7 +12,7 @@ use super::feature::{Feature, Scale, features, last_features};
 use super::parallel_pairs;
 use super::reduced::{Goal, Reduced};
 use super::step::{Kind, Relation, Step};
-use crate::spatial::{Half, Screw, angle};
+use crate::spatial::{Half, angle};
 
 /// How near a sample's own value must come to count as found \[rad, or lengths of the chain\].
 const FOUND: f64 = 1e-6;
@@ -116,9 +116,10 @@ impl Sample {
     }
 
     fn differs(&self, joint: usize, value: f64) -> f64 {
-        match self.start.row[joint].screw {
-            Screw::Revolute(_) => angle::difference(self.q[joint], value).abs(),
-            Screw::Prismatic(_) => (self.q[joint] - value).abs(),
+        let slides = self.start.place(joint).is_some_and(|place| self.start.row[place].screw.axis().is_none());
+        match slides {
+            false => angle::difference(self.q[joint], value).abs(),
+            true => (self.q[joint] - value).abs(),
         }
     }
 }

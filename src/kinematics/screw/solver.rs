@@ -5,12 +5,13 @@ use std::ops::Range;
 use nalgebra::{Point3, Vector3};
 
 use super::feature::Scale;
+use super::model::Model;
 use super::plan::{Plan, PlanStep, describe};
 use super::reduced::{Goal, Reduced};
 use super::refine::{MOST_JOINTS, Miss, refine};
 use super::search::{Sample, Search, scale_of};
 use super::step::Step;
-use super::target::{Solution, Target, whole};
+use super::target::{Solution, Target};
 use crate::kinematics::{Chain, Geometry, Task};
 use crate::spatial::{Axis, Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
@@ -28,7 +29,7 @@ const MERGE: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub struct ScrewSolver {
     chain: Chain,
-    screws: Vec<Screw>,
+    model: Model,
     steps: Vec<Step>,
     plan: Plan,
     reach: f64,
@@ -50,20 +51,13 @@ impl ScrewSolver {
     /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined;
     /// [`ErrorKind::Unsupported`] when no order of the known subproblems solves the chain.
     pub fn new(chain: &Chain) -> Result<Self> {
-        let count = chain.joints().len();
-        check_supported(chain)?;
-        let most = chain.task().freedoms();
-        if count > most {
-            let text =
-                format!("{count} joints for the task `{}`, which determines {most} at most", chain.task().name());
-            return Err(Error::new(ErrorKind::PositiveDimensional, text));
-        }
-        let screws = at_meeting_points(chain.screws(), 1e-9 * chain.reach());
-        let samples = samples(chain, &screws)?;
-        let scale = scale_of(&samples[0].start, chain.reach());
+        let mut model = Model::of(chain)?;
+        model.screws = at_meeting_points(&model.screws, 1e-9 * model.reach);
+        let samples = samples(chain, &model)?;
+        let scale = scale_of(&samples[0].start, model.reach);
         let Some(steps) = Search::new(&samples, scale).plan() else { return Err(unsolved(chain)) };
         let plan = tell(&steps, &samples[0], scale);
-        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), screws, steps, plan })
+        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), model, steps, plan })
     }
 
     /// The order of subproblems.
@@ -76,14 +70,33 @@ impl ScrewSolver {
         &self.chain
     }
 
-    /// All joint values that bring the tip to `target`, each checked by forward kinematics to [`ACCEPT`].
+    /// All joint values that bring the tip to `target`, each checked by forward kinematics to [`ACCEPT`], of a chain without given
+    /// joints.
     ///
     /// None for a target out of reach. Joint limits are not looked at.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the target is not of the task's kind, not finite, or its quaternion not of norm one.
+    /// [`ErrorKind::BadValue`] when the target is not of the task's kind, not finite, or its quaternion or direction not of norm
+    /// one; when the chain has given joints.
     pub fn solve(&self, target: &Target) -> Result<Vec<Solution>> {
-        let start = whole(&self.screws, target.goal(&self.chain)?);
+        self.solve_given(target, &[])
+    }
+
+    /// The same with the values `given` of the chain's given joints, from the base: radians or lengths of the chain's unit. They
+    /// stand in the answers as they were given.
+    ///
+    /// # Errors
+    /// As [`ScrewSolver::solve`]; [`ErrorKind::BadValue`] unless there is one finite value for each given joint.
+    pub fn solve_given(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
+        if given.len() != self.model.given.len() || !given.iter().all(|value| value.is_finite()) {
+            let names = self.chain.parts().given.join(", ");
+            let count = self.model.given.len();
+            let text =
+                format!("{} values are given; give a finite one for each of {count} joints: {names}", given.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let goal = target.goal(&self.chain)?;
+        let start = self.model.start(goal, given.iter().map(|&value| Half::new(value)));
         let mut found = Vec::with_capacity(self.plan.most_solutions());
         let mut trail = Trail {
             q: [Half::new(0.0); MOST_JOINTS],
@@ -91,7 +104,11 @@ impl ScrewSolver {
             free: [false; MOST_JOINTS],
             branch: 0,
         };
-        self.descend(0, &start, &start.goal, &mut trail, &mut found);
+        for (&joint, &value) in self.model.given.iter().zip(given) {
+            trail.q[joint] = Half::new(value);
+            trail.motions[joint] = self.model.screws[joint].exp_half(trail.q[joint]);
+        }
+        self.descend(0, &start, &goal, &mut trail, &mut found);
         Ok(found)
     }
 
@@ -104,7 +121,7 @@ impl ScrewSolver {
             trail.branch = branches + branch;
             for (&joint, value) in joints.iter().zip(&answer) {
                 (trail.q[joint], trail.free[joint]) = (Half::new(value.unwrap_or(0.0)), value.is_none());
-                trail.motions[joint] = self.screws[joint].exp_half(trail.q[joint]);
+                trail.motions[joint] = self.model.screws[joint].exp_half(trail.q[joint]);
             }
             if depth + 1 == self.steps.len() {
                 self.finish(goal, trail, found);
@@ -122,49 +139,38 @@ impl ScrewSolver {
 
     /// Refines and checks a complete answer, and keeps it when it is new.
     fn finish(&self, goal: &Goal, trail: &Trail, found: &mut Vec<Solution>) {
-        let tip = self.chain.base_from_tip().translation.vector;
-        let count = self.screws.len();
+        let Model { screws, tip, given, joints, .. } = &self.model;
         let values = trail.q.map(|half| half.q);
-        let miss = Miss::of(&trail.motions[..count], goal, &tip);
-        let (mut q, miss) = refine(&self.screws, goal, &tip, self.reach, (values, miss, &trail.free), ENOUGH);
+        let miss = Miss::of(&trail.motions[..screws.len()], goal, tip);
+        let fixed = std::array::from_fn(|i| trail.free[i] || given.contains(&i));
+        let (mut q, miss) = refine(screws, goal, tip, self.reach, (values, miss, &fixed), ENOUGH);
         if miss.size(self.reach).is_nan() || miss.size(self.reach) > ACCEPT {
             return;
         }
-        for (q, screw) in q.iter_mut().zip(&self.screws) {
+        for (_, (q, screw)) in q.iter_mut().zip(screws).enumerate().filter(|(i, _)| !given.contains(i)) {
             if screw.axis().is_some() {
                 *q = angle::wrap(*q);
             }
         }
-        let same = |other: &Solution| (0..count).all(|i| self.differ(i, q[i], other.q[i]) <= MERGE);
+        let same = |other: &Solution| (0..*joints).all(|i| self.differ(i, q[i], other.q[i]) <= MERGE);
         if !found.iter().any(same) {
+            let is_direction = self.chain.task() == Task::Direction;
             found.push(Solution {
-                q: q[..count].to_vec(),
-                free: (0..count).filter(|&i| trail.free[i]).collect(),
-                position_residual: miss.position,
-                rotation_residual: miss.rotation,
+                q: q[..*joints].to_vec(),
+                free: (0..*joints).filter(|&i| trail.free[i]).collect(),
+                position_residual: if is_direction { 0.0 } else { miss.position },
+                rotation_residual: if is_direction { miss.position } else { miss.rotation },
                 branch: trail.branch,
             });
         }
     }
 
     fn differ(&self, joint: usize, a: f64, b: f64) -> f64 {
-        match self.screws[joint] {
+        match self.model.screws[joint] {
             Screw::Revolute(_) => angle::difference(a, b).abs(),
             Screw::Prismatic(_) => (a - b).abs() / self.reach,
         }
     }
-}
-
-fn check_supported(chain: &Chain) -> Result<()> {
-    let unsupported = matches!(chain.task(), Task::Ray | Task::Direction | Task::Rotation);
-    if !unsupported && chain.given().is_empty() {
-        return Ok(());
-    }
-    let text = format!(
-        "screw theory solves the tasks of a pose or position with no joint given, not `{}`",
-        chain.task().name()
-    );
-    Err(Error::new(ErrorKind::Unsupported, text))
 }
 
 /// What is there, and what would be needed.
@@ -190,15 +196,18 @@ fn unsolved(chain: &Chain) -> Error {
 }
 
 /// Two configurations in general position.
-fn samples(chain: &Chain, screws: &[Screw]) -> Result<Vec<Sample>> {
-    const TURNS: [[f64; MOST_JOINTS]; 2] =
-        [[0.7391, -1.1217, 0.8713, 0.5347, -0.9241, 1.3129], [-0.4177, 0.6911, -1.2371, 1.0939, 0.7727, -0.5813]];
+fn samples(chain: &Chain, model: &Model) -> Result<Vec<Sample>> {
+    const TURNS: [[f64; MOST_JOINTS]; 2] = [
+        [0.7391, -1.1217, 0.8713, 0.5347, -0.9241, 1.3129, 0.6173],
+        [-0.4177, 0.6911, -1.2371, 1.0939, 0.7727, -0.5813, -0.8447],
+    ];
     let length = if chain.reach() > 0.0 { chain.reach() } else { 1.0 };
     let sample = |turns: &[f64; MOST_JOINTS]| {
         let value = |(screw, turn): (&Screw, &f64)| if screw.axis().is_some() { *turn } else { turn * length };
-        let q: Vec<f64> = screws.iter().zip(turns).map(value).collect();
-        let goal = Target::reached(chain, &q)?.goal(chain)?;
-        Ok(Sample { start: whole(screws, goal), q })
+        let q: Vec<f64> = chain.screws().iter().zip(turns).map(value).collect();
+        let (q, goal) = model.values(chain, &q)?;
+        let start = model.start(goal, model.given.iter().map(|&joint| Half::new(q[joint])));
+        Ok(Sample { start, q })
     };
     TURNS.iter().map(sample).collect()
 }

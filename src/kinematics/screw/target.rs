@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
+use super::model::ray_goal;
 use super::reduced::{Goal, Member, Reduced};
 use crate::kinematics::{Chain, Plane, Task};
 use crate::spatial::Pose;
@@ -85,6 +86,19 @@ impl Target {
                 Goal::Pose(pose * tip.inverse())
             }
             (Target::Position(to), Task::Position) => Goal::Point { from, to: *to },
+            (Target::Ray { point, direction }, Task::Ray) => {
+                check_direction(direction)?;
+                ray_goal(chain, point, direction)
+            }
+            (Target::Direction(direction), Task::Direction) => {
+                check_direction(direction)?;
+                Goal::Point { from: (tip.rotation * chain.aim().into_inner()).into(), to: (*direction).into() }
+            }
+            (Target::Rotation(rotation), Task::Rotation) => {
+                let pose = Pose::from_parts(Translation3::identity(), *rotation);
+                check_unit(&pose)?;
+                Goal::Pose(Pose::from_parts(Translation3::identity(), rotation * tip.rotation.inverse()))
+            }
             (Target::PlanarPosition(at), Task::PlanarPosition { plane }) => {
                 Goal::Point { from, to: in_plane(&from, plane, at) }
             }
@@ -117,6 +131,15 @@ fn check_unit(pose: &Pose) -> Result<()> {
         return Ok(());
     }
     let text = format!("the rotation's quaternion has the norm {norm}; give a unit quaternion");
+    Err(Error::new(ErrorKind::BadValue, text))
+}
+
+fn check_direction(direction: &Vector3<f64>) -> Result<()> {
+    let norm = direction.norm();
+    if (norm - 1.0).abs() <= 1e-9 {
+        return Ok(());
+    }
+    let text = format!("the direction has the length {norm}; give a vector of length one");
     Err(Error::new(ErrorKind::BadValue, text))
 }
 

@@ -18,7 +18,10 @@ pub(super) fn ideal(chain: &Chain, tolerance: f64) -> Result<Chain> {
     }
     let tip = placing.tip(chain, tolerance);
     let joint = |(joint, line): (&Joint, Line)| Joint { axis: line.direction, point: line.point, ..joint.clone() };
-    let joints = chain.joints().iter().zip(placing.ideal).map(joint).collect();
+    let joints: Vec<Joint> = chain.joints().iter().zip(placing.ideal).map(joint).collect();
+    if joints == chain.joints() && tip == *chain.tip() {
+        return Ok(chain.clone());
+    }
     Chain::new(ChainParts { joints, tip, ..chain.parts().clone() })
 }
 

@@ -8,6 +8,7 @@ mod solver;
 mod solver_record;
 mod subproblem_families;
 mod subproblems_record;
+mod tasks;
 mod three_joints;
 mod two_joints;
 mod two_link;

@@ -1,0 +1,112 @@
+//! The loop that stands for a chain's task: what is a pose or a point for the subproblems. Main type: [`Model`].
+//!
+//! A ray is a pose with one more joint, that turns about the ray. A rotation is a pose, and a direction a point, of the chain's
+//! spherical image, in which all axes pass the origin. A given joint is absorbed before the first step.
+
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+
+use super::reduced::{Goal, Reduced};
+use super::refine::MOST_JOINTS;
+use super::target::{Target, whole};
+use crate::kinematics::{Chain, Task};
+use crate::spatial::{Half, Pose, Screw};
+use crate::{Error, ErrorKind, Result};
+
+/// A chain as the screw solver sees it.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    /// The joints' screws, then that of the ray.
+    pub screws: Vec<Screw>,
+    /// The point of the tip whose distance counts.
+    pub tip: Vector3<f64>,
+    /// The length that distances are measured against; one where there are only directions.
+    pub reach: f64,
+    /// The places of the joints whose values are given.
+    pub given: Vec<usize>,
+    /// How many of the screws are joints.
+    pub joints: usize,
+}
+
+impl Model {
+    /// The model of `chain`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined; [`ErrorKind::Unsupported`] for more joints
+    /// than the solver holds.
+    pub fn of(chain: &Chain) -> Result<Model> {
+        let (joints, given, task) = (chain.joints().len(), chain.given(), chain.task());
+        if joints - given.len() > task.freedoms() {
+            let text = format!(
+                "{} joints for the task `{}`, which determines {} at most; give the values of the others (`given`)",
+                joints - given.len(),
+                task.name(),
+                task.freedoms()
+            );
+            return Err(Error::new(ErrorKind::PositiveDimensional, text));
+        }
+        let image = matches!(task, Task::Rotation | Task::Direction);
+        let mut screws = if image { spherical_image(chain)? } else { chain.screws().to_vec() };
+        let tip = if image { Vector3::zeros() } else { chain.base_from_tip().translation.vector };
+        if task == Task::Ray {
+            let aimed = chain.base_from_tip().rotation * chain.aim().into_inner();
+            screws.push(Screw::revolute(aimed, Point3::from(tip))?);
+        }
+        if screws.len() > MOST_JOINTS {
+            let text = format!(
+                "the screw solver takes {MOST_JOINTS} joints, a ray's turn included; there are {}",
+                screws.len()
+            );
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+        Ok(Model { screws, tip, reach: if image { 1.0 } else { chain.reach() }, given, joints })
+    }
+
+    /// The loop towards `goal`, with the given joints at `values`.
+    pub fn start(&self, goal: Goal, values: impl Iterator<Item = Half>) -> Reduced {
+        let mut reduced = whole(&self.screws, goal);
+        for (&joint, value) in self.given.iter().zip(values) {
+            if let Some(place) = reduced.place(joint) {
+                reduced.absorb(place, value);
+            }
+        }
+        reduced
+    }
+
+    /// The values of all screws at the joint values `q`, on the way to the goal that `q` reaches: those of `q`, then the turn about
+    /// the ray that the goal's rotation, chosen freely, leaves.
+    pub fn values(&self, chain: &Chain, q: &[f64]) -> Result<(Vec<f64>, Goal)> {
+        let goal = Target::reached(chain, q)?.goal(chain)?;
+        let mut values = q.to_vec();
+        if let (Goal::Pose(pose), true) = (goal, self.screws.len() > self.joints) {
+            let turn = chain.forward(q)?.rotation.inverse() * (pose * chain.base_from_tip()).rotation;
+            values.push(2.0 * turn.imag().dot(&chain.aim()).atan2(turn.scalar()));
+        }
+        Ok((values, goal))
+    }
+}
+
+/// The axes moved to the origin: their rotations are those of the chain.
+fn spherical_image(chain: &Chain) -> Result<Vec<Screw>> {
+    let image = |(screw, joint): (&Screw, &crate::kinematics::Joint)| match screw {
+        Screw::Revolute(axis) => Screw::revolute(axis.direction().into_inner(), Point3::origin()),
+        Screw::Prismatic(_) => {
+            let text = format!("joint `{}` slides: it has no part in the task `{}`", joint.name, chain.task().name());
+            Err(Error::new(ErrorKind::PositiveDimensional, text))
+        }
+    };
+    chain.screws().iter().zip(chain.joints()).map(image).collect()
+}
+
+/// A rotation of the tip of `chain` that points its direction along `wanted`.
+pub(super) fn aimed(chain: &Chain, wanted: &Vector3<f64>) -> UnitQuaternion<f64> {
+    let aim = chain.aim();
+    let across = aim.cross(&Vector3::ith(aim.iamin(), 1.0));
+    let half_turn = UnitQuaternion::from_axis_angle(&nalgebra::Unit::new_normalize(across), std::f64::consts::PI);
+    UnitQuaternion::rotation_between(&aim.into_inner(), wanted).unwrap_or(half_turn)
+}
+
+/// The goal of a ray: a pose with a rotation that has its direction.
+pub(super) fn ray_goal(chain: &Chain, point: &Point3<f64>, direction: &Vector3<f64>) -> Goal {
+    let pose = Pose::from_parts(point.coords.into(), aimed(chain, direction));
+    Goal::Pose(pose * chain.base_from_tip().inverse())
+}
