@@ -67,13 +67,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         return Ok(());
     }
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let told = Report {
-        derivation: &derivation,
-        checked: &checked,
-        folder: &folder,
-        files: &names,
-        timings: &clock.laps,
-    };
+    let told =
+        Report { derivation: &derivation, checked: &checked, folder: &folder, files: &names, timings: &clock.laps };
     console::print(&report(&told, Paint::of(&std::io::stdout()))?)
 }
 

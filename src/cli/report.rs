@@ -11,7 +11,7 @@ use super::strata;
 use crate::Result;
 use crate::derive::setting::{Poly, Unknowns};
 use crate::derive::triangular::{Stair, Triangular};
-use crate::derive::{Derivation, JointKindUnknown, Proved, ParameterSource, Quantity, Root, System};
+use crate::derive::{Derivation, JointKindUnknown, ParameterSource, Proved, Quantity, Root, System};
 use crate::groebner::Basis;
 use crate::witness;
 

@@ -15,7 +15,8 @@ fn leg() -> (Derivation, String) {
 
 #[test]
 fn what_is_written_is_proved_again() {
-    for system in [source("nao_leg_sagittal").system.unwrap(), source("nao_arm_planar").system.unwrap(), symbolic_leg()] {
+    for system in [source("nao_leg_sagittal").system.unwrap(), source("nao_arm_planar").system.unwrap(), symbolic_leg()]
+    {
         let derivation = derive(system);
         let text = certificate::write(&derivation).unwrap();
         assert_eq!(certificate::prove(&derivation.system, &text).unwrap(), derivation);

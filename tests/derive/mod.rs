@@ -2,10 +2,10 @@
 
 mod certificate;
 mod chains;
+mod closure;
 mod ends;
 mod families;
 mod lift;
-mod closure;
 mod planner;
 mod random_chains;
 mod renamed;

@@ -157,6 +157,15 @@ fn directions_rotations_and_rays() {
     assert_family("RRRRR", &[Shared::Direction(1, 3)], Task::Ray, 8);
 }
 
+/// Two axes that meet, three that meet, and a ray along the last of them but beside it.
+#[test]
+fn an_arm_with_a_ray_along_its_last_axis() {
+    let arm = chain("RRRRR", &[Shared::Point(0, 1), Shared::Point(2, 4)], Task::Pose, 14);
+    let (axis, rotation) = (&arm.joints()[4].axis, &arm.tip().rotation);
+    let in_tip = [0, 1, 2].map(|j| (0..3).map(|i| &rotation[i][j] * &axis[i]).sum());
+    assert_plan("arm", &with_task(&arm, Task::Ray, in_tip), &[], 8);
+}
+
 #[test]
 fn seven_joints_with_one_given() {
     let spherical = chain("RRRRRRR", &[Shared::Point(0, 2), Shared::Point(4, 6)], Task::Pose, 7);
@@ -173,13 +182,21 @@ fn seven_joints_with_one_given() {
 
 #[test]
 fn a_general_chain_is_refused_with_its_sixteen() {
-    for (kinds, shared) in [("RRRRRR", vec![]), ("RRRRRR", vec![Shared::Point(0, 1), Shared::Point(4, 5)])] {
-        let error = refusal(&chain(kinds, &shared, Task::Pose, 9), &[]);
+    for shared in [vec![], vec![Shared::Point(0, 1), Shared::Point(4, 5)]] {
+        let error = refusal(&chain("RRRRRR", &shared, Task::Pose, 9), &[]);
         assert_eq!(error.kind(), ErrorKind::Unsupported);
         let message = error.message();
         assert!(message.contains("16 complex solutions") && message.contains("`joint3` 16"), "{message}");
         assert!(message.contains("would have to meet in one point or be parallel"), "{message}");
     }
+}
+
+/// Three angles among four axes hold together for free coefficients, but not for those of a target: no step comes of them.
+#[test]
+fn two_slides_between_pairs_are_refused_with_their_eight() {
+    let error = refusal(&chain("RRPPRR", &[Shared::Point(0, 1), Shared::Point(4, 5)], Task::Pose, 3), &[]);
+    assert_eq!(error.kind(), ErrorKind::Unsupported);
+    assert!(error.message().contains("8 complex solutions"), "{error}");
 }
 
 #[test]

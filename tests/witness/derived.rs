@@ -52,7 +52,12 @@ fn every_chain_passes_some_of_its_checks() {
         };
         let taken = start.elapsed();
         let report = check(&chain, &derived, &Options { targets: 60, oracle: 1, exact: 6, seed: 6 }).unwrap();
-        println!("{name}: {} solutions, {taken:.2?}; {}\n{}", derived.plan.dimension, report.summary(), told(&report, 6));
+        println!(
+            "{name}: {} solutions, {taken:.2?}; {}\n{}",
+            derived.plan.dimension,
+            report.summary(),
+            told(&report, 6)
+        );
         if report.failures().count() > 0 {
             failed.push(name);
         }
@@ -71,7 +76,9 @@ fn histogram(report: &Report) -> String {
 #[test]
 #[ignore = "an hour: cargo test --release -- --ignored the_counts_of_the_chains --nocapture"]
 fn the_counts_of_the_chains() {
-    println!("chain,solutions,run,class,targets,failed,counted_exactly,by_screws,residual_p50,residual_p99,residual_p99.9,residual_max,joints_max,answers,seconds");
+    println!(
+        "chain,solutions,run,class,targets,failed,counted_exactly,by_screws,residual_p50,residual_p99,residual_p99.9,residual_max,joints_max,answers,seconds"
+    );
     let mut failed = Vec::new();
     for (name, chain) in chains() {
         let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
@@ -82,7 +89,10 @@ fn the_counts_of_the_chains() {
             let seconds = start.elapsed().as_secs_f64();
             print_classes(&name, run, derived.plan.dimension, &report, seconds);
             if report.failures().count() > 0 {
-                println!("# {name}\n{}", told(&report, 10).lines().map(|line| format!("# {line}\n")).collect::<String>());
+                println!(
+                    "# {name}\n{}",
+                    told(&report, 10).lines().map(|line| format!("# {line}\n")).collect::<String>()
+                );
                 failed.push(name.clone());
             }
         }

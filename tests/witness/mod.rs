@@ -34,7 +34,13 @@ pub fn check(source: &Source, program: &Program, targets: usize) -> Report {
 pub fn assert_passes(source: &Source, program: &Program, targets: usize) -> Report {
     let report = check(source, program, targets);
     let failures: Vec<String> = report.failures().map(|row| row.to_string()).collect();
-    assert!(failures.is_empty(), "{}: {}\n{}", source.system.clone().unwrap().name, report.summary(), failures.join("\n"));
+    assert!(
+        failures.is_empty(),
+        "{}: {}\n{}",
+        source.system.clone().unwrap().name,
+        report.summary(),
+        failures.join("\n")
+    );
     report
 }
 

@@ -105,7 +105,8 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan) -> Result<Vec<Lifte
     let mut known = plan.given.clone();
     let mut steps = Vec::new();
     for (index, step) in plan.steps.iter().enumerate() {
-        let proved = if step.joint < count { prove_step(mechanism, step, &known) } else { Err(refused("no such joint".into())) };
+        let proved =
+            if step.joint < count { prove_step(mechanism, step, &known) } else { Err(refused("no such joint".into())) };
         let name = mechanism.joints().get(step.joint).map_or("?", |joint| joint.name.as_str());
         steps.push(proved.map_err(|error| refused(format!("step {}, `{name}`: {}", index + 1, error.message())))?);
         known.push(step.joint);
@@ -125,7 +126,8 @@ fn prove_step(mechanism: &Mechanism, step: &PlanStep, known: &[usize]) -> Result
         return Err(refused("the joint is known already".to_owned()));
     }
     for relation in step.way.relations() {
-        if let Some(other) = relation.joints().into_iter().find(|joint| *joint != step.joint && !known.contains(joint)) {
+        if let Some(other) = relation.joints().into_iter().find(|joint| *joint != step.joint && !known.contains(joint))
+        {
             return Err(refused(format!("`{relation}` holds joint {}, which is not known yet", other + 1)));
         }
         closure::prove(mechanism, relation)?;

@@ -141,8 +141,9 @@ impl<'a> Forward<'a> {
     fn compare(&mut self, mechanism: &Mechanism, reach: f64) {
         let task = mechanism.task();
         let tip = self.moved(mechanism.tip_point());
-        let columns: [Vector; 3] =
-            std::array::from_fn(|column| self.turned(&mechanism.tip_rotation().each_ref().map(|row| row[column].clone())));
+        let columns: [Vector; 3] = std::array::from_fn(|column| {
+            self.turned(&mechanism.tip_rotation().each_ref().map(|row| row[column].clone()))
+        });
         let size = self.emitter.0.add(Operand::Constant(reach), self.shifts);
         match task {
             Task::Pose | Task::Position | Task::Ray => self.at(&tip, &[0, 1, 2], 0, size),

@@ -3,12 +3,12 @@
 use num_traits::ToPrimitive;
 
 use super::emit::{Emitted, Emitter};
+use crate::Result;
 use crate::derive::assemble::Assembler;
 use crate::derive::closure::{self, Assignment, Mechanism, Target};
 use crate::kinematics::{JointKind, LengthUnit, Task};
 use crate::number::BigRational;
 use crate::solver::{Condition, Input, JointValue, Operand, ParameterRule, Rule, Unit};
-use crate::Result;
 
 /// The names and places of all numbers of a program.
 pub(super) struct Layout {
@@ -142,9 +142,15 @@ impl Layout {
     }
 
     /// The same with magnitudes: cosines, sines and rotation entries count as one, lengths as the greatest of them.
-    pub fn sizes(&self, mechanism: &Mechanism, known: &[usize], assembler: &mut Assembler) -> Result<Assignment<Emitted>> {
+    pub fn sizes(
+        &self,
+        mechanism: &Mechanism,
+        known: &[usize],
+        assembler: &mut Assembler,
+    ) -> Result<Assignment<Emitted>> {
         let emitter = &mut super::emit::Sizes(assembler);
-        let size = |input: &str| if input.starts_with('p') { Emitted::Code(Operand::Magnitude) } else { Emitted::integer(1) };
+        let size =
+            |input: &str| if input.starts_with('p') { Emitted::Code(Operand::Magnitude) } else { Emitted::integer(1) };
         let parameters: Vec<Emitted> = mechanism.parameters().iter().map(|name| size(name)).collect();
         let target = Target::new(mechanism, &parameters, emitter)?;
         let joints = (0..self.joints.len()).map(|joint| match self.joints[joint] {

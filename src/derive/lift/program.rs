@@ -2,13 +2,13 @@
 
 use num_traits::ToPrimitive;
 
+use super::Lifted;
 use super::charts::{Place, Sized, charts};
 use super::checks::checks;
 use super::emit::{Emitted, Emitter, Sizes};
 use super::layout::Layout;
 use super::shape::Shape;
 use super::template::{Form, Template};
-use super::Lifted;
 use crate::derive::assemble::Assembler;
 use crate::derive::closure::{Assignment, Factor, Mechanism, Multilinear, Relation, evaluate};
 use crate::kinematics::{Chain, LengthUnit};
@@ -39,7 +39,8 @@ pub(super) fn compile(
     let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
     for step in lifted {
         let template = template(templates, step.shape.form)?;
-        let second = matches!(step.shape.form, Form::Pair).then(|| self::template(templates, Form::Angle)).transpose()?;
+        let second =
+            matches!(step.shape.form, Form::Pair).then(|| self::template(templates, Form::Angle)).transpose()?;
         let context = Context { mechanism, known: &known, step, reach };
         blocks.push(context.block(&mut layout, template, second)?);
         known.push(step.joint);
@@ -192,7 +193,8 @@ impl Context<'_> {
         let joint = self.step.joint;
         let square = self.mechanism.joints()[joint].square.to_f64().unwrap_or(1.0);
         let root = square.sqrt();
-        let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors) {
+        let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors)
+        {
             None => Operand::Constant(0.0),
             Some(value) => assembler.mul(Operand::Constant(factor), value.operand()),
         };

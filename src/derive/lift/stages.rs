@@ -7,13 +7,13 @@ use num_traits::One;
 use super::shape::{Symbolic, TargetPoly};
 use super::template::{Form, Template};
 use super::{Derived, Lifted, certificate};
+use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, Multilinear};
 use crate::derive::describe;
 use crate::derive::stages::{MARK, PAGE, STAGES};
 use crate::derive::tree::{Node, Outcome};
 use crate::derive::triangular::presented;
 use crate::number::{Ring, Style};
-use crate::Result;
 
 /// The most terms of an equation that are written out.
 const MOST_TERMS: usize = 120;
@@ -44,7 +44,8 @@ impl Derived {
         text += &notation(mechanism);
         let mut symbolic = Symbolic::new(mechanism)?;
         for (index, step) in self.steps.iter().enumerate() {
-            let _ = writeln!(text, "\n{} for {}", heading(index, mechanism, step), joint_unknowns(mechanism, step.joint));
+            let _ =
+                writeln!(text, "\n{} for {}", heading(index, mechanism, step), joint_unknowns(mechanism, step.joint));
             for (number, relation) in step.relations.iter().enumerate() {
                 let _ = writeln!(text, "({}.{})  {relation}", index + 1, number + 1);
                 let _ = writeln!(text, "       {}", relation.meaning(mechanism));
@@ -195,7 +196,9 @@ fn why(form: Form) -> &'static str {
 /// What happens where the generic formulas break down.
 fn singular(form: Form) -> &'static str {
     match form {
-        Form::Angle => "where A = B = 0 no angle solves it, or with C = 0 each does: the joint is free. Where A^2 + B^2 = C^2 both ends meet.",
+        Form::Angle => {
+            "where A = B = 0 no angle solves it, or with C = 0 each does: the joint is free. Where A^2 + B^2 = C^2 both ends meet."
+        }
         Form::Turn => "where A = B = 0 no angle solves it, or with X = Y = 0 each does: the joint is free.",
         Form::Pair => "where A F = B E each equation is solved alone, and what solves both is kept.",
         Form::Linear => "never, where A is a number.",
@@ -232,8 +235,11 @@ fn notation(mechanism: &Mechanism) -> String {
 
 /// `c1, s1`; `s1'` is the sine divided by the length of the axis vector where that is not one.
 fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> String {
-    let factors: &[Factor] =
-        if mechanism.joints()[joint].is_revolute() { &[Factor::Cosine(joint), Factor::Sine(joint)] } else { &[Factor::Length(joint)] };
+    let factors: &[Factor] = if mechanism.joints()[joint].is_revolute() {
+        &[Factor::Cosine(joint), Factor::Sine(joint)]
+    } else {
+        &[Factor::Length(joint)]
+    };
     let screw = &mechanism.joints()[joint];
     let mut text = factors.iter().map(|factor| name(mechanism, *factor)).collect::<Vec<_>>().join(", ");
     if !screw.square.is_one() {

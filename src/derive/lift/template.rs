@@ -112,8 +112,7 @@ impl Form {
             source: ParameterSource::Input(index),
             square: None,
         };
-        let input =
-            |name: &&str| Input { name: (*name).to_owned(), quantity: Quantity::Number, positive: false };
+        let input = |name: &&str| Input { name: (*name).to_owned(), quantity: Quantity::Number, positive: false };
         let unknown = |name: &&str| JointUnknown {
             name: (*name).to_owned(),
             kind: JointKindUnknown::Value { unknown: (*name).to_owned() },

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::echelon::Echelon;
 use super::evidence::Space;
 use super::one_joint::Candidate;
-use super::sights::{Sample, Sight, Sights, is_number, members};
+use super::sights::{Sample, Sight, Sights, is_number, members, set};
 use super::specimen::Random;
 use super::types::{PlanStep, Way};
 use crate::derive::closure::Factor;
@@ -20,6 +20,9 @@ const GREATEST: usize = 4;
 const CANDIDATES: usize = 4;
 /// So many relations are looked at for independent ones.
 const LOOKED_AT: usize = 24;
+
+/// The effort of linear relations among coefficients.
+const LINEAR: usize = 20;
 
 /// A relation, by its place, with what it looks like.
 type Seen = (usize, Rc<Sight>);
@@ -39,8 +42,8 @@ pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Wa
         if !covers(&some, joints) {
             continue;
         }
-        let Some((degrees, symbols)) = degrees(sights, &some, &places, watch)? else { continue };
-        for (at, &degree) in degrees.iter().enumerate().filter(|(_, degree)| **degree <= GREATEST) {
+        let (degrees, symbols) = freed_degrees(sights, &some, &places, watch)?;
+        for (at, &degree) in degrees.iter().enumerate().filter(|(_, degree)| is_allowed(degree)) {
             let away: Vec<usize> = places.iter().copied().filter(|&place| place != places[at]).collect();
             let hard = away.iter().filter(|&&joint| !turns_as_one(sights, &some, joint)).count();
             let effort = 10 * places.len() + symbols + 5 * hard;
@@ -115,17 +118,57 @@ fn combinations(count: usize, size: usize) -> Vec<Vec<usize>> {
 }
 
 /// The numbers of values of the joints when all coefficients that are no numbers are free, as they are for the basis with symbols;
-/// proportional ones stay so; and the number of these symbols. `None` when there are infinitely many, or no values.
-fn degrees(sights: &Sights<'_>, some: &[Seen], places: &[usize], watch: &Watch) -> Result<Option<(Vec<usize>, usize)>> {
-    let mut random = Random::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
+/// proportional ones stay so; and the number of these symbols. Where that leaves more values than a step may have, other linear
+/// relations of the coefficients are kept too, which counts as [`LINEAR`] symbols more.
+fn freed_degrees(
+    sights: &mut Sights<'_>,
+    some: &[Seen],
+    places: &[usize],
+    watch: &Watch,
+) -> Result<(Vec<usize>, usize)> {
     let space = Space::new(sights.mechanism, places, sights.field())?;
-    let mut generators = space.circles(&sights.squares)?;
+    let mut actual = Vec::new();
+    for (_, sight) in some {
+        actual.push(space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?);
+    }
+    // Freed coefficients may have finitely many solutions where the actual ones have not, but no fewer.
+    if !degrees(sights, actual, &space, places, watch)?.iter().any(is_allowed) {
+        return Ok((vec![0; places.len()], 0));
+    }
+    let mut random = Random::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
     let (polynomials, symbols) = freed(sights, some, &space, &mut random)?;
+    let free = degrees(sights, polynomials, &space, places, watch)?;
+    if free.iter().any(is_allowed) {
+        return Ok((free, symbols));
+    }
+    let mut mixtures = Vec::new();
+    for (index, _) in some {
+        let unknown = set(places) & sights.joints_of(*index);
+        let mixture = sights.mixture(*index, unknown)?;
+        mixtures.push(space.polynomial(mixture.iter().map(|(product, &value)| (product, value)))?);
+    }
+    Ok((degrees(sights, mixtures, &space, places, watch)?, symbols + LINEAR))
+}
+
+/// Whether a step may have so many solutions.
+fn is_allowed(degree: &usize) -> bool {
+    (1..=GREATEST).contains(degree)
+}
+
+/// The numbers of values of the joints; zero when there are none or infinitely many.
+fn degrees(
+    sights: &Sights<'_>,
+    polynomials: Vec<Polynomial<u64>>,
+    space: &Space,
+    places: &[usize],
+    watch: &Watch,
+) -> Result<Vec<usize>> {
+    let mut generators = space.circles(&sights.squares)?;
     generators.extend(polynomials);
     let basis = basis_modulo_prime(&space.ring, &generators, watch)?;
     match basis.quotient_dimension() {
-        None | Some(0) => Ok(None),
-        Some(_) => Ok(Some((space.degrees(&basis, places, &mut random, watch)?, symbols))),
+        None | Some(0) => Ok(vec![0; places.len()]),
+        Some(_) => space.degrees(&basis, places, &mut Random::new(sights.field().modulus()), watch),
     }
 }
 

@@ -71,7 +71,7 @@ fn search(
     for reach in REACHES {
         let Some(steps) = Search::new(&mut sights, reach, watch).steps()? else { continue };
         let product = steps.iter().map(|step| step.degree).product();
-        if product <= dimension {
+        if product == dimension {
             return Ok(steps);
         }
         if best.as_ref().is_none_or(|(least, _)| product < *least) {

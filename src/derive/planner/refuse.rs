@@ -45,7 +45,7 @@ pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize
     let degrees: Vec<String> = mechanism.unknown().iter().map(degree).collect();
     let found = match product {
         None => "no order of the joints determines one at a time with at most 4 values each".to_owned(),
-        Some(product) => format!("the best order of the joints gives {product} solutions, some of them false"),
+        Some(product) => format!("the best order of the joints gives {product} instead"),
     };
     let text = format!(
         "a target of the `{}` task has {} complex solutions (values of the joints: {}); {found}; {}",

@@ -63,7 +63,9 @@ fn exact_screw(screw: &Screw) -> Option<(ExactVector, ExactVector)> {
         Some([x?, y?, z?])
     };
     match screw {
-        Screw::Revolute(axis) => Some((exact(axis.direction().into_inner().into())?, exact(axis.point().coords.into())?)),
+        Screw::Revolute(axis) => {
+            Some((exact(axis.direction().into_inner().into())?, exact(axis.point().coords.into())?))
+        }
         Screw::Prismatic(direction) => Some((exact(direction.into_inner().into())?, exact([0.0; 3])?)),
     }
 }

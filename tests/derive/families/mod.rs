@@ -115,7 +115,9 @@ fn two_chains_of_each_family() {
 #[test]
 #[ignore = "takes minutes: cargo test --release -- --ignored fifty_chains_of_each_family --nocapture"]
 fn fifty_chains_of_each_family() {
-    println!("family,chains,dimensions,targets,failed,counted_exactly,by_screws,residual_p50,residual_p99.9,derive_s_max");
+    println!(
+        "family,chains,dimensions,targets,failed,counted_exactly,by_screws,residual_p50,residual_p99.9,derive_s_max"
+    );
     let options = Options { targets: 200, oracle: 0, exact: 20, seed: 12 };
     let tallies: Vec<Tally> = FAMILIES.iter().map(|family| assert_family(family, 50, &options)).collect();
     for (family, tally) in FAMILIES.iter().zip(&tallies) {

@@ -47,7 +47,10 @@ fn a_stretched_arm_keeps_its_answer() {
                 let found = answers(&derived, &chain, &q);
                 // A root of a square is uncertain by the square root of rounding.
                 let nearest = found.iter().map(|a| distance(&chain, &a.q, &q, &a.free)).fold(9.0, f64::min);
-                if nearest > 1e-6 { lost += 1; println!("{name} {bend} {q:?} nearest {nearest:e}\n{found:?}"); }
+                if nearest > 1e-6 {
+                    lost += 1;
+                    println!("{name} {bend} {q:?} nearest {nearest:e}\n{found:?}");
+                }
             }
             assert_eq!(lost, 0, "{name} {bend}");
         }
