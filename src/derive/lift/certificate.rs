@@ -8,12 +8,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::shape::shape;
+use super::eliminate::{self, Elimination};
+use super::half_angle::{self, HalfAngles};
+use super::shape::{eliminated, shape};
 use super::template::{Form, Template};
-use super::{Derived, Lifted};
+use super::{Derived, Lifted, Parts};
 use crate::derive::certificate::{Entry, entries, replay};
 use crate::derive::closure::{self, Mechanism};
-use crate::derive::planner::{Plan, PlanStep};
+use crate::derive::planner::{Plan, PlanStep, Way};
 use crate::kinematics::Chain;
 use crate::{Error, ErrorKind, Result};
 
@@ -28,6 +30,11 @@ struct Record {
     name: String,
     plan: Plan,
     templates: Vec<Proof>,
+    /// In the order of the steps that need one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    eliminations: Vec<eliminate::Stored>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    half_angles: Option<Vec<half_angle::Stored>>,
 }
 
 /// What is claimed about a form.
@@ -50,6 +57,8 @@ pub fn write(derived: &Derived) -> Result<String> {
         name: derived.chain.name().to_owned(),
         plan: derived.plan.clone(),
         templates: derived.templates.iter().map(proof).collect::<Result<_>>()?,
+        eliminations: derived.steps.iter().filter_map(|step| step.elimination.as_ref()).map(Elimination::stored).collect(),
+        half_angles: derived.half_angles.as_ref().map(HalfAngles::stored),
     };
     let text = serde_json::to_string_pretty(&record).expect("a record holds nothing that JSON cannot say");
     Ok(text + "\n")
@@ -73,13 +82,22 @@ pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
         return Err(refused(text));
     }
     let mechanism = Mechanism::new(chain)?;
-    let steps = prove_plan(&mechanism, &record.plan)?;
+    let mut stored = record.eliminations.iter();
+    let mut eliminate = |step: &PlanStep, away: &[usize]| match stored.next() {
+        Some(stored) => Elimination::again(&mechanism, step, away, stored),
+        None => Err(refused("its elimination is missing".to_owned())),
+    };
+    let steps = prove_plan(&mechanism, &record.plan, &mut eliminate)?;
+    let half_angles = record.half_angles.as_deref().map(HalfAngles::again).transpose()?;
+    if half_angles.is_some() != steps.iter().any(|step| step.shape.form == Form::Quartic) || stored.next().is_some() {
+        return Err(refused("half angles or eliminations are missing or left over".to_owned()));
+    }
     let templates = record.templates.iter().map(prove_template).collect::<Result<Vec<_>>>()?;
     let needed: Vec<Form> = Template::needed(&steps);
     if templates.iter().map(|template| template.form).ne(needed) {
         return Err(refused("the templates are not those of the plan's forms, in their order".to_owned()));
     }
-    Derived::assemble(chain, &mechanism, record.plan, steps, templates)
+    Derived::assemble(chain, &mechanism, Parts { plan: record.plan, steps, templates, half_angles })
 }
 
 fn refused(text: String) -> Error {
@@ -93,11 +111,14 @@ fn prove_template(proof: &Proof) -> Result<Template> {
     Ok(Template { form: proof.form, system, tree })
 }
 
+/// Gives the proved elimination of joints from a step.
+type Eliminate<'a> = dyn FnMut(&PlanStep, &[usize]) -> Result<Elimination> + 'a;
+
 /// Every step of `plan`, proved; together they find each joint once, with as many solutions as the plan says.
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] that names the step.
-pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan) -> Result<Vec<Lifted>> {
+pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eliminate<'_>) -> Result<Vec<Lifted>> {
     let count = mechanism.joints().len();
     if plan.given != mechanism.given() {
         return Err(refused("the plan's given joints are not those of the chain".to_owned()));
@@ -105,8 +126,10 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan) -> Result<Vec<Lifte
     let mut known = plan.given.clone();
     let mut steps = Vec::new();
     for (index, step) in plan.steps.iter().enumerate() {
-        let proved =
-            if step.joint < count { prove_step(mechanism, step, &known) } else { Err(refused("no such joint".into())) };
+        let proved = match step.joint < count {
+            true => prove_step(mechanism, step, &known, eliminate),
+            false => Err(refused("no such joint".to_owned())),
+        };
         let name = mechanism.joints().get(step.joint).map_or("?", |joint| joint.name.as_str());
         steps.push(proved.map_err(|error| refused(format!("step {}, `{name}`: {}", index + 1, error.message())))?);
         known.push(step.joint);
@@ -114,28 +137,42 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan) -> Result<Vec<Lifte
     if steps.len() + plan.given.len() != count {
         return Err(refused("the plan does not find every joint".to_owned()));
     }
-    if plan.product() != plan.dimension {
+    // Equations beyond those of the plan, where the task asks for more than the joints can do, leave fewer solutions.
+    let tight = mechanism.task().freedoms() <= mechanism.unknown().len();
+    if plan.product() < plan.dimension || tight && plan.product() != plan.dimension {
         let text = format!("the steps give {} solutions, {} are claimed", plan.product(), plan.dimension);
         return Err(refused(text));
     }
     Ok(steps)
 }
 
-fn prove_step(mechanism: &Mechanism, step: &PlanStep, known: &[usize]) -> Result<Lifted> {
+fn prove_step(
+    mechanism: &Mechanism,
+    step: &PlanStep,
+    known: &[usize],
+    eliminate: &mut Eliminate<'_>,
+) -> Result<Lifted> {
+    let away: &[usize] = if let Way::Eliminated { away, .. } = &step.way { away } else { &[] };
     if known.contains(&step.joint) {
         return Err(refused("the joint is known already".to_owned()));
     }
     for relation in step.way.relations() {
-        if let Some(other) = relation.joints().into_iter().find(|joint| *joint != step.joint && !known.contains(joint))
-        {
+        let is_new = |joint: &usize| *joint != step.joint && !known.contains(joint) && !away.contains(joint);
+        if let Some(other) = relation.joints().into_iter().find(is_new) {
             return Err(refused(format!("`{relation}` holds joint {}, which is not known yet", other + 1)));
         }
         closure::prove(mechanism, relation)?;
     }
-    let shape = shape(mechanism, step)?;
-    if shape.form.degree() != step.degree {
+    let elimination = if away.is_empty() { None } else { Some(eliminate(step, away)?) };
+    let shape = match &elimination {
+        Some(elimination) => eliminated(mechanism, step, elimination)?,
+        None => shape(mechanism, step)?,
+    };
+    // What is left of an elimination may have a form of higher degree than it has solutions.
+    let fits = if elimination.is_some() { step.degree <= shape.form.degree() } else { step.degree == shape.form.degree() };
+    if !fits {
         let text = format!("its equations give {} solutions, {} are claimed", shape.form.degree(), step.degree);
         return Err(refused(text));
     }
-    Ok(Lifted { joint: step.joint, relations: step.way.relations().to_vec(), shape })
+    Ok(Lifted { joint: step.joint, relations: step.way.relations().to_vec(), elimination, shape })
 }

@@ -2,6 +2,7 @@
 
 use num_traits::Signed;
 
+use super::half_angle::{HalfAngle, HalfAngles};
 use super::template::{Form, Template};
 use crate::derive::assemble::{Assembler, FlatTerm};
 use crate::derive::setting::{ParameterPoly, Setting, Unknowns};
@@ -10,7 +11,7 @@ use crate::derive::tree::{Node, Outcome, Solved, collect_denominators};
 use crate::derive::triangular::Stair;
 use crate::number::{Rationals, Ring, Style};
 use crate::poly::PolynomialRing;
-use crate::solver::{Chart, Guard, JointValue, NEAR, Operand, Step, TINY};
+use crate::solver::{Chart, Guard, JointValue, NEAR, Operand, Pivot, Step, TINY};
 use crate::{Error, ErrorKind, Result};
 
 /// A chart for a stratum runs where each factor's symbols are below this share of their sizes.
@@ -71,9 +72,9 @@ pub(super) fn charts(
     for node in template.tree.walk() {
         let chart = match &node.outcome {
             Outcome::Solved(solved) if !solved.inherited => {
-                Builder::new(template, place, assembler, guards).solved(node, solved)?
+                Builder::new(template.form, place, assembler, guards).solved(template, node, solved)?
             }
-            Outcome::Family(_) => Builder::new(template, place, assembler, guards).family(node)?,
+            Outcome::Family(_) => Builder::new(template.form, place, assembler, guards).family(template, node)?,
             _ => None,
         };
         list.extend(chart);
@@ -81,25 +82,41 @@ pub(super) fn charts(
     Ok(list)
 }
 
+/// The charts of an equation of degree two in cosine and sine: one a direction, of which the best conditioned runs, and one where the
+/// equation says nothing.
+pub(super) fn quartic(half_angles: &HalfAngles, place: &Place, assembler: &Assembler) -> Result<Vec<Chart>> {
+    let mut list = Vec::new();
+    for half in &half_angles.0 {
+        list.push(Builder::new(Form::Quartic, place, assembler, &[]).half(half)?);
+    }
+    let mut free = Builder::new(Form::Quartic, place, assembler, &[]);
+    for (symbol, name) in place.symbols.iter().zip(Form::Quartic.symbols()) {
+        let scale = free.assembler.mul(Operand::Constant(CLOSE / NEAR), symbol.size);
+        free.guards.push(Guard { text: (*name).to_owned(), value: symbol.value, scale, near: true });
+    }
+    list.push(free.free("A = B = C = D = E = 0"));
+    Ok(list)
+}
+
 struct Builder<'a> {
-    template: &'a Template,
+    form: Form,
     place: &'a Place,
     assembler: Assembler,
     guards: Vec<Guard>,
 }
 
 impl<'a> Builder<'a> {
-    fn new(template: &'a Template, place: &'a Place, assembler: &Assembler, guards: &[Guard]) -> Self {
-        Builder { template, place, assembler: assembler.branch(), guards: guards.to_vec() }
+    fn new(form: Form, place: &'a Place, assembler: &Assembler, guards: &[Guard]) -> Self {
+        Builder { form, place, assembler: assembler.branch(), guards: guards.to_vec() }
     }
 
     /// The chart of a stratum with formulas of its own; none when its guards never hold.
-    fn solved(mut self, node: &Node, solved: &Solved) -> Result<Option<Chart>> {
+    fn solved(mut self, template: &Template, node: &Node, solved: &Solved) -> Result<Option<Chart>> {
         let field = node.setting.field()?;
         let ground = field.ring();
         let mut denominators = Vec::new();
         collect_denominators(ground, solved.certified.basis.iter(), &mut denominators);
-        let mut possible = self.near(node)?;
+        let mut possible = self.near(template, node)?;
         for factor in strata::factors(ground, &denominators) {
             if !matches!(strata::zero_set(&node.setting, &factor)?, ZeroSet::Empty(_)) {
                 possible &= self.guard(ground, &factor, false)?;
@@ -112,12 +129,17 @@ impl<'a> Builder<'a> {
             self.stair(&node.setting, &solved.triangular.ring, stair, &mut steps, &mut values)?;
         }
         self.put(&values, &mut steps)?;
-        Ok(possible.then(|| self.chart(node, guard_code, steps, Vec::new())))
+        Ok(possible.then(|| self.chart(&node.label, guard_code, steps, Vec::new())))
     }
 
     /// The chart of a stratum where the joint is free.
-    fn family(mut self, node: &Node) -> Result<Option<Chart>> {
-        let possible = self.near(node)?;
+    fn family(mut self, template: &Template, node: &Node) -> Result<Option<Chart>> {
+        let possible = self.near(template, node)?;
+        Ok(possible.then(|| self.free(&node.label)))
+    }
+
+    /// The chart that puts the joint everywhere.
+    fn free(mut self, label: &str) -> Chart {
         let guard_code = self.assembler.take();
         let (joint, values) = (self.place.value, self.place.samples.clone());
         let mut steps = vec![Step::Sample { joint, values }];
@@ -125,18 +147,18 @@ impl<'a> Builder<'a> {
             steps.insert(0, Step::Set { unknown, value: Operand::Constant(0.0) });
         }
         let free = vec![self.place.joint];
-        Ok(possible.then(|| self.chart(node, guard_code, steps, free)))
+        self.chart(label, guard_code, steps, free)
     }
 
     fn chart(
         self,
-        node: &Node,
+        label: &str,
         guard_code: Vec<crate::solver::Instruction>,
         steps: Vec<Step>,
         free: Vec<usize>,
     ) -> Chart {
         Chart {
-            label: node.label.clone(),
+            label: label.to_owned(),
             guard_code,
             guards: self.guards,
             pivot: None,
@@ -147,9 +169,67 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// The chart of one direction.
+    fn half(mut self, half: &HalfAngle) -> Result<Chart> {
+        let ring = &half.ring;
+        let unknown = self.place.unknown("w")?;
+        let quartic = self.coefficients(ring, half.stair(2)?, 2, Operand::Constant(0.0));
+        let lead = quartic.last().copied().unwrap_or(Operand::Constant(0.0));
+        let sizes: Vec<Operand> = self.place.symbols.iter().map(|symbol| symbol.size).collect();
+        let size = sizes.into_iter().fold(Operand::Constant(0.0), |sum, size| self.assembler.add(sum, size));
+        let scale = self.assembler.mul(Operand::Constant(LOST / TINY), size);
+        self.guards.push(Guard { text: "leading coefficient".to_owned(), value: lead, scale, near: false });
+        let guard_code = self.assembler.take();
+        let typical = Some(Operand::Constant(1.0));
+        let mut steps = vec![Step::Roots { unknown, polynomials: vec![quartic], typical }];
+        let sine = self.coefficients(ring, half.stair(1)?, 1, Operand::Unknown(unknown));
+        let sine = self.root(&sine)?;
+        let low = self.with_sine(ring, half.stair(0)?, sine, Operand::Unknown(unknown));
+        let cosine = self.root(&low)?;
+        let values = [(self.place.unknown("c")?, cosine), (self.place.unknown("s")?, sine)];
+        self.put(&values, &mut steps)?;
+        let mut chart = self.chart("half angle", guard_code, steps, Vec::new());
+        chart.pivot = Some(Pivot { group: 0, value: lead });
+        Ok(chart)
+    }
+
+    /// The coefficients of `f` in unknown `v` of c, s, t, which holds no unknown but `v` and t.
+    fn coefficients(&mut self, ring: &PolynomialRing<Rationals>, f: &ParameterPoly, v: usize, t: Operand) -> Vec<Operand> {
+        let zero = Operand::Constant(0.0);
+        self.parts(ring, f, v, [zero, zero, t])
+    }
+
+    fn with_sine(&mut self, ring: &PolynomialRing<Rationals>, f: &ParameterPoly, sine: Operand, t: Operand) -> Vec<Operand> {
+        self.parts(ring, f, 0, [Operand::Constant(0.0), sine, t])
+    }
+
+    fn parts(
+        &mut self,
+        ring: &PolynomialRing<Rationals>,
+        f: &ParameterPoly,
+        v: usize,
+        unknowns: [Operand; 3],
+    ) -> Vec<Operand> {
+        let operands: Vec<Operand> = unknowns.into_iter().chain(self.place.symbols.iter().map(|s| s.value)).collect();
+        let exponents = |t: &crate::poly::Term<_>| ring.layout().exponents(&t.monomial);
+        let flat = |part: &ParameterPoly| -> Vec<FlatTerm> {
+            part.terms().iter().map(|t| FlatTerm::new(t.coefficient.clone(), &exponents(t))).collect()
+        };
+        ring.coefficients_in(f, v).iter().map(|part| self.assembler.horner(&flat(part), &operands)).collect()
+    }
+
+    /// The root of a linear polynomial.
+    fn root(&mut self, coefficients: &[Operand]) -> Result<Operand> {
+        let [low, high] = coefficients else {
+            return Err(Error::new(ErrorKind::Unsupported, "a stair of a half angle is not linear"));
+        };
+        let top = self.assembler.mul(Operand::Constant(-1.0), *low);
+        Ok(self.assembler.div(top, *high))
+    }
+
     /// Guards for the factors that vanish on a stratum, which are polynomials of the template's own symbols.
-    fn near(&mut self, node: &Node) -> Result<bool> {
-        let field = self.template.tree.setting.field()?;
+    fn near(&mut self, template: &Template, node: &Node) -> Result<bool> {
+        let field = template.tree.setting.field()?;
         let ground = field.ring();
         let mut possible = true;
         for factor in &node.factors {
@@ -180,11 +260,11 @@ impl<'a> Builder<'a> {
     }
 
     fn symbols(&self, names: &[String]) -> Result<Vec<Sized>> {
-        let all = self.template.form.symbols();
+        let all = self.form.symbols();
         let symbol = |name: &String| {
             let index = all.iter().position(|symbol| symbol == name);
             index.map(|index| self.place.symbols[index]).ok_or_else(|| {
-                Error::new(ErrorKind::UnknownName, format!("`{name}` is no symbol of `{}`", self.template.form.name()))
+                Error::new(ErrorKind::UnknownName, format!("`{name}` is no symbol of `{}`", self.form.name()))
             })
         };
         names.iter().map(symbol).collect()
@@ -218,9 +298,9 @@ impl<'a> Builder<'a> {
                 values.push((unknown, self.assembler.div(top, *high)));
             }
             _ => {
-                let typical = self.typical()?;
+                let typical = if self.form == Form::Lengths { None } else { Some(self.typical()?) };
                 push_code(steps, &mut self.assembler);
-                steps.push(Step::Roots { unknown, polynomials: vec![coefficients], typical: Some(typical) });
+                steps.push(Step::Roots { unknown, polynomials: vec![coefficients], typical });
             }
         }
         Ok(())
@@ -228,7 +308,7 @@ impl<'a> Builder<'a> {
 
     /// The size of the auxiliary unknown: `w` is the other leg of a right-angled triangle, or half the difference of two roots.
     fn typical(&mut self) -> Result<Operand> {
-        let squares: &[(usize, usize)] = match self.template.form {
+        let squares: &[(usize, usize)] = match self.form {
             Form::Quadratic => &[(1, 1), (0, 2)],
             _ => &[(0, 0), (1, 1)],
         };
@@ -253,6 +333,7 @@ impl<'a> Builder<'a> {
                 let length = self.assembler.sqrt(sum);
                 vec![(cosine, self.assembler.div(c, length)), (sine, self.assembler.div(s, length))]
             }
+            JointValue::Plain(_) if self.form == Form::Lengths && values.is_empty() => Vec::new(),
             JointValue::Plain(unknown) => vec![(unknown, value(unknown).ok_or_else(missing)?)],
         };
         push_code(steps, &mut self.assembler);

@@ -4,19 +4,24 @@
 pub mod certificate;
 mod charts;
 mod checks;
+mod eliminate;
 mod emit;
+mod half_angle;
 mod layout;
 mod program;
 mod shape;
+mod squares;
 mod stages;
 mod target;
 mod template;
 
+pub use eliminate::{Elimination, SymbolPlace};
+pub use half_angle::{HalfAngle, HalfAngles};
 pub use shape::Shape;
 pub use template::{Form, Template};
 
 use super::closure::{Mechanism, Relation};
-use super::planner::{self, Plan};
+use super::planner::{self, Plan, PlanStep};
 use crate::kinematics::Chain;
 use crate::solver::Program;
 use crate::{Result, Watch};
@@ -28,8 +33,18 @@ pub struct Lifted {
     pub joint: usize,
     /// The equations.
     pub relations: Vec<Relation>,
-    /// Their shape in the joint.
+    /// What is left when other joints are eliminated from them, where that is done.
+    pub elimination: Option<Elimination>,
+    /// The shape in the joint.
     pub shape: Shape,
+}
+
+/// What a program is made of, proved.
+struct Parts {
+    plan: Plan,
+    steps: Vec<Lifted>,
+    templates: Vec<Template>,
+    half_angles: Option<HalfAngles>,
 }
 
 /// The derivation of a chain's solver.
@@ -43,6 +58,8 @@ pub struct Derived {
     pub steps: Vec<Lifted>,
     /// The forms that the steps use, solved.
     pub templates: Vec<Template>,
+    /// The half angles, where a step has an equation of degree two in cosine and sine.
+    pub half_angles: Option<HalfAngles>,
     /// The solver.
     pub program: Program,
 }
@@ -64,20 +81,22 @@ impl Derived {
     /// [`crate::ErrorKind::Certificate`] that names the step when the plan is wrong; [`crate::ErrorKind::Unsupported`] for a step that
     /// no form fits; what `watch` stops with.
     pub fn of_plan(chain: &Chain, mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
-        let steps = certificate::prove_plan(mechanism, &plan)?;
+        let mut eliminate = |step: &PlanStep, away: &[usize]| Elimination::derive(mechanism, step, away, watch);
+        let steps = certificate::prove_plan(mechanism, &plan, &mut eliminate)?;
+        let quartic = steps.iter().any(|step| step.shape.form == Form::Quartic);
+        let half_angles = quartic.then(|| HalfAngles::derive(watch)).transpose()?;
         let forms = Template::needed(&steps);
         let templates = forms.into_iter().map(|form| Template::derive(form, watch)).collect::<Result<_>>()?;
-        Derived::assemble(chain, mechanism, plan, steps, templates)
+        Derived::assemble(chain, mechanism, Parts { plan, steps, templates, half_angles })
     }
 
     fn assemble(
         chain: &Chain,
         mechanism: &Mechanism,
-        plan: Plan,
-        steps: Vec<Lifted>,
-        templates: Vec<Template>,
+        parts: Parts,
     ) -> Result<Self> {
-        let program = program::compile(chain, mechanism, plan.dimension, &steps, &templates)?;
-        Ok(Derived { chain: chain.clone(), plan, steps, templates, program })
+        let program = program::compile(chain, mechanism, &parts)?;
+        let Parts { plan, steps, templates, half_angles } = parts;
+        Ok(Derived { chain: chain.clone(), plan, steps, templates, half_angles, program })
     }
 }

@@ -1,15 +1,17 @@
 //! From a plan's steps to a [`Program`]: a block for each joint, the checks behind them.
 
-use num_traits::ToPrimitive;
+use num_traits::{Signed, ToPrimitive};
 
-use super::Lifted;
-use super::charts::{Place, Sized, charts};
+use super::charts::{Place, Sized, charts, quartic};
 use super::checks::checks;
+use super::eliminate::{Elimination, SymbolPlace};
 use super::emit::{Emitted, Emitter, Sizes};
+use super::half_angle::HalfAngles;
 use super::layout::Layout;
 use super::shape::Shape;
 use super::template::{Form, Template};
-use crate::derive::assemble::Assembler;
+use super::{Lifted, Parts};
+use crate::derive::assemble::{Assembler, FlatTerm};
 use crate::derive::closure::{Assignment, Factor, Mechanism, Multilinear, Relation, evaluate};
 use crate::kinematics::{Chain, LengthUnit};
 use crate::number::BigRational;
@@ -29,20 +31,16 @@ const DEPENDENT: f64 = 1e-6;
 pub(super) fn compile(
     chain: &Chain,
     mechanism: &Mechanism,
-    dimension: usize,
-    lifted: &[Lifted],
-    templates: &[Template],
+    parts: &Parts,
 ) -> Result<Program> {
+    let templates = parts.templates.as_slice();
     let mut layout = Layout::new(mechanism, chain.length_unit());
     let reach = reach(chain);
     let mut known = mechanism.given().to_vec();
     let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
-    for step in lifted {
-        let template = template(templates, step.shape.form)?;
-        let second =
-            matches!(step.shape.form, Form::Pair).then(|| self::template(templates, Form::Angle)).transpose()?;
+    for step in &parts.steps {
         let context = Context { mechanism, known: &known, step, reach };
-        blocks.push(context.block(&mut layout, template, second)?);
+        blocks.push(context.block(&mut layout, templates, parts.half_angles.as_ref())?);
         known.push(step.joint);
     }
     let program = Program {
@@ -55,7 +53,7 @@ pub(super) fn compile(
         parameters: layout.parameters,
         unknowns: layout.unknowns,
         scale: reach,
-        capacity: (2 * dimension + blocks.len()).min(4096),
+        capacity: (2 * parts.plan.dimension + blocks.len()).min(4096),
         blocks,
         preference: None,
     };
@@ -120,12 +118,12 @@ struct Context<'a> {
 }
 
 impl Context<'_> {
-    fn block(&self, layout: &mut Layout, template: &Template, second: Option<&Template>) -> Result<Block> {
+    fn block(&self, layout: &mut Layout, templates: &[Template], half_angles: Option<&HalfAngles>) -> Result<Block> {
         let joint = self.step.joint;
         let screw = &self.mechanism.joints()[joint];
         let auxiliary = match self.step.shape.form {
-            Form::Angle | Form::Quadratic | Form::Pair => Some(layout.unknown(&format!("w{}", screw.symbol))),
-            Form::Turn | Form::Linear => None,
+            Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic => Some(layout.unknown(&format!("w{}", screw.symbol))),
+            Form::Turn | Form::Linear | Form::Lengths => None,
         };
         let mut assembler = Assembler::default();
         let symbols = self.symbols(layout, &mut assembler)?;
@@ -137,17 +135,25 @@ impl Context<'_> {
             symbols,
             samples: self.samples(layout.joints[joint]),
         };
-        let Some(single) = second else {
-            let list = charts(template, &place(symbols), &assembler, &[])?;
-            return Ok(Block::numbered(&screw.name, code, list));
-        };
+        match (self.step.shape.form, half_angles) {
+            (Form::Pair, _) => {}
+            (Form::Quartic, Some(half_angles)) => {
+                let list = quartic(half_angles, &place(symbols), &assembler)?;
+                return Ok(Block::numbered(&screw.name, code, list));
+            }
+            (form, _) => {
+                let list = charts(template(templates, form)?, &place(symbols), &assembler, &[])?;
+                return Ok(Block::numbered(&screw.name, code, list));
+            }
+        }
+        let (both, single) = (template(templates, Form::Pair)?, template(templates, Form::Angle)?);
         let [a, b, e, f, x, y] = symbols[..] else {
             return Err(Error::new(ErrorKind::Unsupported, "a pair has six symbols"));
         };
         let singles = [vec![a, b, x.negated(&mut assembler)], vec![e, f, y.negated(&mut assembler)]];
         let guard = dependent([a, b, e, f], &mut assembler);
         let code = [code, assembler.take()].concat();
-        let mut list = charts(template, &place(symbols), &assembler, &[])?;
+        let mut list = charts(both, &place(symbols), &assembler, &[])?;
         for symbols in singles {
             list.extend(charts(single, &place(symbols), &assembler, std::slice::from_ref(&guard))?);
         }
@@ -170,8 +176,8 @@ impl Context<'_> {
         for relation in &self.step.relations {
             equations.push(evaluate(self.mechanism, relation, &assignment, &mut Emitter(assembler))?);
         }
-        let values = self.combine(&equations, assembler);
-        if values.first().is_some_and(is_number) && self.step.shape.form != Form::Pair {
+        let values = self.combine(&equations, false, assembler);
+        if values.first().is_some_and(is_number) && !matches!(self.step.shape.form, Form::Pair | Form::Quartic) {
             return Ok(values.into_iter().map(|value| Sized { value, size: Operand::Constant(1.0) }).collect());
         }
         let assignment = layout.sizes(self.mechanism, self.known, assembler)?;
@@ -185,16 +191,18 @@ impl Context<'_> {
             let relation: &Relation = relation;
             equations.push(evaluate(self.mechanism, relation, assignment, &mut Sizes(assembler))?);
         }
-        Ok(self.combine(&equations, assembler).into_iter().map(|size| assembler.abs(size)).collect())
+        Ok(self.combine(&equations, true, assembler).into_iter().map(|size| assembler.abs(size)).collect())
     }
 
     /// The symbols from the equations' coefficients. With the true sine `s = sqrt(n) s'`.
-    fn combine(&self, equations: &[Multilinear<Emitted>], assembler: &mut Assembler) -> Vec<Operand> {
+    fn combine(&self, equations: &[Multilinear<Emitted>], sizes: bool, assembler: &mut Assembler) -> Vec<Operand> {
         let joint = self.step.joint;
         let square = self.mechanism.joints()[joint].square.to_f64().unwrap_or(1.0);
         let root = square.sqrt();
-        let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors)
-        {
+        if let Some(elimination) = &self.step.elimination {
+            return self.left(elimination, equations, sizes, root, assembler);
+        }
+        let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors) {
             None => Operand::Constant(0.0),
             Some(value) => assembler.mul(Operand::Constant(factor), value.operand()),
         };
@@ -215,9 +223,51 @@ impl Context<'_> {
                 take(1, &[], -1.0),
             ],
             Shape { form: Form::Linear, .. } => vec![take(0, &d, 1.0 / root), take(0, &[], 1.0)],
+            Shape { form: Form::Quartic | Form::Lengths, .. } => Vec::new(),
             Shape { form: Form::Quadratic, .. } => {
                 vec![take(0, &dd, 1.0 / square), take(0, &d, 0.5 / root), take(0, &[], 1.0)]
             }
+        }
+    }
+}
+
+impl Context<'_> {
+    /// The symbols from what an elimination leaves.
+    fn left(
+        &self,
+        elimination: &Elimination,
+        equations: &[Multilinear<Emitted>],
+        sizes: bool,
+        root: f64,
+        assembler: &mut Assembler,
+    ) -> Vec<Operand> {
+        let value = |place: &SymbolPlace| {
+            equations[place.relation].coefficient(&place.factors).map_or(Operand::Constant(0.0), Emitted::operand)
+        };
+        let symbols: Vec<Operand> = elimination.symbols.iter().map(value).collect();
+        let parts = elimination.coefficients();
+        let mut take = |exponents: &[u32], factor: f64| {
+            let Some(terms) = parts.get(exponents) else { return Operand::Constant(0.0) };
+            let number = |q: &BigRational| if sizes { q.abs() } else { q.clone() };
+            let flat: Vec<FlatTerm> = terms.iter().map(|(q, powers)| FlatTerm::new(number(q), powers)).collect();
+            let sum = assembler.horner(&flat, &symbols);
+            assembler.mul(Operand::Constant(factor), sum)
+        };
+        let sine = 1.0 / root;
+        match self.step.shape.form {
+            Form::Angle => vec![take(&[1, 0], 1.0), take(&[0, 1], sine), take(&[0, 0], 1.0)],
+            Form::Linear => vec![take(&[1], sine), take(&[0], 1.0)],
+            Form::Lengths => {
+                (0..5).rev().map(|k: i32| take(&[k as u32], sine.powi(k))).collect()
+            }
+            Form::Quadratic => vec![take(&[2], sine * sine), take(&[1], 0.5 * sine), take(&[0], 1.0)],
+            _ => vec![
+                take(&[1, 1], sine),
+                take(&[0, 2], sine * sine),
+                take(&[1, 0], 1.0),
+                take(&[0, 1], sine),
+                take(&[0, 0], 1.0),
+            ],
         }
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Zero;
 
+use super::eliminate::Elimination;
 use super::template::Form;
 use crate::derive::closure::{
     Arithmetic, Assignment, Factor, JointValue, Mechanism, Multilinear, Relation, Target, evaluate,
@@ -87,11 +88,28 @@ pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
             Ok(Shape { form: if ratio.is_some() { Form::Turn } else { Form::Pair }, ratio })
         }
         Way::Pair(_) => Err(Error::new(ErrorKind::Unsupported, "two equations for one length; one is enough")),
-        Way::Eliminated { .. } => {
-            let text = "a step that eliminates another joint cannot be lifted yet";
-            Err(Error::new(ErrorKind::Unsupported, text))
-        }
+        Way::Eliminated { .. } => Err(Error::new(ErrorKind::Unsupported, "the other joints are not eliminated yet")),
     }
+}
+
+/// The shape of what an elimination leaves.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for a degree that no form has.
+pub(super) fn eliminated(mechanism: &Mechanism, step: &PlanStep, elimination: &Elimination) -> Result<Shape> {
+    let degree = elimination.degree(&elimination.member);
+    let form = match (mechanism.joints()[step.joint].is_revolute(), degree) {
+        (true, 1) => Form::Angle,
+        (true, 2) => Form::Quartic,
+        (false, 1) => Form::Linear,
+        (false, 2) => Form::Quadratic,
+        (false, 3 | 4) => Form::Lengths,
+        _ => {
+            let text = format!("what the elimination leaves has degree {degree}; at most 2 is allowed for an angle, 4 for a length");
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+    };
+    Ok(Shape { form, ratio: None })
 }
 
 /// The coefficient of `factor`, by the unknowns of the other joints.

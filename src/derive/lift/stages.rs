@@ -6,14 +6,14 @@ use num_traits::One;
 
 use super::shape::{Symbolic, TargetPoly};
 use super::template::{Form, Template};
-use super::{Derived, Lifted, certificate};
-use crate::Result;
+use super::{Derived, Elimination, Lifted, certificate};
 use crate::derive::closure::{Factor, Mechanism, Multilinear};
 use crate::derive::describe;
 use crate::derive::stages::{MARK, PAGE, STAGES};
 use crate::derive::tree::{Node, Outcome};
 use crate::derive::triangular::presented;
 use crate::number::{Ring, Style};
+use crate::Result;
 
 /// The most terms of an equation that are written out.
 const MOST_TERMS: usize = 120;
@@ -44,8 +44,7 @@ impl Derived {
         text += &notation(mechanism);
         let mut symbolic = Symbolic::new(mechanism)?;
         for (index, step) in self.steps.iter().enumerate() {
-            let _ =
-                writeln!(text, "\n{} for {}", heading(index, mechanism, step), joint_unknowns(mechanism, step.joint));
+            let _ = writeln!(text, "\n{} for {}", heading(index, mechanism, step), joint_unknowns(mechanism, step.joint));
             for (number, relation) in step.relations.iter().enumerate() {
                 let _ = writeln!(text, "({}.{})  {relation}", index + 1, number + 1);
                 let _ = writeln!(text, "       {}", relation.meaning(mechanism));
@@ -188,6 +187,8 @@ fn why(form: Form) -> &'static str {
         Form::Angle => "one linear equation in cosine and sine, a chord of the circle with two ends",
         Form::Turn => "two equations that turn a known vector to a known place, one angle",
         Form::Pair => "two independent linear equations in cosine and sine, one angle",
+        Form::Quartic => "an equation of degree two in cosine and sine, by the tangent of half the angle up to four angles",
+        Form::Lengths => "an equation of degree four at most, up to four lengths",
         Form::Linear => "a linear equation, one length",
         Form::Quadratic => "a quadratic equation, two lengths",
     }
@@ -196,11 +197,11 @@ fn why(form: Form) -> &'static str {
 /// What happens where the generic formulas break down.
 fn singular(form: Form) -> &'static str {
     match form {
-        Form::Angle => {
-            "where A = B = 0 no angle solves it, or with C = 0 each does: the joint is free. Where A^2 + B^2 = C^2 both ends meet."
-        }
+        Form::Angle => "where A = B = 0 no angle solves it, or with C = 0 each does: the joint is free. Where A^2 + B^2 = C^2 both ends meet.",
         Form::Turn => "where A = B = 0 no angle solves it, or with X = Y = 0 each does: the joint is free.",
         Form::Pair => "where A F = B E each equation is solved alone, and what solves both is kept.",
+        Form::Quartic => "where all coefficients vanish the joint is free. Where the quartic has a double root two answers meet.",
+        Form::Lengths => "where the polynomial has a double root two answers meet.",
         Form::Linear => "never, where A is a number.",
         Form::Quadratic => "where B^2 = A C both roots meet.",
     }
@@ -235,11 +236,8 @@ fn notation(mechanism: &Mechanism) -> String {
 
 /// `c1, s1`; `s1'` is the sine divided by the length of the axis vector where that is not one.
 fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> String {
-    let factors: &[Factor] = if mechanism.joints()[joint].is_revolute() {
-        &[Factor::Cosine(joint), Factor::Sine(joint)]
-    } else {
-        &[Factor::Length(joint)]
-    };
+    let factors: &[Factor] =
+        if mechanism.joints()[joint].is_revolute() { &[Factor::Cosine(joint), Factor::Sine(joint)] } else { &[Factor::Length(joint)] };
     let screw = &mechanism.joints()[joint];
     let mut text = factors.iter().map(|factor| name(mechanism, *factor)).collect::<Vec<_>>().join(", ");
     if !screw.square.is_one() {
@@ -290,6 +288,9 @@ fn symbols(index: usize, mechanism: &Mechanism, step: &Lifted) -> Vec<String> {
     let (c, s) = (letters(Factor::Cosine(step.joint)), letters(Factor::Sine(step.joint)));
     let (d, dd) = (letters(Factor::Length(step.joint)), letters(Factor::LengthSquared(step.joint)));
     let of = |number: usize, what: &str| format!("{what} in ({}.{number})", index + 1);
+    if let Some(elimination) = &step.elimination {
+        return left(index, mechanism, step, elimination);
+    }
     match step.shape.form {
         Form::Angle => vec![
             format!("A = the coefficient of {}", of(1, &c)),
@@ -307,6 +308,8 @@ fn symbols(index: usize, mechanism: &Mechanism, step: &Lifted) -> Vec<String> {
             format!("B, F = the coefficients of {s} in ({0}.1) and ({0}.2){root}", index + 1),
             format!("X, Y = minus the rests of ({0}.1) and ({0}.2)", index + 1),
         ],
+        Form::Lengths => vec!["A d^4 + B d^3 + C d^2 + D d + E = 0 with the true length".to_owned()],
+        Form::Quartic => vec![format!("A {c} {s} + B {s}^2 + C {c} + D {s} + E = 0 with the true sine")],
         Form::Linear => {
             vec![format!("A = the coefficient of {}{root}", of(1, &d)), format!("B = the rest of ({}.1)", index + 1)]
         }
@@ -316,4 +319,22 @@ fn symbols(index: usize, mechanism: &Mechanism, step: &Lifted) -> Vec<String> {
             format!("C = the rest of ({}.1)", index + 1),
         ],
     }
+}
+
+/// What an elimination leaves, in its own names.
+fn left(index: usize, mechanism: &Mechanism, step: &Lifted, elimination: &Elimination) -> Vec<String> {
+    let product = |factors: &[Factor]| match factors {
+        [] => "1".to_owned(),
+        list => list.iter().map(|factor| name(mechanism, *factor)).collect::<Vec<_>>().join(" "),
+    };
+    let mut lines = vec![format!("the other joints are eliminated from ({0}.1) to ({0}.{1}):", index + 1, step.relations.len())];
+    for (number, place) in elimination.symbols.iter().enumerate() {
+        let (what, relation) = (product(&place.factors), place.relation + 1);
+        lines.push(format!("S{number} = the coefficient of {what} in ({}.{relation})", index + 1));
+    }
+    let own = elimination.ring.variables()[elimination.sizes[0]..elimination.sizes[0] + elimination.sizes[1]].join(", ");
+    let text = elimination.ring.format(&elimination.member, Style::Decimal);
+    lines.push(format!("with {own} for {}:", joint_unknowns(mechanism, step.joint)));
+    lines.push(format!("{text} = 0"));
+    lines
 }

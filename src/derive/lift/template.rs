@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Lifted;
+use super::{Lifted, half_angle};
 use crate::derive::tree::Node;
 use crate::derive::{
     Equation, Input, JointKindUnknown, JointUnknown, Orders, Parameter, ParameterSource, Quantity, System, SystemParts,
@@ -27,6 +27,10 @@ pub enum Form {
     Pair,
     /// `A d + B = 0`.
     Linear,
+    /// `A c s + B s^2 + C c + D s + E = 0`, solved by [`super::HalfAngles`].
+    Quartic,
+    /// `A d^4 + B d^3 + C d^2 + D d + E = 0`.
+    Lengths,
     /// `A d^2 + 2 B d + C = 0`. The auxiliary `w = A d + B` has `w^2 = B^2 - A C`.
     Quadratic,
 }
@@ -58,6 +62,16 @@ impl Form {
                 equations: &["A*c + B*s - X", "E*c + F*s - Y"],
             },
             Form::Linear => Words { symbols: &["A", "B"], unknowns: &["d"], equations: &["A*d + B"] },
+            Form::Quartic => Words {
+                symbols: &half_angle::SYMBOLS,
+                unknowns: &["c", "s"],
+                equations: &[half_angle::EQUATION, "c^2 + s^2 - 1"],
+            },
+            Form::Lengths => Words {
+                symbols: &half_angle::SYMBOLS,
+                unknowns: &["d"],
+                equations: &["A*d^4 + B*d^3 + C*d^2 + D*d + E"],
+            },
             Form::Quadratic => Words {
                 symbols: &["A", "B", "C"],
                 unknowns: &["d", "w"],
@@ -77,6 +91,8 @@ impl Form {
             Form::Angle => &[Form::Angle],
             Form::Turn => &[Form::Turn],
             Form::Pair => &[Form::Pair, Form::Angle],
+            Form::Quartic => &[],
+            Form::Lengths => &[Form::Lengths],
             Form::Linear => &[Form::Linear],
             Form::Quadratic => &[Form::Quadratic],
         }
@@ -86,6 +102,7 @@ impl Form {
     pub fn degree(self) -> usize {
         match self {
             Form::Angle | Form::Quadratic => 2,
+            Form::Quartic | Form::Lengths => 4,
             Form::Turn | Form::Pair | Form::Linear => 1,
         }
     }
@@ -97,6 +114,8 @@ impl Form {
             Form::Turn => "turn",
             Form::Pair => "pair",
             Form::Linear => "linear",
+            Form::Quartic => "quartic",
+            Form::Lengths => "lengths",
             Form::Quadratic => "quadratic",
         }
     }

@@ -1,6 +1,7 @@
 //! Tests of `groebot::derive::lift`.
 
 mod certificate;
+mod families;
 mod robots;
 mod singular;
 mod template;

@@ -1,0 +1,273 @@
+//! Joints eliminated from a step's relations ([`Elimination`]): what is left is one polynomial in the step's own joint.
+//!
+//! Coefficients that are no numbers become symbols, proportional ones the same. The symbols are the smallest variables of an
+//! elimination order, so that the Groebner basis over Q needs no division by them, and its element in the step's joint alone is a
+//! combination of the relations with polynomial cofactors, whatever the symbols are.
+
+use std::collections::BTreeMap;
+
+use num_traits::One;
+use serde::{Deserialize, Serialize};
+
+use super::shape::{Symbolic, TargetPoly};
+use super::squares::by_squares;
+use crate::derive::closure::{Factor, Mechanism};
+use crate::derive::planner::PlanStep;
+use crate::groebner::{Options, Strategy, basis};
+use crate::number::{BigRational, Rationals, Ring, Style};
+use crate::poly::{Block, Order, Polynomial, PolynomialRing, parse};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The most terms of an elimination's basis.
+const MOST_TERMS: usize = 20_000;
+
+type Poly = Polynomial<BigRational>;
+/// A coefficient: by the unknowns of known joints, polynomials in the target.
+type Coefficient = BTreeMap<Vec<Factor>, TargetPoly>;
+
+/// Where a symbol's value stands: the coefficient of a product of unknowns in one of the relations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SymbolPlace {
+    /// Index of the relation.
+    pub relation: usize,
+    /// The product.
+    pub factors: Vec<Factor>,
+}
+
+/// A polynomial in one joint's unknowns that follows from relations in several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elimination {
+    /// Q[unknowns of the joints that go, unknowns of the joint, symbols].
+    pub ring: PolynomialRing<Rationals>,
+    /// The number of unknowns that go, and of the joint's own.
+    pub sizes: [usize; 2],
+    /// The relations with symbols, then the circles.
+    pub generators: Vec<Poly>,
+    /// The symbols.
+    pub symbols: Vec<SymbolPlace>,
+    /// The polynomial in the joint's unknowns and the symbols.
+    pub member: Poly,
+    /// `member = sum over j of cofactors[j] * generators[j]`.
+    pub cofactors: Vec<Poly>,
+}
+
+/// The stored proof.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Stored {
+    member: String,
+    cofactors: Vec<String>,
+}
+
+impl Elimination {
+    /// Eliminates `away` from the relations of `step`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] when nothing of use is left; what `watch` stops with.
+    pub(super) fn derive(mechanism: &Mechanism, step: &PlanStep, away: &[usize], watch: &Watch) -> Result<Self> {
+        let mut elimination = Setting::new(mechanism, step, away)?.finish()?;
+        if let Some((member, cofactors)) = elimination.by_squares(mechanism, step, away) {
+            (elimination.member, elimination.cofactors) = (member, cofactors);
+            return elimination.proved();
+        }
+        let options = Options { strategy: Strategy::Sugar, cofactors: true };
+        let watch = &watch.clone().with_terms(MOST_TERMS);
+        let found = basis(&elimination.ring, &elimination.generators, &options, watch)?;
+        let degree = |f: &Poly| elimination.degree(f);
+        let own = found.polynomials.iter().zip(&found.cofactors).filter(|(f, _)| elimination.is_own(f));
+        let (member, cofactors) = own.min_by_key(|(f, _)| (degree(f), f.terms().len())).ok_or_else(|| {
+            Error::new(ErrorKind::Unsupported, "the relations leave nothing when the other joints are eliminated")
+        })?;
+        (elimination.member, elimination.cofactors) = (member.clone(), cofactors.clone());
+        elimination.proved()
+    }
+
+    /// The sum of the squares of two relations that turn a vector by one joint, when no form's degree is too low for it.
+    fn by_squares(&self, mechanism: &Mechanism, step: &PlanStep, away: &[usize]) -> Option<(Poly, Vec<Poly>)> {
+        let ([joint], [f, g, ..]) = (away, self.generators.as_slice()) else { return None };
+        let screw = &mechanism.joints()[*joint];
+        if !screw.is_revolute() || step.way.relations().len() != 2 {
+            return None;
+        }
+        let squares = |pair: [&Poly; 2]| by_squares(&self.ring, pair, &screw.square);
+        let (member, [first, second, circle]) = match squares([f, g]) {
+            Some(found) => found,
+            None => squares([g, f]).map(|(member, [second, first, circle])| (member, [first, second, circle]))?,
+        };
+        let most = if mechanism.joints()[step.joint].is_revolute() { 2 } else { 4 };
+        if !self.is_own(&member) || self.degree(&member) > most {
+            return None;
+        }
+        let mut cofactors = vec![first, second, circle];
+        cofactors.resize(self.generators.len(), self.ring.zero());
+        Some((member, cofactors))
+    }
+
+    /// Proves a stored elimination anew.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Certificate`] when it does not hold.
+    pub(super) fn again(mechanism: &Mechanism, step: &PlanStep, away: &[usize], stored: &Stored) -> Result<Self> {
+        let mut elimination = Setting::new(mechanism, step, away)?.finish()?;
+        let read = |text: &String| -> Result<Poly> { parse(text)?.evaluate(&elimination.ring) };
+        let member = read(&stored.member)?;
+        let cofactors = stored.cofactors.iter().map(read).collect::<Result<_>>()?;
+        (elimination.member, elimination.cofactors) = (member, cofactors);
+        elimination.proved()
+    }
+
+    /// The text of the proof.
+    pub(super) fn stored(&self) -> Stored {
+        let text = |f: &Poly| self.ring.format(f, Style::Text);
+        Stored { member: text(&self.member), cofactors: self.cofactors.iter().map(text).collect() }
+    }
+
+    fn proved(self) -> Result<Self> {
+        let refuse = |text: &str| Err(Error::new(ErrorKind::Certificate, text.to_owned()));
+        if self.cofactors.len() != self.generators.len() {
+            return refuse("an elimination has a cofactor for each equation");
+        }
+        let mut sum = self.ring.zero();
+        for (cofactor, f) in self.cofactors.iter().zip(&self.generators) {
+            sum = self.ring.add(&sum, &self.ring.checked_mul(cofactor, f)?);
+        }
+        if sum != self.member || !self.is_own(&self.member) {
+            return refuse("the cofactors of an elimination do not multiply out to a polynomial in its joint");
+        }
+        Ok(self)
+    }
+
+    /// Whether a polynomial holds unknowns of the step's joint and no other, and is not its circle.
+    fn is_own(&self, f: &Poly) -> bool {
+        let [away, own] = self.sizes;
+        let foreign = (0..away).any(|v| self.ring.degree_in(f, v) > 0);
+        let circle = self.generators.last().is_some_and(|circle| own == 2 && self.ring.monic(circle) == self.ring.monic(f));
+        !foreign && !circle && self.degree(f) > 0
+    }
+
+    /// The total degree in the joint's unknowns.
+    pub(super) fn degree(&self, f: &Poly) -> u32 {
+        let [away, own] = self.sizes;
+        let degree = |exponents: Vec<u32>| exponents[away..away + own].iter().sum();
+        f.terms().iter().map(|term| degree(self.ring.layout().exponents(&term.monomial))).max().unwrap_or(0)
+    }
+
+    /// The coefficients by the exponents of the joint's unknowns: terms with their exponents of the symbols.
+    pub(super) fn coefficients(&self) -> BTreeMap<Vec<u32>, Vec<(BigRational, Vec<u32>)>> {
+        let [away, own] = self.sizes;
+        let mut parts: BTreeMap<Vec<u32>, Vec<(BigRational, Vec<u32>)>> = BTreeMap::new();
+        for term in self.member.terms() {
+            let exponents = self.ring.layout().exponents(&term.monomial);
+            let (own, symbols) = exponents[away..].split_at(own);
+            parts.entry(own.to_vec()).or_default().push((term.coefficient.clone(), symbols.to_vec()));
+        }
+        parts
+    }
+}
+
+/// The equations of an elimination in the making.
+struct Setting<'a> {
+    mechanism: &'a Mechanism,
+    /// The joints that go, then the step's own.
+    joints: Vec<usize>,
+    /// By relation: the coefficients as a multiple of a symbol or a number.
+    relations: Vec<Vec<(Vec<Factor>, BigRational, Option<usize>)>>,
+    symbols: Vec<(SymbolPlace, Coefficient)>,
+}
+
+impl<'a> Setting<'a> {
+    fn new(mechanism: &'a Mechanism, step: &PlanStep, away: &[usize]) -> Result<Self> {
+        let joints = [away, &[step.joint]].concat();
+        let mut setting = Setting { mechanism, joints, relations: Vec::new(), symbols: Vec::new() };
+        let mut symbolic = Symbolic::new(mechanism)?;
+        for (relation, words) in step.way.relations().iter().enumerate() {
+            let polynomial = symbolic.polynomial(mechanism, words)?;
+            let mut parts: BTreeMap<Vec<Factor>, Coefficient> = BTreeMap::new();
+            for (product, value) in polynomial.terms() {
+                let is_unknown = |factor: &&Factor| setting.joints.contains(&factor.joint());
+                let (own, rest): (Vec<&Factor>, Vec<&Factor>) = product.list().iter().partition(is_unknown);
+                let copied = |list: Vec<&Factor>| list.into_iter().copied().collect::<Vec<Factor>>();
+                parts.entry(copied(own)).or_default().insert(copied(rest), value.clone());
+            }
+            let entries = parts.into_iter().map(|(factors, c)| setting.entry(&symbolic, relation, factors, c)).collect();
+            setting.relations.push(entries);
+        }
+        Ok(setting)
+    }
+
+    /// A coefficient as a number, or a multiple of a symbol.
+    fn entry(
+        &mut self,
+        symbolic: &Symbolic,
+        relation: usize,
+        factors: Vec<Factor>,
+        coefficient: Coefficient,
+    ) -> (Vec<Factor>, BigRational, Option<usize>) {
+        let number = match coefficient.iter().next() {
+            Some((product, value)) if coefficient.len() == 1 && product.is_empty() => symbolic.ring.as_constant(value),
+            _ => None,
+        };
+        if let Some(number) = number {
+            return (factors, number, None);
+        }
+        for (index, (_, known)) in self.symbols.iter().enumerate() {
+            if let Some(ratio) = ratio(symbolic, &coefficient, known) {
+                return (factors, ratio, Some(index));
+            }
+        }
+        self.symbols.push((SymbolPlace { relation, factors: factors.clone() }, coefficient));
+        (factors, BigRational::one(), Some(self.symbols.len() - 1))
+    }
+
+    /// The ring and the generators; the member is still zero.
+    fn finish(self) -> Result<Elimination> {
+        let unknowns = |joint: &usize| match self.mechanism.joints()[*joint].is_revolute() {
+            true => vec![Factor::Cosine(*joint), Factor::Sine(*joint)],
+            false => vec![Factor::Length(*joint)],
+        };
+        let factors: Vec<Factor> = self.joints.iter().flat_map(unknowns).collect();
+        let own = self.joints.last().map_or(0, |joint| unknowns(joint).len());
+        let sizes = [factors.len() - own, own];
+        let names = (0..factors.len()).map(|k| format!("x{k}")).chain((0..self.symbols.len()).map(|k| format!("S{k}")));
+        let blocks = [sizes[0], sizes[1], self.symbols.len()].into_iter().filter(|size| *size > 0);
+        let order = Order::Block(blocks.map(|size| Block { size, graded: true }).collect());
+        let ring = PolynomialRing::new(Rationals, &names.collect::<Vec<_>>(), order)?;
+        let place = |factor: &Factor| factors.iter().position(|other| other == factor);
+        let mut generators = Vec::new();
+        for entries in &self.relations {
+            let mut sum = ring.zero();
+            for (product, number, symbol) in entries {
+                let mut term = ring.constant(number.clone());
+                for factor in product {
+                    let power = match factor {
+                        Factor::LengthSquared(joint) => place(&Factor::Length(*joint)).map(|v| (v, 2)),
+                        factor => place(factor).map(|v| (v, 1)),
+                    };
+                    let (v, exponent) = power.ok_or_else(|| Error::new(ErrorKind::UnknownName, "no such unknown"))?;
+                    term = ring.mul(&term, &ring.pow(&ring.variable(v), exponent));
+                }
+                if let Some(symbol) = symbol {
+                    term = ring.mul(&term, &ring.variable(factors.len() + symbol));
+                }
+                sum = ring.add(&sum, &term);
+            }
+            generators.push(sum);
+        }
+        for joint in self.joints.iter().filter(|joint| self.mechanism.joints()[**joint].is_revolute()) {
+            let square = |factor: Factor| place(&factor).map(|v| ring.pow(&ring.variable(v), 2)).unwrap_or_else(|| ring.zero());
+            let sine = ring.scale(&square(Factor::Sine(*joint)), &self.mechanism.joints()[*joint].square);
+            generators.push(ring.sub(&ring.add(&square(Factor::Cosine(*joint)), &sine), &ring.one()));
+        }
+        let symbols = self.symbols.into_iter().map(|(place, _)| place).collect();
+        let (member, cofactors) = (ring.zero(), Vec::new());
+        Ok(Elimination { ring, sizes, generators, symbols, member, cofactors })
+    }
+}
+
+/// The number that `a` is a multiple of `b` by.
+fn ratio(symbolic: &Symbolic, a: &Coefficient, b: &Coefficient) -> Option<BigRational> {
+    let (product, value) = b.iter().next()?;
+    let ratio = &a.get(product)?.leading()?.coefficient / &value.leading()?.coefficient;
+    let same = |(product, value): (&Vec<Factor>, &TargetPoly)| a.get(product) == Some(&symbolic.ring.scale(value, &ratio));
+    (a.len() == b.len() && b.iter().all(same)).then_some(ratio)
+}
