@@ -57,6 +57,7 @@ pub struct Watch {
     terms: Option<usize>,
     memory: Option<usize>,
     meter: Option<Arc<AtomicUsize>>,
+    patience: Option<Arc<AtomicUsize>>,
 }
 
 impl Watch {
@@ -109,6 +110,14 @@ impl Watch {
         self
     }
 
+    /// Stops with [`ErrorKind::Cancelled`] at the call of [`Watch::check`] that finds `left` at zero; each call before takes one off. This
+    /// shows how often the work asks, without a clock.
+    #[must_use]
+    pub fn with_patience(mut self, left: Arc<AtomicUsize>) -> Self {
+        self.patience = Some(left);
+        self
+    }
+
     /// Tells the listener how far the work is.
     pub fn report(&self, stage: &str, done: usize, open: usize) {
         self.tell(Progress { stage, done, open, matrix: None });
@@ -130,7 +139,10 @@ impl Watch {
     /// # Errors
     /// [`ErrorKind::Cancelled`] or [`ErrorKind::Budget`].
     pub fn check(&self) -> Result<()> {
-        if self.cancel.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+        let less = |left: usize| left.checked_sub(1);
+        let is_spent = |left: &Arc<AtomicUsize>| left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, less).is_err();
+        let is_cancelled = self.cancel.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed));
+        if is_cancelled || self.patience.as_ref().is_some_and(is_spent) {
             return Err(Error::new(ErrorKind::Cancelled, "cancelled by the caller"));
         }
         if let Some(meter) = &self.meter {

@@ -1,7 +1,7 @@
 //! Questions to an ideal, answered by a Groebner basis: membership, elimination, dimension, quotient.
 
-use super::{Basis, Options, basis, normal_form};
-use crate::number::Field;
+use super::{Basis, Options, Settings, basis, f4_with, modular, normal_form};
+use crate::number::{Field, PrimeElement, Rationals, Zp};
 use crate::poly::{Monomial, Order, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -145,8 +145,86 @@ fn largest_independent(
     largest_independent(supports, after, limit, chosen, best);
 }
 
+/// The reduced basis without doubt: over Q by primes and a proof, modulo p by F4 without chance, else by [`basis`].
+fn certain_basis<F: Field>(
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    watch: &Watch,
+) -> Result<Basis<F>> {
+    let fast = match ring.field().prime_element(&ring.field().one()) {
+        Some(PrimeElement::Rational(_)) => over_rationals(ring, generators, watch),
+        Some(PrimeElement::Residue(_)) => modulo_prime(ring, generators, watch),
+        None => return basis(ring, generators, &Options::default(), watch),
+    };
+    match fast {
+        Err(error) if !matches!(error.kind(), ErrorKind::Cancelled | ErrorKind::Budget) => {
+            basis(ring, generators, &Options::default(), watch)
+        }
+        outcome => outcome,
+    }
+}
+
+fn over_rationals<F: Field>(
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    watch: &Watch,
+) -> Result<Basis<F>> {
+    let number = |c: &F::Element| match ring.field().prime_element(c) {
+        Some(PrimeElement::Rational(q)) => Ok(q.clone()),
+        _ => Err(no_number()),
+    };
+    let (plain, generators) = over(ring, Rationals, generators, number)?;
+    let found = modular::basis(&plain, &generators, &Options::default(), watch)?;
+    modular::prove(&found, &plain, &generators, watch)?;
+    back(ring, &found.basis, |q| ring.field().from_rational(q).ok_or_else(no_number))
+}
+
+fn modulo_prime<F: Field>(
+    ring: &PolynomialRing<F>,
+    generators: &[Polynomial<F::Element>],
+    watch: &Watch,
+) -> Result<Basis<F>> {
+    let number = |c: &F::Element| match ring.field().prime_element(c) {
+        Some(PrimeElement::Residue(n)) => Ok(n),
+        _ => Err(no_number()),
+    };
+    let (plain, generators) = over(ring, Zp::new(ring.field().characteristic())?, generators, number)?;
+    let found = f4_with(&plain, &generators, Settings { combinations: false, ..Settings::default() }, watch)?;
+    back(ring, &found, |&n| Ok(ring.field().from_integer(&n.into())))
+}
+
+/// The same ideal in the ring over a field that the engines know.
+fn over<F: Field, G: Field>(
+    ring: &PolynomialRing<F>,
+    field: G,
+    generators: &[Polynomial<F::Element>],
+    number: impl Fn(&F::Element) -> Result<G::Element>,
+) -> Result<(PolynomialRing<G>, Vec<Polynomial<G::Element>>)> {
+    let plain = PolynomialRing::new(field, ring.variables(), ring.layout().order().clone())?;
+    let plain = plain.with_width(ring.layout().width());
+    let moved = generators.iter().map(|f| ring.map_into(f, &plain, &number)).collect::<Result<_>>()?;
+    Ok((plain, moved))
+}
+
+/// The basis over the field of `ring`.
+fn back<F: Field, G: Field>(
+    ring: &PolynomialRing<F>,
+    found: &Basis<G>,
+    element: impl Fn(&G::Element) -> Result<F::Element>,
+) -> Result<Basis<F>> {
+    let ring = ring.with_width(found.ring.layout().width());
+    let moved = found.polynomials.iter().map(|f| found.ring.map_into(f, &ring, &element));
+    let polynomials = moved.collect::<Result<_>>()?;
+    Ok(Basis { ring, polynomials, cofactors: Vec::new() })
+}
+
+fn no_number() -> Error {
+    Error::new(ErrorKind::BadValue, "the elements of a prime field are numbers")
+}
+
 /// The elimination ideal: the reduced basis of the ideal of `generators` intersected with the ring without the variables named
-/// `eliminated`, in graded reverse order.
+/// `eliminated`, in graded reverse order. Over Q the basis comes from primes and is proved ([`modular::prove`]), modulo a prime below
+/// 2^31 from F4 without chance, else from [`basis`].
 ///
 /// # Errors
 /// [`ErrorKind::UnknownName`] for a name that is no variable, [`ErrorKind::DuplicateName`] for one listed twice; those of
@@ -166,7 +244,7 @@ pub fn eliminate<F: Field>(
     let order = Order::elimination(eliminated.len(), names.len());
     let block_ring = PolynomialRing::new(ring.field().clone(), &names, order)?;
     let moved: Vec<_> = generators.iter().map(|f| ring.transfer(f, &block_ring)).collect::<Result<_>>()?;
-    let full = basis(&block_ring, &moved, &Options::default(), watch)?;
+    let full = certain_basis(&block_ring, &moved, watch)?;
     let target = PolynomialRing::new(ring.field().clone(), &kept, Order::GrevLex)?;
     let target = target.with_width(full.ring.layout().width());
     let free = full.polynomials.iter().filter(|f| (0..eliminated.len()).all(|v| full.ring.degree_in(f, v) == 0));

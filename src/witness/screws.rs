@@ -53,7 +53,9 @@ impl Screws {
                 Ok(found.iter().enumerate().map(|(branch, answer)| bent(branch, answer)).collect())
             }
             Screws::Planned(solver) => {
-                let found = solver.solve(&planned(solver.chain().task(), target)?)?;
+                let chain = solver.chain();
+                let (target, given) = target.split_at(target.len().saturating_sub(chain.given().len()));
+                let found = solver.solve_given(&planned(chain.task(), target)?, given)?;
                 let answer = |(branch, answer): (usize, screw::Solution)| Solution {
                     q: answer.q,
                     residual: answer.position_residual,
@@ -70,6 +72,9 @@ impl Screws {
 fn two_link(chain: &Chain) -> Option<Screws> {
     let Task::PlanarPosition { plane } = chain.task() else { return None };
     let [Screw::Revolute(first), Screw::Revolute(second)] = chain.screws() else { return None };
+    if !chain.given().is_empty() {
+        return None;
+    }
     let tip = Point3::from(chain.base_from_tip().translation.vector);
     let solver = TwoLink::new(*first, *second, tip).ok()?;
     Some(Screws::TwoLink(Box::new((solver, chain.clone(), plane))))

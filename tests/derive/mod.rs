@@ -7,8 +7,6 @@ mod ends;
 mod families;
 mod lift;
 mod planner;
-mod closure;
-mod lift;
 mod random_chains;
 mod renamed;
 mod seed;

@@ -146,6 +146,25 @@ fn elimination_ideals_are_known() {
     assert!(cases >= 16);
 }
 
+/// The elimination ideal of the circle's parametrisation is the circle, over Q by primes and a proof, modulo p by F4.
+#[test]
+fn a_parametrised_circle_is_eliminated_over_every_field() {
+    struct Circle;
+    impl Check for Circle {
+        fn run<F: Field>(&self, field: F) {
+            let ring = PolynomialRing::new(field, &["t", "x", "y"], Order::Lex).unwrap();
+            let generators = ["(1 + t^2)*x - 1 + t^2", "(1 + t^2)*y - 2*t"].map(|text| read(&ring, text));
+            let found = eliminate(&ring, &generators, &["t"], &Watch::none()).unwrap();
+            assert_eq!(found.ring.variables(), ["x", "y"]);
+            assert_eq!(found.polynomials, [read(&found.ring, "x^2 + y^2 - 1")]);
+        }
+    }
+    for field in ["Q", "GF(32003)", "GF(2147483647)", "GF(4294967311)"] {
+        over(field, &[], &Circle);
+    }
+    over("Q", &["a".to_owned()], &Circle);
+}
+
 /// A known basis passes Buchberger's criterion (NAO 6.2.3); without one of its elements it is no basis of the ideal.
 struct Criterion<'a>(&'a Case);
 

@@ -1,6 +1,7 @@
 //! Tests of `groebot::groebner`.
 
 mod blocks;
+mod cancellation;
 mod claims;
 mod cover;
 mod cover_points;

@@ -110,6 +110,29 @@ fn known_parametric_bases_are_found() {
     assert!(count >= 8, "{count} cases");
 }
 
+/// The engine's first primes as numerators, denominators and sums of coefficients.
+#[test]
+fn coefficients_may_be_the_primes_that_are_tried_first() {
+    let field = Fractions::new(Rationals, &["a"]).unwrap();
+    let ring = PolynomialRing::new(field, &["x", "y"], Order::Lex).unwrap();
+    let ways = [Way::Direct, Way::Variables, Way::Modular, Way::Interpolation];
+    let primes = [2_147_483_647u64, 2_147_483_629, 2_147_483_587, 2_147_483_579, 2_147_483_563, 2_013_265_921];
+    let find = |texts: &[String]| {
+        let generators: Vec<Poly> = texts.iter().map(|text| read(&ring, text)).collect();
+        agree(&ring, &generators, &ways).polynomials
+    };
+    let found = find(&["1/2147483647*x^2 - 1/2147483629".to_owned(), "a*y - 2147483647*x".to_owned()]);
+    let (first, second) = ("y^2 - 2147483647^3/2147483629/a^2", "x - a*y/2147483647");
+    assert_eq!(found, [read(&ring, first), read(&ring, second)]);
+    for p in primes {
+        let found = find(&[format!("{p}*a*x - y"), format!("y^2/{p} - a")]);
+        assert_eq!(found, [read(&ring, &format!("y^2 - {p}*a")), read(&ring, &format!("x - 1/{p}/a*y"))]);
+        assert_eq!(find(&["a*x + y".to_owned(), format!("a*x + {}*y", p + 1)]), [read(&ring, "y"), read(&ring, "x")]);
+    }
+    let all = primes.iter().map(u64::to_string).collect::<Vec<_>>().join("*");
+    assert_eq!(find(&[format!("{all}*x - a")]), [read(&ring, &format!("x - a/({all})"))]);
+}
+
 #[test]
 fn orientation_given_by_related_parameters() {
     let block = blocks::planar_3r();

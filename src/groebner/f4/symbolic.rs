@@ -42,7 +42,7 @@ pub(super) type Columns<const W: usize> = Vec<Key<W>>;
 
 const UNSEEN: u32 = u32::MAX;
 /// Monomials of a small matrix: what the lists have room for from the start.
-const ROOM: usize = 128;
+const ROOM: usize = 64;
 
 /// What a monomial of the matrix is, while the matrix grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,7 +13,7 @@ pub(super) struct Table<const W: usize> {
 
 impl<const W: usize> Table<W> {
     pub fn new() -> Self {
-        Table { keys: Vec::with_capacity(256), slots: vec![0; 1 << 10], shift: 64 - 10 }
+        Table { keys: Vec::with_capacity(64), slots: vec![0; 1 << 8], shift: 64 - 8 }
     }
 
     pub fn len(&self) -> usize {

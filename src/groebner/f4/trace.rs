@@ -42,6 +42,11 @@ impl Trace {
         self.rounds.push(Round { shape, leads, supports });
     }
 
+    /// Entries of the matrices of a replay.
+    pub fn terms(&self) -> usize {
+        self.rounds.iter().map(|round| round.shape.entries.len()).sum::<usize>() + self.last.entries.len()
+    }
+
     /// Bytes that the trace takes.
     pub fn bytes(&self) -> usize {
         let supports = |list: &[Box<[u32]>]| list.iter().map(|s| 4 * s.len()).sum::<usize>();

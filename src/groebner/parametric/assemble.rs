@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use num_traits::One as _;
 
-use super::lift::image;
+use super::lift::defined_image;
 use super::prime::{Prime, Stream};
 use super::variables::reduced;
 use super::{Poly, Ring, sequence};
@@ -211,10 +211,12 @@ impl Line {
         let mut rest = parts.into_iter();
         let (monomial, divisor) = rest.next().expect("an element is not zero");
         let restricted = self.restrict(ring, &divisor);
-        let is_faithful = restricted.len() == ground.degree(&divisor) as usize + 1;
+        let degree = ground.degree(&divisor) as usize;
+        let restricted = restricted.filter(|f| f.len() == degree + 1);
         let mut terms = vec![Term { coefficient: field.one(), monomial }];
         for (monomial, c) in rest {
-            let coefficient = if is_faithful && self.are_coprime(&restricted, || self.restrict(ring, &c)) {
+            let is_coprime = restricted.as_ref().is_some_and(|f| self.are_coprime(f, || self.restrict(ring, &c)));
+            let coefficient = if is_coprime {
                 field.coprime_fraction(c, divisor.clone())
             } else {
                 field.fraction(&c, &divisor).expect("a leading coefficient is not zero")
@@ -225,16 +227,20 @@ impl Line {
     }
 
     /// Whether nothing divides both; a common factor of polynomials would show here when `a` keeps its degree on the line.
-    fn are_coprime(&self, a: &[u64], b: impl FnOnce() -> Vec<u64>) -> bool {
-        a.len() == 1 || sequence::gcd(self.field, a.to_vec(), b()).len() == 1
+    fn are_coprime(&self, a: &[u64], b: impl FnOnce() -> Option<Vec<u64>>) -> bool {
+        if a.len() == 1 {
+            return true;
+        }
+        let gcd = b().and_then(|b| sequence::gcd(self.field, a.to_vec(), b, &Watch::none()).ok());
+        gcd.is_some_and(|gcd| gcd.len() == 1)
     }
 
-    /// The polynomial in `t` that `f` is on the line.
-    fn restrict(&self, ring: &Ring, f: &Ground) -> Vec<u64> {
+    /// The polynomial in `t` that `f` is on the line; `None` when the prime divides a denominator.
+    fn restrict(&self, ring: &Ring, f: &Ground) -> Option<Vec<u64>> {
         let ground = ring.field().ring();
         let mut sum: Vec<u64> = Vec::new();
         for term in f.terms() {
-            let mut product = vec![image(self.field, &term.coefficient)];
+            let mut product = vec![defined_image(self.field, &term.coefficient)?];
             for (variable, &factor) in self.points.iter().enumerate() {
                 for _ in 0..ground.layout().exponent(&term.monomial, variable) {
                     product = self.times_linear(&product, factor);
@@ -246,7 +252,7 @@ impl Line {
         while sum.last() == Some(&0) {
             sum.pop();
         }
-        sum
+        Some(sum)
     }
 
     /// `f` times `offset + t direction`.

@@ -26,12 +26,16 @@ pub(super) struct Learned {
     pub factors: Vec<Vec<Vec<u64>>>,
 }
 
+/// The pattern of a function, and its factors modulo the prime.
+type Settled = (Pattern, Vec<Vec<u64>>);
+
 /// The supports of all functions.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] when the functions are too dense; what `watch` stops with.
 pub(super) fn learn(functions: &impl Functions, watch: &Watch) -> Result<Learned> {
-    for (seed, prime) in SmoothPrime::all().into_iter().enumerate() {
+    let primes = SmoothPrime::all().into_iter().filter(|prime| functions.admit(prime.field));
+    for (seed, prime) in primes.enumerate() {
         let mut search = Search::new(functions, prime, seed as u64);
         if search.probe(watch)? && search.run(watch)? {
             return Ok(search.into_learned());
@@ -39,6 +43,23 @@ pub(super) fn learn(functions: &impl Functions, watch: &Watch) -> Result<Learned
     }
     let text = "the coefficients are too dense to be interpolated; compute over the fractions instead";
     Err(Error::new(ErrorKind::Unsupported, text))
+}
+
+/// An estimate of the points that interpolation takes: twice the square of those on the first line, for as many lines as a line has points
+/// settle the functions, half of the time with other weights.
+///
+/// # Errors
+/// What `watch` stops with.
+pub(super) fn points(functions: &impl Functions, watch: &Watch) -> Result<usize> {
+    if functions.count() == 0 {
+        return Ok(0);
+    }
+    let [prime, ..] = SmoothPrime::all();
+    let mut search = Search::new(functions, prime, 0);
+    let mut lines = search.lines(weight_vectors(functions.parameters()).swap_remove(0));
+    let is_found = search.find_degrees(&mut lines, watch)?;
+    let count = lines.nodes.filter(|_| is_found).map_or(MOST_NODES, |nodes| nodes.count());
+    Ok(2 * count * count)
 }
 
 /// The sequences of lines with the same weights.
@@ -57,7 +78,7 @@ struct Search<'a, S: Functions> {
     functions: &'a S,
     prime: SmoothPrime,
     stream: Stream,
-    settled: Vec<Option<(Pattern, Vec<Vec<u64>>)>>,
+    settled: Vec<Option<Settled>>,
     probe: (Vec<u64>, Vec<u64>),
     /// Logarithms found so far: the same monomials come again and again.
     logarithms: HashMap<u64, i64>,
@@ -219,21 +240,24 @@ impl<'a, S: Functions> Search<'a, S> {
         for f in 0..self.settled.len() {
             watch.check()?;
             if self.settled[f].is_none() {
-                self.settled[f] = self.settle(lines, f);
+                self.settled[f] = self.settle(lines, f, watch)?;
             }
         }
         Ok(())
     }
 
-    fn settle(&mut self, lines: &Lines, f: usize) -> Option<(Pattern, Vec<Vec<u64>>)> {
+    fn settle(&mut self, lines: &Lines, f: usize, watch: &Watch) -> Result<Option<Settled>> {
         let sequence = &lines.quotients[f];
         if sequence[0].numerator.is_empty() {
-            return Some((Pattern::zero(&lines.weights), vec![vec![1]]));
+            return Ok(Some((Pattern::zero(&lines.weights), vec![vec![1]])));
         }
-        outer_places(&sequence[0]).into_iter().find_map(|normal| {
-            let found = self.pattern(lines, sequence, normal)?;
-            self.passes(f, &found.0, &found.1).then_some(found)
-        })
+        for normal in outer_places(&sequence[0]) {
+            let found = self.pattern(lines, sequence, normal, watch)?;
+            if let Some(found) = found.filter(|found| self.passes(f, &found.0, &found.1)) {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
     }
 
     /// Whether the function has the right value at the probe.
@@ -243,25 +267,30 @@ impl<'a, S: Functions> Search<'a, S> {
     }
 
     /// The support when the coefficient at `normal` is a single monomial.
-    fn pattern(&mut self, lines: &Lines, sequence: &[Quotient], normal: Place) -> Option<(Pattern, Vec<Vec<u64>>)> {
+    fn pattern(
+        &mut self,
+        lines: &Lines,
+        sequence: &[Quotient],
+        normal: Place,
+        watch: &Watch,
+    ) -> Result<Option<Settled>> {
         let field = self.prime.field;
-        let scales = field.inverses(&sequence.iter().map(|line| normal.of(line)).collect::<Vec<_>>())?;
-        let sequence_at = |place: Place| -> Vec<u64> {
-            sequence.iter().zip(&scales).map(|(line, &scale)| field.mul(place.of(line), scale)).collect()
-        };
-        let candidates: Vec<(Place, Vec<u64>, Vec<u64>)> = places(&sequence[0])
-            .into_iter()
-            .map(|place| {
-                let values = sequence_at(place);
-                Some((place, minimal_polynomial(field, &values)?, values))
-            })
-            .collect::<Option<_>>()?;
+        let scales: Vec<u64> = sequence.iter().map(|line| normal.of(line)).collect();
+        let Some(scales) = field.inverses(&scales) else { return Ok(None) };
+        let mut candidates = Vec::new();
+        for place in places(&sequence[0]) {
+            let scaled = sequence.iter().zip(&scales).map(|(line, &scale)| field.mul(place.of(line), scale));
+            let values: Vec<u64> = scaled.collect();
+            let Some(polynomial) = minimal_polynomial(field, &values, watch)? else { return Ok(None) };
+            candidates.push((place, polynomial, values));
+        }
         let (mut slots, mut all_factors) = (Vec::new(), Vec::new());
         for (place, polynomial, values) in candidates {
-            let roots = distinct_roots(field, &polynomial, &mut self.stream)?;
+            let Some(roots) = distinct_roots(field, &polynomial, &mut self.stream, watch)? else { return Ok(None) };
             let step = place.power as i64 - normal.power as i64;
             let exponents: Vec<Vec<i32>> = roots.iter().map(|&root| self.exponents(lines, root, step)).collect();
-            let unscaled = factors(field, &roots, &values)?
+            let Some(found) = factors(field, &roots, &values, watch)? else { return Ok(None) };
+            let unscaled = found
                 .into_iter()
                 .zip(&exponents)
                 .map(|(factor, e)| field.mul(factor, field.inverse(power_product(field, &lines.offsets, e))));
@@ -269,7 +298,7 @@ impl<'a, S: Functions> Search<'a, S> {
             slots.push(Slot { place, exponents });
         }
         let pattern = Pattern { weights: lines.weights.clone(), degrees: sequence[0].degrees(), normal, slots };
-        Some((pattern, all_factors))
+        Ok(Some((pattern, all_factors)))
     }
 
     /// The exponents of the monomial whose value at the bases is `root`; `step` is its weight.
@@ -347,7 +376,12 @@ fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
         (1..parameters).rev().for_each(|k| weights.swap(k, stream.word() as usize % (k + 1)));
         weights
     };
-    let mut vectors: Vec<Vec<u32>> = (0..12).map(permuted).collect();
+    let mut vectors: Vec<Vec<u32>> = Vec::new();
+    for weights in (0..12).map(permuted) {
+        if !vectors.contains(&weights) {
+            vectors.push(weights);
+        }
+    }
     vectors.extend((4..=40).map(|height| random_weights(parameters, height, &mut stream)));
     vectors
 }

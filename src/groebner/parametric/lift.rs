@@ -55,7 +55,7 @@ fn next_factors(
     watch: &Watch,
 ) -> Result<(Prime, Vec<Vec<Vec<u64>>>)> {
     for _ in 0..10 {
-        let field = primes.next_prime();
+        let field = primes.next_that(|field| functions.admit(field));
         if let Some(factors) = factors_modulo(functions, patterns, field, stream, watch)? {
             return Ok((field, factors));
         }
@@ -75,7 +75,7 @@ fn holds(
     stream: &mut Stream,
     watch: &Watch,
 ) -> Result<bool> {
-    let field = primes.next_prime();
+    let field = primes.next_that(|field| functions.admit(field));
     let point: Vec<u64> = (0..functions.parameters()).map(|_| stream.unit(field)).collect();
     let found = functions.values(field, std::slice::from_ref(&point), watch)?;
     let Some(expected) = found.into_iter().next().flatten() else { return Ok(false) };
@@ -94,6 +94,11 @@ fn holds(
 
 /// A rational number modulo a prime that does not divide its denominator; else 0.
 pub(super) fn image(field: Prime, q: &BigRational) -> u64 {
+    defined_image(field, q).unwrap_or(0)
+}
+
+/// A rational number modulo a prime; `None` when that divides its denominator.
+pub(super) fn defined_image(field: Prime, q: &BigRational) -> Option<u64> {
     let integer = |n: &BigInt| {
         if let Some(small) = n.to_i64() {
             return small.rem_euclid(field.p as i64) as u64;
@@ -102,8 +107,11 @@ pub(super) fn image(field: Prime, q: &BigRational) -> u64 {
         let magnitude = digits.first().copied().unwrap_or(0);
         if n.sign() == Sign::Minus { field.neg(magnitude) } else { magnitude }
     };
-    let (numerator, denominator) = (integer(q.numer()), integer(q.denom()));
-    if denominator == 1 { numerator } else { field.mul(numerator, field.inverse(denominator)) }
+    match (integer(q.numer()), integer(q.denom())) {
+        (_, 0) => None,
+        (numerator, 1) => Some(numerator),
+        (numerator, denominator) => Some(field.mul(numerator, field.inverse(denominator))),
+    }
 }
 
 /// The monomials of one function, in the order of the factors of its pattern.
@@ -300,5 +308,14 @@ impl Primes {
         self.last = listed.copied().unwrap_or_else(|| (0..self.last).rev().find(is_next).unwrap_or(3));
         self.count += 1;
         Prime::new(self.last)
+    }
+    /// The next prime that `admit` takes; all but finitely many are.
+    pub fn next_that(&mut self, admit: impl Fn(Prime) -> bool) -> Prime {
+        loop {
+            let field = self.next_prime();
+            if admit(field) {
+                return field;
+            }
+        }
     }
 }

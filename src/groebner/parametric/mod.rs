@@ -5,6 +5,7 @@
 
 mod assemble;
 mod flat;
+mod fresh;
 mod learn;
 mod lift;
 mod line;
@@ -38,14 +39,18 @@ pub enum Way {
     Interpolation,
 }
 
-/// A system whose computation modulo a prime takes more terms than these goes to interpolation, where it takes none of them.
-const FEW_TERMS: usize = 5_000;
+/// Below this many terms the computation modulo a prime costs less than to think about it.
+const FEW_TERMS: usize = 2_000;
+/// As many terms at single points, eight of which are computed at once, cost as much as one term of the computation with the parameters as
+/// variables, which looks at monomials and whose numbers are rebuilt.
+const TERMS_OF_POINTS: usize = 16;
 
 /// How [`basis`] works.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The way to take. `None`: modulo primes with the parameters as variables as long as that takes few terms or parameters have
-    /// relations; else interpolation; directly should the coefficients be too dense for it.
+    /// The way to take. `None`: modulo primes with the parameters as variables, as long as that takes no more terms than the
+    /// bases at single points that interpolation would ask for, or where parameters have relations; else interpolation; directly should
+    /// the coefficients be too dense for it.
     pub way: Option<Way>,
 }
 
@@ -81,17 +86,37 @@ pub fn basis(ring: &Ring, generators: &[Poly], options: &Options, watch: &Watch)
     }
 }
 
-/// Small systems and those with relations modulo primes, the others by interpolation; the exact ways stand behind them.
+/// Modulo primes where that takes few terms, else by interpolation; the exact ways stand behind them.
 fn by_the_fastest(ideal: &Ideal<'_>, watch: &Watch) -> Result<Parametric> {
     let free = is_free(ideal);
-    let is_bounded = free && watch.check_terms(FEW_TERMS).is_ok();
-    let brief = if is_bounded { watch.clone().with_terms(FEW_TERMS) } else { watch.clone() };
-    let mut outcome = by_way(ideal, Way::Modular, &brief);
-    if is_bounded && ends_with(&outcome, ErrorKind::Budget) {
-        outcome = by_way(ideal, Way::Interpolation, watch);
-    }
+    let outcome = if free { by_points_or_modular(ideal, watch) } else { by_way(ideal, Way::Modular, watch) };
     let is_refused = ends_with(&outcome, ErrorKind::Unsupported) || ends_with(&outcome, ErrorKind::Overflow);
     if is_refused { by_way(ideal, if free { Way::Direct } else { Way::Variables }, watch) } else { outcome }
+}
+
+/// [`Way::Modular`] within the terms that it is worth, then [`Way::Interpolation`].
+fn by_points_or_modular(ideal: &Ideal<'_>, watch: &Watch) -> Result<Parametric> {
+    if let Some(found) = modular_within(ideal, FEW_TERMS, watch) {
+        return found;
+    }
+    let system = system::System::new(ideal, watch)?;
+    let worth = learn::points(&system, watch)?.saturating_mul(system.terms()) / TERMS_OF_POINTS;
+    if worth > FEW_TERMS
+        && let Some(found) = modular_within(ideal, worth, watch)
+    {
+        return found;
+    }
+    let basis = at_points(ideal, &system, watch)?;
+    Ok(Parametric { basis, way: Way::Interpolation, exact: false })
+}
+
+/// The outcome of [`Way::Modular`] unless it takes more than `terms` terms and `watch` would allow that.
+fn modular_within(ideal: &Ideal<'_>, terms: usize, watch: &Watch) -> Option<Result<Parametric>> {
+    if watch.check_terms(terms).is_err() {
+        return Some(by_way(ideal, Way::Modular, watch));
+    }
+    let outcome = by_way(ideal, Way::Modular, &watch.clone().with_terms(terms));
+    if ends_with(&outcome, ErrorKind::Budget) { None } else { Some(outcome) }
 }
 
 fn ends_with(outcome: &Result<Parametric>, kind: ErrorKind) -> bool {
@@ -121,9 +146,13 @@ fn interpolated(ideal: &Ideal<'_>, watch: &Watch) -> Result<Basis<Fractions<Rati
         let text = "interpolation needs parameters, and none with a relation; take another way";
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
-    let system = system::System::new(ideal, watch)?;
+    at_points(ideal, &system::System::new(ideal, watch)?, watch)
+}
+
+/// The basis of a system that has been learned.
+fn at_points(ideal: &Ideal<'_>, system: &system::System, watch: &Watch) -> Result<Basis<Fractions<Rationals>>> {
     let (ring, field) = (ideal.ring, ideal.ring.field());
-    let mut coefficients = lift::interpolate(&system, field, watch)?.into_iter();
+    let mut coefficients = lift::interpolate(system, field, watch)?.into_iter();
     let polynomials = system.supports.iter().map(|support| {
         let values = std::iter::once(field.one()).chain(coefficients.by_ref().take(support.len() - 1));
         let terms = support.iter().zip(values).map(|(m, coefficient)| Term { coefficient, monomial: m.clone() });

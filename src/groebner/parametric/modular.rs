@@ -8,7 +8,7 @@ use super::assemble::{Element, assemble};
 use super::flat::{equations, flat_ring};
 use super::lift::{Primes, Residues, image};
 use super::prime::Prime;
-use super::{Ideal, Ring};
+use super::{Ideal, Ring, fresh, is_free};
 use crate::groebner::Basis;
 use crate::groebner::f4::Trace;
 use crate::number::{BigRational, Rationals, Zp};
@@ -20,7 +20,7 @@ const LANES: usize = 4;
 /// How many primes may teach the computation before the search is given up.
 const TEACHERS: usize = 4;
 
-type Equations = Vec<Vec<Term<BigRational>>>;
+pub(super) type Equations = Vec<Vec<Term<BigRational>>>;
 
 /// The reduced basis over the rational functions.
 ///
@@ -28,24 +28,34 @@ type Equations = Vec<Vec<Term<BigRational>>>;
 /// Those of F4; [`ErrorKind::Unsupported`] when too many primes are unlucky.
 pub(super) fn rebuilt_basis(ideal: &Ideal<'_>, watch: &Watch) -> Result<Basis<Fractions<Rationals>>> {
     let mut primes = Primes::new();
+    let equations = equations(ideal, &flat_ring(ideal.ring, Rationals)?)?;
     for _ in 0..TEACHERS {
-        let teacher = primes.next_prime();
+        let teacher = primes.next_that(|field| admit(&equations, field));
         let flat = flat_ring(ideal.ring, Zp::known_prime(teacher.p))?;
-        let equations = equations(ideal, &flat)?;
-        let Some(image) = image_of(&flat, &equations, teacher) else { continue };
+        let image = image_of(&flat, &equations, teacher).expect("a prime that divides no coefficient");
         let (basis, trace) = Trace::learn(&flat, &image, watch)?;
         let chosen = minimal_elements(ideal.ring, &flat, &basis.polynomials);
         let seen = coefficients(&chosen, &basis.polynomials);
         if let Some(values) = rebuild(&equations, &trace, &chosen, (teacher, &seen), &mut primes, watch)? {
             let elements = chosen.iter().map(|&index| &basis.polynomials[index]);
-            return assemble(ideal.ring, elements.map(|f| Element::new(ideal.ring, &flat, f)), values, watch);
+            let elements = elements.map(|f| Element::new(ideal.ring, &flat, f));
+            let found = assemble(ideal.ring, elements, values, watch)?;
+            let is_confirmed = if is_free(ideal) {
+                let leads = found.polynomials.iter().map(|f| &f.terms()[0].monomial);
+                fresh::has_leads(ideal, leads, &mut primes, watch)?
+            } else {
+                fresh::has_leads_with_variables(ideal, &equations, &basis.polynomials, &mut primes, watch)?
+            };
+            if is_confirmed {
+                return Ok(found);
+            }
         }
     }
     Err(Error::new(ErrorKind::Unsupported, "the computations modulo too many primes differ; take another way"))
 }
 
 /// The equations modulo a prime; `None` when it divides a coefficient.
-fn image_of(flat: &PolynomialRing<Zp>, equations: &Equations, field: Prime) -> Option<Vec<Polynomial<u64>>> {
+pub(super) fn image_of(flat: &PolynomialRing<Zp>, equations: &Equations, field: Prime) -> Option<Vec<Polynomial<u64>>> {
     let term = |term: &Term<BigRational>| {
         let coefficient = image(field, &term.coefficient);
         (coefficient != 0).then(|| Term { coefficient, monomial: term.monomial.clone() })
@@ -114,15 +124,12 @@ fn rebuild(
 
 /// The next primes that divide no coefficient, and the equations modulo each.
 fn lanes(equations: &Equations, primes: &mut Primes) -> ([Prime; LANES], Vec<Vec<[u32; LANES]>>) {
-    let is_good = |field: &Prime| equations.iter().flatten().all(|term| image(*field, &term.coefficient) != 0);
-    let fields = std::array::from_fn(|_| {
-        loop {
-            let field = primes.next_prime();
-            if is_good(&field) {
-                return field;
-            }
-        }
-    });
+    let fields = std::array::from_fn(|_| primes.next_that(|field| admit(equations, field)));
     let value = |term: &Term<BigRational>| fields.map(|field: Prime| image(field, &term.coefficient) as u32);
     (fields, equations.iter().map(|terms| terms.iter().map(value).collect()).collect())
+}
+
+/// Whether the prime divides no numerator and no denominator of a coefficient.
+pub(super) fn admit(equations: &Equations, field: Prime) -> bool {
+    equations.iter().flatten().all(|term| image(field, &term.coefficient) != 0)
 }

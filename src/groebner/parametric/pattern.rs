@@ -11,6 +11,8 @@ pub(super) trait Functions {
     fn parameters(&self) -> usize;
     /// Number of functions.
     fn count(&self) -> usize;
+    /// Whether the prime divides no number that the functions are made of; all but finitely many do not.
+    fn admit(&self, field: Prime) -> bool;
     /// The values of all functions at each point; `None` where one of them is not defined.
     fn values(&self, field: Prime, points: &[Vec<u64>], watch: &Watch) -> Result<Vec<Option<Vec<u64>>>>;
 }
@@ -77,14 +79,14 @@ impl Pattern {
     }
 
     /// The factors of all monomials from the function on `lines` whose directions are the powers of `bases`.
-    fn solve(&self, field: Prime, bases: &[u64], lines: &[Quotient]) -> Option<Vec<Vec<u64>>> {
+    fn solve(&self, field: Prime, bases: &[u64], lines: &[Quotient], watch: &Watch) -> Result<Option<Vec<Vec<u64>>>> {
         let lines = &lines[..self.lines()];
         let scales: Vec<u64> = lines.iter().map(|line| self.normal.of(line)).collect();
-        let scales = field.inverses(&scales)?;
+        let Some(scales) = field.inverses(&scales) else { return Ok(None) };
         let solve_slot = |slot: &Slot| {
             let roots: Vec<u64> = slot.exponents.iter().map(|e| power_product(field, bases, e)).collect();
             let values = lines.iter().zip(&scales).map(|(line, &scale)| field.mul(slot.place.of(line), scale));
-            sequence::factors(field, &roots, &values.take(roots.len()).collect::<Vec<_>>())
+            sequence::factors(field, &roots, &values.take(roots.len()).collect::<Vec<_>>(), watch)
         };
         self.slots.iter().map(solve_slot).collect()
     }
@@ -149,7 +151,7 @@ pub(super) fn factors_modulo(
             };
             let needed = values.chunks(count).take(patterns[f].lines());
             let Some(quotients) = needed.map(quotient).collect::<Option<Vec<_>>>() else { return Ok(None) };
-            let Some(factors) = patterns[f].solve(field, &bases, &quotients) else { return Ok(None) };
+            let Some(factors) = patterns[f].solve(field, &bases, &quotients, watch)? else { return Ok(None) };
             found[f] = factors;
         }
     }

@@ -1,9 +1,9 @@
 //! The coefficients of a reduced basis as functions of the parameters, evaluated modulo a prime.
 
-use super::lift::image;
+use super::lift::{Primes, image};
 use super::pattern::Functions;
 use super::prime::{Prime, Stream};
-use super::{Ideal, Ring};
+use super::{Ideal, Ring, fresh};
 use crate::groebner::f4::Trace;
 use crate::number::{BigRational, Ring as _, Zp};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, gcd};
@@ -29,7 +29,7 @@ type Coefficient = Vec<(Vec<u32>, BigRational)>;
 type Residue = Vec<(Vec<u32>, u64)>;
 
 impl System {
-    /// Clears denominators and learns the basis at a random point modulo a prime.
+    /// Clears denominators and learns the basis at a random point modulo a prime; another point must give the same leading monomials.
     ///
     /// # Errors
     /// Those of the engine.
@@ -41,16 +41,29 @@ impl System {
             equations.push(equation(ring, f, &common_multiple(ring, denominators)));
         }
         let parameters = ring.field().ring().variables().len();
-        let field = Prime::new(2_147_483_647);
+        let mut primes = Primes::new();
         let mut stream = Stream(3);
         for _ in 0..10 {
+            let field = primes.next_that(|field| admit(&equations, field));
             let point: Vec<u64> = (0..parameters).map(|_| stream.unit(field)).collect();
             let values = Evaluator::new(&equations, parameters, field).values(std::slice::from_ref(&point));
-            if let Some((trace, supports)) = learn(ring, ideal.generators, &values, field, watch)? {
+            if let Some((trace, supports)) = learn(ring, ideal.generators, &values, field, watch)?
+                && fresh::has_leads(ideal, supports.iter().map(|support| &support[0]), &mut primes, watch)?
+            {
                 return Ok(System { parameters, equations, trace, supports });
             }
         }
-        Err(Error::new(ErrorKind::BadValue, "a coefficient vanishes at ten random points; give each equation once"))
+        Err(Error::new(
+            ErrorKind::BadValue,
+            "ten random points give different bases, or make coefficients vanish; give each equation once",
+        ))
+    }
+}
+
+impl System {
+    /// The terms that the basis at one point takes.
+    pub fn terms(&self) -> usize {
+        self.trace.terms()
     }
 }
 
@@ -158,6 +171,11 @@ impl Evaluator {
     }
 }
 
+/// Whether the prime divides no numerator and no denominator of a coefficient.
+fn admit(equations: &[Equation], field: Prime) -> bool {
+    equations.iter().flatten().flatten().all(|(_, factor)| image(field, factor) != 0)
+}
+
 impl Functions for System {
     fn parameters(&self) -> usize {
         self.parameters
@@ -165,6 +183,10 @@ impl Functions for System {
 
     fn count(&self) -> usize {
         self.supports.iter().map(|support| support.len() - 1).sum()
+    }
+
+    fn admit(&self, field: Prime) -> bool {
+        admit(&self.equations, field)
     }
 
     fn values(&self, field: Prime, points: &[Vec<u64>], watch: &Watch) -> Result<Vec<Option<Vec<u64>>>> {

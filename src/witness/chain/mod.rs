@@ -8,7 +8,6 @@ mod count;
 mod exact;
 mod family;
 mod form;
-mod given;
 mod model;
 mod rational;
 mod singular;
@@ -24,9 +23,6 @@ use crate::{ErrorKind, Result, Watch};
 use model::{EXACT, Model, ORDINARY, RESIDUAL};
 use rational::Rationals;
 use targets::{Target, Targets};
-
-/// Rows at which the screw solver is asked about a chain with given joints.
-const GIVEN: usize = 60;
 
 /// What is checked: anything that solves targets given as numbers.
 ///
@@ -143,7 +139,8 @@ impl<'a> Check<'a> {
         faults.extend(self.known(row, answers));
         let wrong = row.exact.is_some_and(|exact| exact != answers.len()) && !self.is_tie(row, answers);
         faults.extend(wrong.then_some(Fault::Count));
-        if let Some(others) = self.by_screws(number, &row.target)? {
+        if let Some(screws) = &self.screws {
+            let others = screws.solve(&row.target)?;
             row.screw = Some(others.len());
             faults.extend((!self.agrees(&row.target, answers, &others)).then_some(Fault::Screw));
         }
@@ -153,15 +150,6 @@ impl<'a> Check<'a> {
             faults.extend((!agrees).then_some(Fault::Oracle));
         }
         Ok(faults)
-    }
-
-    /// The screw solver's answers; with given joints only at the first rows, since every target is a new chain then.
-    fn by_screws(&self, number: usize, target: &[f64]) -> Result<Option<Vec<Solution>>> {
-        match &self.screws {
-            Some(screws) => screws.solve(target).map(Some),
-            None if number < GIVEN && !self.model.given.is_empty() => Ok(given::solve(self.model, target)),
-            None => Ok(None),
-        }
     }
 
     /// Checks each answer by itself, and records the worst residual.

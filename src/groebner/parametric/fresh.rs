@@ -1,0 +1,87 @@
+//! The leading monomials, computed afresh at another point modulo another prime.
+//!
+//! A replay looks at no row again that came to nothing when the trace was learned. Where it should not have, because the prime or the
+//! point was an unlucky one, the replays agree with each other and all miss an element.
+
+use super::flat::flat_ring;
+use super::lift::{Primes, image};
+use super::modular::{Equations, admit, image_of};
+use super::prime::{Prime, Stream};
+use super::{Ideal, Poly};
+use crate::groebner::f4;
+use crate::number::{BigRational, Zp};
+use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
+use crate::{Result, Watch};
+
+/// How many primes may divide what they should not.
+const ATTEMPTS: usize = 10;
+
+/// Whether the basis at a random point modulo the next prime has the leading monomials `leads`, smallest first; the parameters are free.
+///
+/// # Errors
+/// Those of [`f4()`].
+pub(super) fn has_leads<'a>(
+    ideal: &Ideal<'_>,
+    leads: impl Iterator<Item = &'a Monomial> + Clone,
+    primes: &mut Primes,
+    watch: &Watch,
+) -> Result<bool> {
+    let ring = ideal.ring;
+    let mut stream = Stream(17);
+    for _ in 0..ATTEMPTS {
+        let field = primes.next_prime();
+        let point: Vec<u64> = ring.field().ring().variables().iter().map(|_| stream.unit(field)).collect();
+        let order = ring.layout().order().clone();
+        let target = PolynomialRing::new(Zp::known_prime(field.p), ring.variables(), order)?;
+        let target = target.with_width(ring.layout().width());
+        let at_point = |f: &Poly| generator_at(ideal, &target, f, field, &point);
+        if let Some(generators) = ideal.generators.iter().map(at_point).collect::<Option<Vec<_>>>() {
+            let basis = f4(&target, &generators, watch)?;
+            return Ok(basis.polynomials.iter().map(|f| &f.terms()[0].monomial).eq(leads));
+        }
+    }
+    Ok(false)
+}
+
+/// Whether the basis with the parameters as variables has the leading monomials of `basis` modulo the next prime, too.
+///
+/// # Errors
+/// Those of [`f4()`].
+pub(super) fn has_leads_with_variables(
+    ideal: &Ideal<'_>,
+    equations: &Equations,
+    basis: &[Polynomial<u64>],
+    primes: &mut Primes,
+    watch: &Watch,
+) -> Result<bool> {
+    let field = primes.next_that(|field| admit(equations, field));
+    let flat = flat_ring(ideal.ring, Zp::known_prime(field.p))?;
+    let image = image_of(&flat, equations, field).expect("a prime that divides no coefficient");
+    let again = f4(&flat, &image, watch)?;
+    let lead = |f: &Polynomial<u64>| f.terms()[0].monomial.clone();
+    Ok(again.polynomials.iter().map(lead).eq(basis.iter().map(lead)))
+}
+
+/// A generator at a point; `None` where a coefficient vanishes or is not defined.
+fn generator_at(
+    ideal: &Ideal<'_>,
+    target: &PolynomialRing<Zp>,
+    f: &Poly,
+    field: Prime,
+    point: &[u64],
+) -> Option<Polynomial<u64>> {
+    let layout = ideal.ring.field().ring().layout();
+    let value = |f: &Polynomial<BigRational>| {
+        f.terms().iter().fold(0, |sum, term| {
+            let powers = point.iter().enumerate().map(|(v, &x)| (x, u64::from(layout.exponent(&term.monomial, v))));
+            let product = |product, (x, e)| if e == 0 { product } else { field.mul(product, field.pow(x, e)) };
+            field.add(sum, powers.fold(image(field, &term.coefficient), product))
+        })
+    };
+    let term = |term: &Term<_>| {
+        let coefficient: &crate::poly::Fraction<BigRational> = &term.coefficient;
+        let quotient = field.mul(value(coefficient.numerator()), field.inverse(value(coefficient.denominator())));
+        (quotient != 0).then(|| Term { coefficient: quotient, monomial: term.monomial.clone() })
+    };
+    Some(target.descending(f.terms().iter().map(term).collect::<Option<_>>()?))
+}
