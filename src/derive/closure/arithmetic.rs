@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use num_traits::Zero;
+use smallvec::SmallVec;
 
 use crate::number::{BigInt, BigRational, Field, Ring, Zp};
 
@@ -136,7 +137,7 @@ impl Factor {
 
 /// A product of unknowns, at most one factor a joint, in the order of the joints; empty for 1.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Factors(Vec<Factor>);
+pub struct Factors(SmallVec<[Factor; 4]>);
 
 impl Factors {
     /// The factors, in the order of their joints.
@@ -195,7 +196,7 @@ impl<V: Clone> Multilinear<V> {
 
     /// The coefficient of a product of unknowns, given by its factors in the order of the joints; `None` stands for zero.
     pub fn coefficient(&self, factors: &[Factor]) -> Option<&V> {
-        self.terms.get(&Factors(factors.to_vec()))
+        self.terms.get(&Factors(SmallVec::from_slice(factors)))
     }
 
     /// The coefficient of 1.
@@ -307,7 +308,7 @@ impl<V: Clone> Multilinear<V> {
     pub(super) fn times_unknown<A: Arithmetic<Value = V>>(&self, factor: Factor, arithmetic: &mut A) -> Self {
         let mut product = Multilinear::zero();
         for (own, value) in &self.terms {
-            product.absorb(own.times(&Factors(vec![factor])), value.clone(), arithmetic);
+            product.absorb(own.times(&Factors(SmallVec::from_slice(&[factor]))), value.clone(), arithmetic);
         }
         product
     }

@@ -10,7 +10,6 @@ use super::mechanism::Mechanism;
 use super::relation::{Letter, Measure, Object, Relation, Word};
 use super::vector;
 use crate::kinematics::{ExactMatrix, ExactVector};
-use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
 /// Coordinates as polynomials in the unknown joints.
@@ -146,17 +145,21 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
     fn start(&mut self, object: &Object, measure: Measure) -> Image<A::Value> {
         match (object, measure) {
             (Object::Point(point), Measure::Distance) => {
-                let square = self.number(&vector::dot(point, point));
-                Image::PointSquare(self.numbers(point), square)
+                let place = self.numbers(point);
+                let square = self.dot_number(point, &place);
+                Image::PointSquare(place, square)
             }
             (Object::Point(point), _) => Image::Point(self.numbers(point)),
             (Object::Direction(direction), _) => Image::Direction(self.numbers(direction)),
             (Object::Line { point, direction }, Measure::Offset) => {
-                let offset = self.number(&vector::dot(point, direction));
-                Image::Plane(self.numbers(direction), offset)
+                let normal = self.numbers(direction);
+                let offset = self.dot_number(point, &normal);
+                Image::Plane(normal, offset)
             }
             (Object::Line { point, direction }, _) => {
-                Image::Line(self.numbers(direction), self.numbers(&vector::cross(point, direction)))
+                let (point, direction) = (self.numbers(point), self.numbers(direction));
+                let moment = self.cross(&point, &direction);
+                Image::Line(direction, moment)
             }
         }
     }
@@ -171,14 +174,17 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
                 Ok(along.sub(offset, self.arithmetic))
             }
             (Measure::Distance, Object::Point(a), Image::PointSquare(x, square)) => {
-                let twice = self.dot_number(&vector::scale(a, &integer(2)), x);
-                let own = self.number(&vector::dot(a, a));
-                let sum = square.add(&own, self.arithmetic);
-                Ok(sum.sub(&twice, self.arithmetic))
+                // |x|^2 + a.a - 2 a.x = |x|^2 + a.(a - x) - a.x
+                let place = self.numbers(a);
+                let arm = self.minus(&place, x);
+                let (far, near) = (self.dot_number(a, &arm), self.dot_number(a, x));
+                Ok(square.add(&far, self.arithmetic).sub(&near, self.arithmetic))
             }
             (Measure::Moment, Object::Line { point, direction }, Image::Line(v, moment)) => {
                 // (a - x).(v x w) = v.(w x a) - w.(x x v) with w the fixed direction.
-                let first = self.dot_number(&vector::cross(direction, point), v);
+                let (w, x) = (self.numbers(direction), self.numbers(point));
+                let across = self.cross(&w, &x);
+                let first = self.dot(&across, v);
                 let second = self.dot_number(direction, moment);
                 Ok(first.sub(&second, self.arithmetic))
             }
@@ -365,8 +371,4 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
 
 fn transposed(matrix: &ExactMatrix) -> ExactMatrix {
     std::array::from_fn(|i| std::array::from_fn(|j| matrix[j][i].clone()))
-}
-
-fn integer(n: i64) -> BigRational {
-    BigRational::from_integer(n.into())
 }

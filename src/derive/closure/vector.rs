@@ -50,8 +50,10 @@ pub fn cross(a: &ExactVector, b: &ExactVector) -> ExactVector {
     })
 }
 
+/// Whether `a` and `b` are parallel, without reducing a fraction.
 pub fn parallel(a: &ExactVector, b: &ExactVector) -> bool {
-    is_zero(&cross(a, b))
+    let product = |i: usize, j: usize| a[i].numer() * b[j].numer() * (a[j].denom() * b[i].denom());
+    [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| product(i, j) == product(j, i))
 }
 
 /// The matrix, given by rows, times `a`.
