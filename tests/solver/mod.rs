@@ -91,19 +91,25 @@ fn close_to_a_straight_wrist_the_two_answers_are_isolated() {
     }
 }
 
-/// Both values of `x` solve `(x - 1) (x - 2) = 0`; which is shown says which chart has run.
-fn choice(claims: [f64; 2]) -> Vec<f64> {
+/// Both values of `x` solve `(x - 1) (x - 2) = 0`; which is shown says which chart has run. The pivots are the inputs, or their
+/// square roots.
+fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
     let mut code = Code::default();
     let x = unknown(0);
     let (a, b) = (code.sub(x, constant(1.0)), code.sub(x, constant(2.0)));
     let (product, slope) = (code.mul(a, b), code.add(a, b));
     let code = code.take();
     let checks = Checks { code, residuals: vec![product], scales: vec![constant(1.0)], jacobian: vec![vec![slope]] };
-    let chart = |value: f64, claim: usize| Chart {
+    let root = |claim: usize| {
+        let mut code = Code::default();
+        (code.sqrt(parameter(claim)), code.take())
+    };
+    let claim = |claim| if by_roots { root(claim) } else { (parameter(claim), vec![]) };
+    let chart = |value: f64, index: usize| Chart {
         label: format!("x = {value}"),
-        guard_code: vec![],
+        guard_code: claim(index).1,
         guards: vec![],
-        pivot: Some(Pivot { group: 0, value: parameter(claim) }),
+        pivot: Some(Pivot { group: 0, value: claim(index).0 }),
         steps: vec![Step::Set { unknown: 0, value: constant(value) }],
         free: vec![],
         open: false,
@@ -129,10 +135,17 @@ fn choice(claims: [f64; 2]) -> Vec<f64> {
 
 #[test]
 fn of_a_pivot_group_the_chart_with_the_greatest_magnitude_runs_and_the_first_of_equals() {
-    assert_eq!(choice([3.0, 2.0]), [1.0]);
-    assert_eq!(choice([3.0, -4.0]), [2.0]);
-    assert_eq!(choice([-3.0, 3.0]), [1.0]);
-    assert_eq!(choice([0.0, 0.0]), [1.0]);
+    assert_eq!(choice([3.0, 2.0], false), [1.0]);
+    assert_eq!(choice([3.0, -4.0], false), [2.0]);
+    assert_eq!(choice([-3.0, 3.0], false), [1.0]);
+    assert_eq!(choice([0.0, 0.0], false), [1.0]);
+}
+
+#[test]
+fn the_square_root_of_a_negative_number_is_zero() {
+    assert_eq!(choice([-9.0, 0.0], true), [1.0]);
+    assert_eq!(choice([-9.0, 1e-20], true), [2.0]);
+    assert_eq!(choice([9.0, 10.0], true), [2.0]);
 }
 
 #[test]
