@@ -25,6 +25,9 @@ type Poly = Polynomial<BigRational>;
 /// A coefficient: by the unknowns of known joints, polynomials in the target.
 type Coefficient = BTreeMap<Vec<Factor>, TargetPoly>;
 
+/// A product of unknowns with its coefficient: a number, or a multiple of a symbol.
+type Entry = (Vec<Factor>, BigRational, Option<usize>);
+
 /// Where a symbol's value stands: the coefficient of a product of unknowns in one of the relations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymbolPlace {
@@ -181,7 +184,7 @@ struct Setting<'a> {
     /// The joints that go, then the step's own.
     joints: Vec<usize>,
     /// By relation: the coefficients as a multiple of a symbol or a number.
-    relations: Vec<Vec<(Vec<Factor>, BigRational, Option<usize>)>>,
+    relations: Vec<Vec<Entry>>,
     symbols: Vec<(SymbolPlace, Coefficient)>,
 }
 
@@ -213,7 +216,7 @@ impl<'a> Setting<'a> {
         relation: usize,
         factors: Vec<Factor>,
         coefficient: Coefficient,
-    ) -> (Vec<Factor>, BigRational, Option<usize>) {
+    ) -> Entry {
         let number = match coefficient.iter().next() {
             Some((product, value)) if coefficient.len() == 1 && product.is_empty() => symbolic.ring.as_constant(value),
             _ => None,
