@@ -16,6 +16,7 @@ mod poly;
 mod real;
 mod robots;
 mod roots;
+mod solver;
 mod spatial;
 mod watch;
 mod witness;

@@ -40,7 +40,7 @@ typedef struct {
     double q[NAO_ARM_PLANAR_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which chart and which roots gave it. */
+    /* Which charts and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
@@ -87,6 +87,8 @@ double nao_arm_planar_residual(const double *target, const double *q);
 #define POLISH_STEPS 32
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define SPLIT 0.001
+/* An answer that misses the equations by no more than this share of their size is not polished. */
+#define POLISHED 1e-15
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
 /* A factor is not zero above this share of its scale. */
@@ -323,6 +325,8 @@ static double wrap(double angle)
     return angle > PI ? angle - TAU : half_open(angle);
 }
 
+static const bool NONE_FREE[JOINTS] = {false};
+
 /* Gaussian elimination with partial pivoting on an augmented matrix; false for a zero or non-finite pivot. */
 static bool solve_linear(double system[JOINTS][JOINTS + 1], double *solution)
 {
@@ -415,15 +419,15 @@ static bool improve(const Parameters *p, double *q, double damping, Fit *fit)
     return true;
 }
 
-/* Newton steps, damped where a plain one fails; each is taken only if the relative residual falls. */
-static void polish(const Parameters *p, double *q)
+/* Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls.
+ */
+static void polish(const Parameters *p, double *q, Fit *fit)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
-    Fit fit = measure(p, q);
-    for (int i = 0; i < POLISH_STEPS; i++) {
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
         bool better = false;
         for (size_t d = 0; d < sizeof dampings / sizeof dampings[0] && !better; d++) {
-            better = improve(p, q, dampings[d], &fit);
+            better = improve(p, q, dampings[d], fit);
         }
         if (!better) {
             return;
@@ -449,8 +453,6 @@ typedef struct {
     double relative[NAO_ARM_PLANAR_CAPACITY];
     size_t count;
 } Answers;
-
-static const bool NONE_FREE[JOINTS] = {false};
 
 static double shorter(double difference)
 {
@@ -481,15 +483,10 @@ tolerance,
     return true;
 }
 
-/* Whether two answers near one another are one at a singular configuration: half-way between them the equations hold as well as at
- * the worse of the two, whose relative residual is given, or within rounding. */
-static bool blurred(const Parameters *p, const Solution *a, const Solution *b, double relative)
+/* Whether two answers near one another, with their relative residuals, are one at a singular configuration: half-way between them the
+ * equations hold as well as at the worse of the two, or within rounding. */
+static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (a->free[i] || b->free[i]) {
-            return false;
-        }
-    }
     if (!is_close(a, b, BLUR)) {
         return false;
     }
@@ -498,7 +495,16 @@ static bool blurred(const Parameters *p, const Solution *a, const Solution *b, d
     for (size_t i = 0; i < JOINTS; i++) {
         middle[i] = b->q[i] + 0.5 * way[i];
     }
-    return measure(p, middle).relative <= fmax(RESOLUTION, relative);
+    return measure(p, middle).relative <= fmax(fmax(RESOLUTION, a_relative), b_relative);
+}
+
+/* Whether two answers, with their relative residuals, are one. */
+static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+{
+    if (is_close(a, b, MERGE)) {
+        return true;
+    }
+    return blurred(p, a, a_relative, b, b_relative);
 }
 
 static bool has_branch(const Answers *answers, size_t branch)
@@ -511,17 +517,40 @@ static bool has_branch(const Answers *answers, size_t branch)
     return false;
 }
 
+/* Adds an answer; where there are too many, the worst is left out. */
+static void add(Answers *answers, const Solution *answer, double relative)
+{
+    if (answers->count == NAO_ARM_PLANAR_CAPACITY) {
+        size_t worst = 0;
+        for (size_t i = 0; i < NAO_ARM_PLANAR_CAPACITY; i++) {
+            if (answers->relative[i] >= answers->relative[worst]) {
+                worst = i;
+            }
+        }
+        if (relative >= answers->relative[worst]) {
+            return;
+        }
+        answers->count--;
+        for (size_t i = worst; i < answers->count; i++) {
+            answers->out[i] = answers->out[i + 1];
+            answers->relative[i] = answers->relative[i + 1];
+        }
+    }
+    answers->out[answers->count] = *answer;
+    answers->relative[answers->count] = relative;
+    answers->count++;
+}
+
 /* Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept; a second
  * root of a double one takes the next free number below last. */
-static void keep(const Parameters *p, Answers *answers, size_t branch, size_t last, const double *q, const bool *free)
+static void keep(const Parameters *p, Answers *answers, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free)
 {
-    const Fit fit = measure(p, q);
-    if (!fit.accepted) {
+    if (!fit->accepted) {
         return;
     }
-    const double relative = fit.relative;
+    const double relative = fit->relative;
     Solution answer;
-    answer.residual = fit.residual;
+    answer.residual = fit->residual;
     answer.branch = branch;
     answer.chosen = false;
     for (size_t i = 0; i < JOINTS; i++) {
@@ -538,9 +567,9 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
     bool met = false;
     for (size_t i = 0; i < answers->count; i++) {
         const Solution *other = &answers->out[i];
-        const double worse = fmax(answers->relative[i], relative);
-        doubles[i] = is_close(other, &answer, MERGE) || blurred(p, other, &answer, worse);
-        if (doubles[i] && answers->relative[i] <= relative) {
+        const double other_relative = answers->relative[i];
+        doubles[i] = is_one(p, other, other_relative, &answer, relative);
+        if (doubles[i] && other_relative <= relative) {
             return;
         }
     }
@@ -556,37 +585,30 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
         }
     }
     answers->count = kept;
-    if (answers->count < NAO_ARM_PLANAR_CAPACITY) {
-        answers->out[answers->count] = answer;
-        answers->relative[answers->count] = relative;
-        answers->count++;
-    }
+    add(answers, &answer, relative);
 }
 
-/* Polishes a candidate unless it is one of a family, and keeps what solves the equations. A candidate that misses them by little is a
- * double root that rounding made of two: points to either side of it are polished too. */
+/* Polishes a candidate, and keeps what solves the equations. One that misses them by little is a double root that rounding made of two:
+ * points to either side of it are polished too. */
 static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
-    bool polished = true;
     for (size_t i = 0; i < JOINTS; i++) {
         q[i] = candidate[i];
-        polished = polished && !free[i];
     }
-    if (polished) {
-        polish(p, q);
-        const double miss = measure(p, q).relative;
-        if (RESOLUTION <= miss && miss <= SPLIT) {
-            for (size_t i = 0; i < 2 * JOINTS; i++) {
-                const double sign = i % 2 == 0 ? -1.0 : 1.0;
-                double start[JOINTS];
-                move(q, i / 2, 2.0 * sign * sqrt(miss), start);
-                polish(p, start);
-                keep(p, answers, branch, last, start, free);
-            }
+    Fit fit = measure(p, q);
+    polish(p, q, &fit);
+    if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * sqrt(fit.relative), start);
+            Fit end = measure(p, start);
+            polish(p, start, &end);
+            keep(p, answers, branch, last, start, &end, free);
         }
     }
-    keep(p, answers, branch, last, q, free);
+    keep(p, answers, branch, last, q, &fit, free);
 }
 
 /* Insertion sort by branch. */
@@ -634,7 +656,7 @@ static bool is_away(double value, double scale)
 /* Chart 1: generic.
  * It runs where pz is not zero and py^2 + pz^2 is not zero.
  */
-static void chart_1(const Parameters *p, Answers *answers)
+static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->py * p->py;
     const double r1 = p->pz * p->pz;
@@ -664,7 +686,7 @@ static void chart_1(const Parameters *p, Answers *answers)
 /* Chart 2: pz = 0.
  * It runs where pz is near zero and py is not zero.
  */
-static void chart_2(const Parameters *p, Answers *answers)
+static void chart_1_2(const Parameters *p, Answers *answers)
 {
     if (!(is_near(p->pz, p->magnitude) && is_away(p->py, p->magnitude))) {
         return;
@@ -682,6 +704,13 @@ static void chart_2(const Parameters *p, Answers *answers)
         const double q[JOINTS] = {angle(c2, s2), angle(c4, s4)};
         finish(p, 2 + i0, 4, q, NONE_FREE, answers);
     }
+}
+
+/* Block 1: nao_arm_planar. */
+static void block_1(const Parameters *p, Answers *answers)
+{
+    chart_1_1(p, answers);
+    chart_1_2(p, answers);
 }
 
 static bool all_finite(const double *target)
@@ -703,8 +732,7 @@ int nao_arm_planar_solve(const double *target, nao_arm_planar_solution *out)
     Answers answers;
     answers.out = out;
     answers.count = 0;
-    chart_1(&p, &answers);
-    chart_2(&p, &answers);
+    block_1(&p, &answers);
     sort(&answers);
     mark_choice(&answers);
     return (int)answers.count;

@@ -41,7 +41,7 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which chart and which roots gave it.
+    /// Which charts and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
@@ -76,8 +76,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
     }
     let p = &parameters(target);
     let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0 };
-    chart_1(p, &mut answers);
-    chart_2(p, &mut answers);
+    block_1(p, &mut answers);
     answers.sort();
     answers.mark_choice();
     Ok(answers.count)
@@ -115,6 +114,8 @@ const POLISH_STEPS: usize = 32;
 const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 0.001];
 /// A candidate that misses the equations by this share of their size at most may be a double root.
 const SPLIT: f64 = 0.001;
+/// An answer that misses the equations by no more than this share of their size is not polished.
+const POLISHED: f64 = 1e-15;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
 /// A factor is not zero above this share of its scale.
@@ -136,9 +137,15 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
     Parameters { py, pz, magnitude }
 }
 
+/// Block 1: nao_arm_planar.
+fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
+    chart_1_1(p, answers);
+    chart_1_2(p, answers);
+}
+
 /// Chart 1: generic.
 /// It runs where pz is not zero and py^2 + pz^2 is not zero.
-fn chart_1(p: &Parameters, answers: &mut Answers<'_>) {
+fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r0 = p.py * p.py;
     let r1 = p.pz * p.pz;
     if !(is_away(p.pz, p.magnitude) && is_away(r0 + r1, 2.0 * (p.magnitude * p.magnitude))) {
@@ -164,7 +171,7 @@ fn chart_1(p: &Parameters, answers: &mut Answers<'_>) {
 
 /// Chart 2: pz = 0.
 /// It runs where pz is near zero and py is not zero.
-fn chart_2(p: &Parameters, answers: &mut Answers<'_>) {
+fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
     if !(is_near(p.pz, p.magnitude) && is_away(p.py, p.magnitude)) {
         return;
     }
@@ -229,49 +236,50 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Polishes a candidate unless it is one of a family, and keeps what solves the equations. A candidate that misses them by
-    /// little is a double root that rounding made of two: points to either side of it are polished too.
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, mut q: [f64; JOINTS], free: [bool; JOINTS]) {
-        if free == NONE_FREE {
-            q = polish(p, q);
-            let miss = measure(p, &q).relative;
-            if RESOLUTION <= miss && miss <= SPLIT {
-                for i in 0..JOINTS {
-                    for sign in [-1.0, 1.0] {
-                        let start = moved(&q, i, 2.0 * sign * miss.sqrt());
-                        let start = polish(p, start);
-                        self.keep(p, branch, last, start, free);
-                    }
+    /// Polishes a candidate, and keeps what solves the equations. One that misses them by little is a double root that rounding made
+    /// of two: points to either side of it are polished too.
+    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+        let mut end = (q, measure(p, &q));
+        end = polish(p, end);
+        let miss = end.1.relative;
+        if RESOLUTION <= miss && miss <= SPLIT {
+            for i in 0..JOINTS {
+                for sign in [-1.0, 1.0] {
+                    let start = moved(&end.0, i, 2.0 * sign * miss.sqrt());
+                    let start = (start, measure(p, &start));
+                    let start = polish(p, start);
+                    self.keep(p, branch, last, start, free);
                 }
             }
         }
-        self.keep(p, branch, last, q, free);
+        self.keep(p, branch, last, end, free);
     }
 
     /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
     /// a second root of a double one takes the next free number below `last`.
-    fn keep(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
-        let fit = measure(p, &q);
+    fn keep(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
         if !fit.accepted {
             return;
         }
-        let branch = (branch..last).find(|&branch| !self.has(branch)).unwrap_or(branch);
-        let mut answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
+        let next = last;
+        let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
+        let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
+        let mut answer = Rated { answer, relative: fit.relative };
         let mut doubles = [false; CAPACITY];
         let mut first = None;
         for i in 0..self.count {
-            let (other, relative) = (&self.out[i], self.relative[i]);
-            doubles[i] = close(other, &answer, MERGE) || blurred(p, other, &answer, f64::max(relative, fit.relative));
-            if doubles[i] && relative <= fit.relative {
+            let other = Rated { answer: self.out[i], relative: self.relative[i] };
+            doubles[i] = is_one(p, &other, &answer);
+            if doubles[i] && holds_against(&other, &answer) {
                 return;
             }
             if doubles[i] && first.is_none() {
-                first = Some(other.branch);
+                first = Some(other.answer.branch);
             }
         }
-        answer.branch = first.unwrap_or(branch);
+        answer.answer.branch = first.unwrap_or(branch);
         self.drop_doubles(&doubles);
-        self.push(answer, fit.relative);
+        self.push(answer);
     }
 
     fn has(&self, branch: usize) -> bool {
@@ -290,12 +298,25 @@ impl Answers<'_> {
         self.count = kept;
     }
 
-    fn push(&mut self, answer: Solution, relative: f64) {
-        if self.count < CAPACITY {
-            self.out[self.count] = answer;
-            self.relative[self.count] = relative;
-            self.count += 1;
+    /// Adds an answer; where there are too many, the worst is left out.
+    fn push(&mut self, answer: Rated) {
+        if self.count == CAPACITY {
+            let mut worst = 0;
+            for i in 0..CAPACITY {
+                if self.relative[i] >= self.relative[worst] {
+                    worst = i;
+                }
+            }
+            if answer.relative >= self.relative[worst] {
+                return;
+            }
+            let mut doubles = [false; CAPACITY];
+            doubles[worst] = true;
+            self.drop_doubles(&doubles);
         }
+        self.out[self.count] = answer.answer;
+        self.relative[self.count] = answer.relative;
+        self.count += 1;
     }
 
     /// Insertion sort by branch.
@@ -321,6 +342,25 @@ impl Answers<'_> {
     }
 }
 
+/// An answer with the largest share of an equation's value in its size.
+struct Rated {
+    answer: Solution,
+    relative: f64,
+}
+
+/// Whether two answers are one.
+fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
+    if close(&a.answer, &b.answer, MERGE) {
+        return true;
+    }
+    blurred(p, a, b)
+}
+
+/// Whether `a` stays where `b` is equal to it: the better one does.
+fn holds_against(a: &Rated, b: &Rated) -> bool {
+    a.relative <= b.relative
+}
+
 /// `a - b` joint by joint, angles by the shorter way round.
 fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
     [
@@ -344,20 +384,22 @@ tolerance,
 }
 
 /// Whether two answers near one another are one at a singular configuration: half-way between them the equations hold as well as
-/// at the worse of the two, whose relative residual is `relative`, or within rounding.
-fn blurred(p: &Parameters, a: &Solution, b: &Solution, relative: f64) -> bool {
-    if a.free != NONE_FREE || b.free != NONE_FREE || !close(a, b, BLUR) {
+/// at the worse of the two, or within rounding.
+fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
+    if !close(&a.answer, &b.answer, BLUR) {
         return false;
     }
-    let way = differences(&a.q, &b.q);
-    let mut middle = b.q;
+    let way = differences(&a.answer.q, &b.answer.q);
+    let mut middle = b.answer.q;
     for i in 0..JOINTS {
         middle[i] += 0.5 * way[i];
     }
-    measure(p, &middle).relative <= f64::max(RESOLUTION, relative)
+    let bound = f64::max(f64::max(RESOLUTION, a.relative), b.relative);
+    measure(p, &middle).relative <= bound
 }
 
 /// How well joint values solve the equations.
+#[derive(Clone, Copy)]
 struct Fit {
     /// The largest magnitude of an equation's value.
     residual: f64,
@@ -379,31 +421,34 @@ fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
     fit
 }
 
-/// Newton steps, damped where a plain one fails; each is taken only if the relative residual falls.
-fn polish(p: &Parameters, mut q: [f64; JOINTS]) -> [f64; JOINTS] {
-    let mut fit = measure(p, &q);
+/// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls.
+fn polish(p: &Parameters, start: ([f64; JOINTS], Fit)) -> ([f64; JOINTS], Fit) {
+    let mut end = start;
     for _ in 0..POLISH_STEPS {
+        if end.1.relative <= POLISHED {
+            return end;
+        }
         let mut better = None;
         for damping in DAMPINGS {
             if better.is_none() {
-                better = improved(p, &q, damping, fit.relative);
+                better = improved(p, &end, damping);
             }
         }
-        let Some(next) = better else { break };
-        (q, fit) = next;
+        let Some(next) = better else { return end };
+        end = next;
     }
-    q
+    end
 }
 
-/// The joints after one step, if the relative residual falls below `relative`.
-fn improved(p: &Parameters, q: &[f64; JOINTS], damping: f64, relative: f64) -> Option<([f64; JOINTS], Fit)> {
+/// The joints after one step, if the relative residual falls.
+fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), damping: f64) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, damping)?;
     let next = [
         wrap(q[0] - step[0]),
         wrap(q[1] - step[1]),
     ];
-    let fit = measure(p, &next);
-    if fit.relative < relative { Some((next, fit)) } else { None }
+    let next = (next, measure(p, &next));
+    if next.1.relative < fit.relative { Some(next) } else { None }
 }
 
 /// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.

@@ -56,6 +56,7 @@ pub fn assemble_files(
     if !is_same_file(&source.path, &folder.join(source.name)) {
         files.push((source.name.to_owned(), source.text.clone().into_bytes()));
     }
+    files.extend(source.task_file());
     files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
     files.extend(printed_solvers(derivation.program()));
     files.push((CHECKS.to_owned(), checked.to_csv().into_bytes()));

@@ -29,7 +29,8 @@ pub struct Arguments {
 
 /// Prints the input.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let (input, ends) = (InputFile::read(&arguments.input)?, arguments.ends.ends());
+    let input = InputFile::read(&arguments.input)?;
+    let ends = arguments.ends.ends().or(&input.ends);
     let paint = Paint::of(&std::io::stdout());
     match &input.description {
         Description::Tree(tree) if ends == Ends::default() && tree.leaves().len() > 1 => {
@@ -64,9 +65,8 @@ fn equations(chain: &Chain) -> std::result::Result<String, Halt> {
 
 fn chain_page(chain: &Chain, notes: &[String], paint: Paint) -> String {
     let unit = chain.length_unit().symbol();
-    let plane = chain.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
-    let (count, task) = (chain.joints().len(), chain.task().name());
-    let mut page = format!("{}: {}, task {task}{plane}, lengths in {unit}\n", paint.bold(chain.name()), joints(count));
+    let (name, count) = (paint.bold(chain.name()), joints(chain.joints().len()));
+    let mut page = format!("{name}: {count}, task {}, lengths in {unit}\n", chain.asked());
     for text in [&chain.parts().description, &chain.parts().source].into_iter().flatten() {
         page += &format!("{}\n", paint.dim(text));
     }

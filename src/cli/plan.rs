@@ -41,7 +41,7 @@ impl Mechanism {
     /// As [`InputFile::read`] and [`InputFile::chain`]; [`ErrorKind::UnknownName`] for what is neither a file nor a robot.
     pub fn chain(&self) -> Result<Chain> {
         if let Some(chain) = self.known_robot()? {
-            return Ok(chain);
+            return self.ends.ask(chain);
         }
         let input = InputFile::read(&self.input)?;
         input.chain(&self.ends.ends())?.ok_or_else(|| {

@@ -2,8 +2,8 @@
 
 use super::demand::{Demand, ParameterDemand};
 use super::names::Names;
-use super::printer::{INDENT, Language, Printer, number};
-use crate::solver::{Chart, Guard, JointValue, Operand, Program, Rule, Step};
+use super::printer::{Finish, INDENT, Language, Printer, State, number};
+use crate::solver::{Block, Chart, Guard, JointValue, Operand, Program, Rule, Step};
 
 /// What all bodies of one file share.
 pub(super) struct Scene<'a> {
@@ -19,7 +19,50 @@ impl Scene<'_> {
         Printer::new(self.language, &self.names, demand)
     }
 
-    /// The unknowns that a chart must find.
+    /// Whether answers can be members of families.
+    pub fn has_families(&self) -> bool {
+        self.program.charts().any(|chart| !chart.free.is_empty())
+    }
+
+    /// By unknown: whether a block before the one with this index finds it.
+    pub fn known_before(&self, block: usize) -> Vec<bool> {
+        let mut known = vec![false; self.program.unknowns.len()];
+        for chart in self.program.blocks[..block].iter().flat_map(|block| &block.charts) {
+            chart.steps.iter().flat_map(found).for_each(|unknown| known[unknown] = true);
+        }
+        known
+    }
+
+    /// The unknowns that the block with this index must find: of those of answers and of what later blocks read, its own.
+    pub fn wanted_of(&self, block: usize) -> Vec<usize> {
+        let (before, after) = (self.known_before(block), self.known_before(block + 1));
+        let mut wanted = vec![false; self.program.unknowns.len()];
+        self.wanted().into_iter().for_each(|unknown| wanted[unknown] = true);
+        for later in self.program.blocks[block + 1..].iter().rev() {
+            let own: Vec<usize> = (0..wanted.len()).filter(|&unknown| wanted[unknown]).collect();
+            for demand in self.block_demands(later, &own) {
+                (0..wanted.len()).for_each(|unknown| wanted[unknown] |= demand.wants_unknown(unknown));
+            }
+        }
+        (0..wanted.len()).filter(|&unknown| wanted[unknown] && after[unknown] && !before[unknown]).collect()
+    }
+
+    /// What a block's code and charts ask for when these unknowns are wanted of it.
+    pub fn block_demands(&self, block: &Block, wanted: &[usize]) -> Vec<Demand> {
+        let mut demands = vec![Demand::of_block(self.program, block, wanted)];
+        for chart in &block.charts {
+            demands.push(Demand::of_chart(self.program, chart, if chart.open { &[] } else { wanted }));
+            demands.push(Demand::of_claim(chart));
+        }
+        demands
+    }
+
+    /// Unknowns that go from block to block.
+    pub fn passed(&self) -> Vec<usize> {
+        (0..self.program.blocks.len() - 1).flat_map(|block| self.wanted_of(block)).collect()
+    }
+
+    /// The unknowns that answers need.
     pub fn wanted(&self) -> Vec<usize> {
         let joints = self.program.joints.iter().flat_map(|joint| match joint.value {
             JointValue::Angle { cosine, sine } => vec![cosine, sine],
@@ -90,24 +133,46 @@ impl Scene<'_> {
         (lines, rows)
     }
 
-    /// The body of a chart, without indentation; an open chart's is its condition alone.
-    pub fn chart(&self, chart: &Chart) -> Vec<String> {
-        let mut printer = self.printer(Demand::of_chart(self.program, chart, &self.wanted()));
+    /// A printer for a chart of the block with this index, or for its code if nothing is `shared` yet.
+    fn block_printer(&self, block: usize, demand: Demand, shared: usize) -> Printer<'_> {
+        self.printer(demand).within_block(self.known_before(block), shared)
+    }
+
+    /// The code of the block with this index, and the registers that its charts read.
+    pub fn block_code(&self, index: usize) -> (Vec<String>, Vec<String>) {
+        let (block, wanted) = (&self.program.blocks[index], self.wanted_of(index));
+        let demand = Demand::of_block(self.program, block, &wanted);
+        let demands = self.block_demands(block, &wanted);
+        let charts = &demands[1..];
+        let read = |register: &usize| charts.iter().any(|demand| demand.register(*register) > 0);
+        let shared = (0..block.code.len()).filter(read).map(|register| format!("r{register}")).collect();
+        (self.block_printer(index, demand, 0).code(&block.code), shared)
+    }
+
+    /// The body of a chart of the block with this index, without indentation; an open chart's is its condition alone.
+    pub fn chart(&self, index: usize, chart: &Chart) -> Vec<String> {
+        let (block, wanted) = (&self.program.blocks[index], self.wanted_of(index));
+        let wanted = if index + 1 < self.program.blocks.len() { wanted } else { self.wanted() };
+        let demand = Demand::of_chart(self.program, chart, &wanted);
+        let mut printer = self.block_printer(index, demand, block.code.len());
         let mut lines = printer.code(&chart.guard_code);
         if !chart.guards.is_empty() {
             let condition = self.condition(&chart.guards, &mut printer);
             lines.extend(self.language.leave_unless(&condition));
         }
-        let mut walk = Walk { scene: self, chart, lines, depth: 0, branch: Vec::new() };
+        let mut walk = Walk { scene: self, block: index, chart, lines, depth: 0, branch: Vec::new() };
         walk.steps(&mut printer);
         walk.lines
     }
 
-    /// The code before an open chart's condition, and the condition.
-    pub fn open_chart(&self, chart: &Chart) -> (Vec<String>, String) {
-        let mut printer = self.printer(Demand::of_chart(self.program, chart, &[]));
+    /// The code before the condition of an open chart or one with a pivot, the condition, and the pivot.
+    pub fn claim(&self, index: usize, chart: &Chart) -> (Vec<String>, String, String) {
+        let shared = self.program.blocks[index].code.len();
+        let mut printer = self.block_printer(index, Demand::of_claim(chart), shared);
         let lines = printer.code(&chart.guard_code);
-        (lines, self.condition(&chart.guards, &mut printer))
+        let condition = self.condition(&chart.guards, &mut printer);
+        let value = chart.pivot.map_or_else(String::new, |pivot| printer.operand(pivot.value));
+        (lines, condition, value)
     }
 
     fn condition(&self, guards: &[Guard], printer: &mut Printer<'_>) -> String {
@@ -126,6 +191,7 @@ impl Scene<'_> {
 /// The steps of a chart on their way to text.
 struct Walk<'a> {
     scene: &'a Scene<'a>,
+    block: usize,
     chart: &'a Chart,
     lines: Vec<String>,
     depth: usize,
@@ -154,46 +220,133 @@ impl Walk<'_> {
                     self.push(vec![printer.language().declare(&printer.names().unknowns[*unknown], &value)]);
                 }
                 Step::Set { .. } => {}
-                Step::Sample { .. } => {}
-                Step::Roots { unknown, polynomials, .. } => self.roots(index, *unknown, polynomials, printer),
+                Step::Roots { unknown, polynomials, typical } => {
+                    self.roots(*unknown, polynomials, *typical, printer);
+                    let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
+                    self.branch.push(multiple(stride, &format!("i{}", self.depth)));
+                    self.depth += 1;
+                }
+                Step::Sample { joint, values } => {
+                    self.samples(*joint, values, printer);
+                    self.depth += 1;
+                }
             }
         }
-        self.finish(printer);
+        if self.block + 1 < self.scene.program.blocks.len() {
+            self.go_on(printer)
+        } else {
+            self.finish(printer)
+        }
         for depth in (0..self.depth).rev() {
             self.lines.push(format!("{}}}", INDENT.repeat(depth)));
         }
     }
 
-    fn roots(&mut self, index: usize, unknown: usize, polynomials: &[Vec<Operand>], printer: &mut Printer<'_>) {
+    fn roots(
+        &mut self,
+        unknown: usize,
+        polynomials: &[Vec<Operand>],
+        typical: Option<Operand>,
+        printer: &mut Printer<'_>,
+    ) {
         let language = printer.language();
         let lists: Vec<Vec<String>> =
             polynomials.iter().map(|list| list.iter().map(|&c| printer.operand(c)).collect()).collect();
+        let usual = if self.scene.program.is_plain(unknown) { Operand::Magnitude } else { Operand::Constant(1.0) };
+        let typical = printer.operand(typical.unwrap_or(usual));
         let lines = printer.settle();
         self.push(lines);
-        let typical = if self.scene.program.is_plain(unknown) { language.field("magnitude") } else { number(1.0) };
         self.push(language.find_roots(self.depth, &lists, &typical));
         let name = printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str());
         self.push(language.open_loop(self.depth, name));
-        let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
-        self.branch.push(if stride == 1 { format!("i{}", self.depth) } else { format!("{stride} * i{}", self.depth) });
-        self.depth += 1;
+    }
+
+    fn samples(&mut self, joint: JointValue, values: &[f64], printer: &mut Printer<'_>) {
+        let lines = printer.settle();
+        self.push(lines);
+        let (unknowns, rows): (Vec<usize>, Vec<Vec<String>>) = match joint {
+            JointValue::Angle { cosine, sine } => {
+                let row = |value: &f64| vec![number(value.cos()), number(value.sin())];
+                (vec![cosine, sine], values.iter().map(row).collect())
+            }
+            JointValue::Plain(unknown) => (vec![unknown], values.iter().map(|value| vec![number(*value)]).collect()),
+        };
+        let name = |unknown: &usize| {
+            printer.demand().wants_unknown(*unknown).then(|| printer.names().unknowns[*unknown].as_str())
+        };
+        let names: Vec<Option<&str>> = unknowns.iter().map(name).collect();
+        self.push(printer.language().open_samples(self.depth, &names, &rows));
+    }
+
+    /// The branch number so far and the end of the numbers of the first block's chart.
+    fn numbers(&self, language: &dyn Language) -> [String; 2] {
+        if self.block == 0 {
+            let branch = if self.branch.is_empty() { "0".to_owned() } else { self.branch.join(" + ") };
+            return [branch, (self.chart.first_branch + Program::branches(self.chart)).to_string()];
+        }
+        let radix = self.scene.program.blocks[self.block].branches();
+        let before = multiple(radix, &language.known("branch"));
+        let branch = [before].into_iter().chain(self.branch.iter().cloned()).collect::<Vec<_>>().join(" + ");
+        [branch, multiple(radix, &language.known("last"))]
+    }
+
+    /// By joint whether it is free; empty when the chart adds none.
+    fn free(&self, language: &dyn Language) -> Vec<String> {
+        let usual = |joint: usize| match self.block {
+            0 => "false".to_owned(),
+            _ => language.known(&format!("free[{joint}]")),
+        };
+        let is_free = |joint| if self.chart.free.contains(&joint) { "true".to_owned() } else { usual(joint) };
+        let joints = if self.chart.free.is_empty() { 0 } else { self.scene.program.joints.len() };
+        (0..joints).map(is_free).collect()
+    }
+
+    fn go_on(&mut self, printer: &Printer<'_>) {
+        let language = printer.language();
+        let names = &printer.names().unknowns;
+        let found: Vec<String> = self.scene.wanted_of(self.block).into_iter().map(|u| names[u].clone()).collect();
+        let state = State {
+            next: self.block + 2,
+            goes_on: self.block > 0,
+            branch: self.numbers(language),
+            free: &self.free(language),
+            found: &found,
+        };
+        self.push(language.go_on(&state));
     }
 
     fn finish(&mut self, printer: &Printer<'_>) {
-        let (scene, names) = (self.scene, printer.names());
-        let q: Vec<String> = scene.program.joints.iter().map(|joint| joint_value(joint.value, names)).collect();
-        let free: Vec<String> = (0..q.len()).map(|joint| self.chart.free.contains(&joint).to_string()).collect();
-        let free = if self.chart.free.is_empty() { Vec::new() } else { free };
-        let extra: Vec<String> = scene.extra.iter().map(|&unknown| names.unknowns[unknown].clone()).collect();
-        let branch = if self.branch.is_empty() { "0".to_owned() } else { self.branch.join(" + ") };
-        let last = self.chart.first_branch + Program::branches(self.chart);
-        self.push(printer.language().finish(&format!("{branch}, {last}"), &q, &free, &extra));
+        let (scene, language) = (self.scene, printer.language());
+        let q: Vec<String> = scene.program.joints.iter().map(|joint| joint_value(joint.value, printer)).collect();
+        let passed = self.block > 0 && scene.has_families();
+        let answer = Finish {
+            branch: self.numbers(language),
+            q: &q,
+            free: &self.free(language),
+            usual: if passed { language.known("free") } else { "NONE_FREE".to_owned() },
+            extra: &scene.extra.iter().map(|&unknown| printer.unknown(unknown)).collect::<Vec<_>>(),
+        };
+        self.push(language.finish(&answer));
     }
 }
 
-fn joint_value(value: JointValue, names: &Names) -> String {
+/// The unknowns that a step finds.
+fn found(step: &Step) -> Vec<usize> {
+    match *step {
+        Step::Compute(_) => vec![],
+        Step::Set { unknown, .. } | Step::Roots { unknown, .. } => vec![unknown],
+        Step::Sample { joint: JointValue::Angle { cosine, sine }, .. } => vec![cosine, sine],
+        Step::Sample { joint: JointValue::Plain(unknown), .. } => vec![unknown],
+    }
+}
+
+fn multiple(factor: usize, value: &str) -> String {
+    if factor == 1 { value.to_owned() } else { format!("{factor} * {value}") }
+}
+
+fn joint_value(value: JointValue, printer: &Printer<'_>) -> String {
     match value {
-        JointValue::Angle { cosine, sine } => format!("angle({}, {})", names.unknowns[cosine], names.unknowns[sine]),
-        JointValue::Plain(unknown) => names.unknowns[unknown].clone(),
+        JointValue::Angle { cosine, sine } => format!("angle({}, {})", printer.unknown(cosine), printer.unknown(sine)),
+        JointValue::Plain(unknown) => printer.unknown(unknown),
     }
 }

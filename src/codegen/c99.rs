@@ -1,7 +1,7 @@
 //! C99: one file that is a translation unit, or the declarations alone.
 
 use super::outline::Outline;
-use super::printer::{INDENT, Language, spread};
+use super::printer::{Finish, INDENT, Language, State, spread};
 use crate::solver::Program;
 
 const SKELETON: &str = include_str!("skeleton/solver.c.txt");
@@ -32,6 +32,18 @@ impl Language for C99 {
 
     fn field(&self, name: &str) -> String {
         format!("p->{name}")
+    }
+
+    fn known(&self, name: &str) -> String {
+        format!("known->{name}")
+    }
+
+    fn shared(&self, name: &str) -> String {
+        format!("shared->{name}")
+    }
+
+    fn argument(&self, name: &str, kind: &str) -> String {
+        format!("const {kind} *{name}")
     }
 
     fn call(&self, function: &str, argument: &str) -> String {
@@ -90,17 +102,42 @@ impl Language for C99 {
         vec![format!("if ({negation}) {{"), format!("{INDENT}return;"), "}".to_owned()]
     }
 
-    fn finish(&self, branch: &str, q: &[String], free: &[String], extra: &[String]) -> Vec<String> {
-        let mut lines = spread("const double q[JOINTS] = {", q, "};");
-        if !free.is_empty() {
-            lines.extend(spread("const bool free_joints[JOINTS] = {", free, "};"));
+    fn open_samples(&self, depth: usize, names: &[Option<&str>], rows: &[Vec<String>]) -> Vec<String> {
+        let width = names.len();
+        let head = format!("static const double samples{depth}[{}][{width}] = {{", rows.len());
+        let list: Vec<String> = rows.iter().map(|row| format!("{{ {} }}", row.join(", "))).collect();
+        let mut lines = spread(&head, &list, "};");
+        lines.push(format!("for (size_t i{depth} = 0; i{depth} < {}; i{depth}++) {{", rows.len()));
+        for (column, name) in names.iter().enumerate() {
+            let value = format!("samples{depth}[i{depth}][{column}]");
+            lines.extend(name.map(|name| format!("{INDENT}{}", self.declare(name, &value))));
         }
-        if !extra.is_empty() {
-            lines.extend(spread("const double extra[EXTRAS] = {", extra, "};"));
+        lines
+    }
+
+    fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
+        let mut lines = spread("const double q[JOINTS] = {", answer.q, "};");
+        if !answer.free.is_empty() {
+            lines.extend(spread("const bool free_joints[JOINTS] = {", answer.free, "};"));
         }
-        let free = if free.is_empty() { "NONE_FREE" } else { "free_joints" };
-        let extra = if extra.is_empty() { "" } else { ", extra" };
-        lines.push(format!("finish(p, {branch}, q, {free}{extra}, answers);"));
+        if !answer.extra.is_empty() {
+            lines.extend(spread("const double extra[EXTRAS] = {", answer.extra, "};"));
+        }
+        let free = if answer.free.is_empty() { &answer.usual } else { "free_joints" };
+        let extra = if answer.extra.is_empty() { "" } else { ", extra" };
+        lines.push(format!("finish(p, {}, q, {free}{extra}, answers);", answer.branch.join(", ")));
+        lines
+    }
+
+    fn go_on(&self, state: &State<'_>) -> Vec<String> {
+        let [branch, last] = &state.branch;
+        let start = if state.goes_on { "*known" } else { "NOTHING_KNOWN" };
+        let mut lines =
+            vec![format!("Known next = {start};"), format!("next.branch = {branch};"), format!("next.last = {last};")];
+        let free = state.free.iter().enumerate().filter(|(_, free)| *free == "true");
+        lines.extend(free.map(|(joint, _)| format!("next.free[{joint}] = true;")));
+        lines.extend(state.found.iter().map(|name| format!("next.{name} = {name};")));
+        lines.push(format!("block_{}(p, &next, answers);", state.next));
         lines
     }
 }

@@ -1,6 +1,6 @@
 //! Which values straight-line code is asked for: only those are printed.
 
-use crate::solver::{Chart, Instruction, Operand, Program, Rule, Step};
+use crate::solver::{Block, Chart, Instruction, Operand, Program, Rule, Step};
 
 /// How often each value is read by what is printed.
 #[derive(Clone, Debug, Default)]
@@ -34,12 +34,40 @@ impl Demand {
             wanted.iter().for_each(|&unknown| demand.read(Operand::Unknown(unknown)));
             chart.steps.iter().rev().for_each(|step| demand.step(program, step));
         }
-        for guard in &chart.guards {
-            demand.read(guard.value);
-            demand.read(guard.scale);
-        }
-        demand.code(&chart.guard_code);
+        demand.guards(chart);
         demand
+    }
+
+    /// What the chart's guards and its pivot ask for.
+    pub fn of_claim(chart: &Chart) -> Self {
+        let mut demand = Demand::default();
+        chart.pivot.iter().for_each(|pivot| demand.read(pivot.value));
+        demand.guards(chart);
+        demand
+    }
+
+    /// What the block's charts ask of its code, and what that asks for in turn. Registers that a chart reads count twice: they
+    /// become values of their own.
+    pub fn of_block(program: &Program, block: &Block, wanted: &[usize]) -> Self {
+        let mut demand = Demand::default();
+        for chart in &block.charts {
+            let parts = [Demand::of_chart(program, chart, wanted), Demand::of_claim(chart)];
+            let reads = |register: usize| parts.iter().any(|part| part.register(register) > 0);
+            for register in (0..block.code.len()).filter(|&register| reads(register)) {
+                demand.read(Operand::Register(register));
+                demand.read(Operand::Register(register));
+            }
+        }
+        demand.code(&block.code);
+        demand
+    }
+
+    fn guards(&mut self, chart: &Chart) {
+        for guard in &chart.guards {
+            self.read(guard.value);
+            self.read(guard.scale);
+        }
+        self.code(&chart.guard_code);
     }
 
     /// What `results` ask of `code`.

@@ -7,8 +7,8 @@ use super::demand::{Demand, ParameterDemand};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use crate::solver::{
-    ACCEPT, BLUR, Chart, DAMPINGS, JointValue, MERGE, NEAR, Operand, PIVOT, POLISH_STEPS, Program, ROUNDING, Step,
-    TINY, Unit,
+    ACCEPT, ADRIFT, ASIDE, BLUR, CONSISTENT, Chart, Condition, DAMPINGS, JointValue, MERGE, NEAR, Operand, PIVOT,
+    POLISH_STEPS, POLISHED, Program, ROUNDING, STAGES, Step, TINY, Unit,
 };
 
 /// Everything that the skeletons name.
@@ -28,7 +28,10 @@ pub(super) struct Outline {
     tolerances: Tolerances,
     dampings: Vec<String>,
     parameters: Parameters,
-    charts: Vec<ChartText>,
+    conditions: Vec<ConditionText>,
+    /// Names of the unknowns that go from block to block.
+    passed: Vec<String>,
+    blocks: Vec<BlockText>,
     checks: Code,
     sizes: Vec<String>,
     jacobian: Code,
@@ -56,6 +59,11 @@ struct Tolerances {
     tiny: String,
     pivot: String,
     polish_steps: usize,
+    polished: String,
+    adrift: String,
+    aside: String,
+    stages: usize,
+    consistent: String,
 }
 
 #[derive(Serialize)]
@@ -67,6 +75,32 @@ struct Parameters {
     reads_target: bool,
 }
 
+/// What inputs must fulfil.
+#[derive(Serialize)]
+struct ConditionText {
+    function: &'static str,
+    first: usize,
+    end: usize,
+}
+
+#[derive(Serialize)]
+struct BlockText {
+    label: String,
+    lines: Vec<String>,
+    /// Registers that charts read.
+    shared: Vec<String>,
+    charts: Vec<ChartText>,
+    turns: Vec<Turn>,
+}
+
+/// Charts of which one runs: one alone, or a pivot group.
+#[derive(Serialize)]
+struct Turn {
+    /// Indices, from 0.
+    charts: Vec<usize>,
+    grouped: bool,
+}
+
 #[derive(Serialize)]
 struct ChartText {
     label: String,
@@ -74,10 +108,19 @@ struct ChartText {
     guards: Vec<String>,
     free: Vec<String>,
     open: bool,
-    lines: Vec<String>,
-    /// An open chart's.
+    body: Function,
+    /// Its claim among its pivot group, or the condition of an open chart.
+    claim: Option<Function>,
     condition: String,
-    reads_p: bool,
+    pivot: String,
+}
+
+/// Lines of a function, its parameters, and the arguments of a call.
+#[derive(Serialize)]
+struct Function {
+    lines: Vec<String>,
+    parameters: String,
+    arguments: String,
 }
 
 /// Lines of code, values, and what they read.
@@ -101,7 +144,11 @@ struct PreferenceText {
 #[derive(Serialize)]
 struct Needs {
     answers: bool,
-    polish: bool,
+    families: bool,
+    open: bool,
+    groups: bool,
+    rotation: bool,
+    unit: bool,
     near: bool,
     away: bool,
     pivot: bool,
@@ -137,7 +184,9 @@ impl Outline {
             tolerances: Tolerances::new(),
             dampings: DAMPINGS.iter().map(|&damping| number(damping)).collect(),
             parameters: Parameters::new(&scene, &needs),
-            charts: program.charts().map(|chart| ChartText::new(&scene, chart)).collect(),
+            conditions: program.conditions.iter().map(ConditionText::new).collect(),
+            passed: scene.passed().into_iter().map(|unknown| scene.names.unknowns[unknown].clone()).collect(),
+            blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
             checks,
             sizes,
             jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
@@ -176,6 +225,11 @@ impl Tolerances {
             tiny: number(TINY),
             pivot: number(PIVOT),
             polish_steps: POLISH_STEPS,
+            polished: number(POLISHED),
+            adrift: number(ADRIFT),
+            aside: number(ASIDE),
+            stages: STAGES,
+            consistent: number(CONSISTENT),
         }
     }
 }
@@ -183,17 +237,18 @@ impl Tolerances {
 impl Parameters {
     fn new(scene: &Scene<'_>, needs: &Needs) -> Self {
         let program = scene.program;
-        let wanted = scene.wanted();
-        let mut readers: Vec<Demand> = program
-            .charts()
-            .map(|chart| Demand::of_chart(program, chart, if chart.open { &[] } else { &wanted }))
-            .collect();
+        let last = program.blocks.len() - 1;
+        let mut readers: Vec<Demand> = Vec::new();
+        for (index, block) in program.blocks.iter().enumerate() {
+            let wanted = if index < last { scene.wanted_of(index) } else { scene.wanted() };
+            readers.extend(scene.block_demands(block, &wanted));
+        }
         let checks = &program.checks;
         readers.push(Demand::of_code(&checks.code, &checks.residuals));
         if needs.answers {
             readers.push(Demand::of_code(&checks.code, &checks.scales));
         }
-        if needs.polish {
+        if needs.answers {
             readers.push(Demand::of_code(&checks.code, checks.jacobian.iter().flatten()));
         }
         let demand = ParameterDemand::new(program, &readers.iter().collect::<Vec<_>>());
@@ -208,22 +263,82 @@ impl Parameters {
     }
 }
 
+impl ConditionText {
+    fn new(condition: &Condition) -> Self {
+        let function = match condition {
+            Condition::Rotation(_) => "make_rotation",
+            Condition::Unit(_) => "make_unit",
+        };
+        let (first, count) = condition.inputs();
+        ConditionText { function, first, end: first + count }
+    }
+}
+
+impl BlockText {
+    fn new(scene: &Scene<'_>, index: usize) -> Self {
+        let block = &scene.program.blocks[index];
+        let (lines, shared) = scene.block_code(index);
+        let group = |chart: usize| block.charts[chart].pivot.map(|pivot| pivot.group);
+        let all = 0..block.charts.len();
+        let turn = |first: usize| {
+            let member = |chart: &usize| *chart == first || (group(first).is_some() && group(*chart) == group(first));
+            Turn { charts: all.clone().filter(member).collect(), grouped: group(first).is_some() }
+        };
+        BlockText {
+            label: remark(&block.label),
+            lines,
+            shared,
+            charts: block.charts.iter().map(|chart| ChartText::new(scene, index, chart)).collect(),
+            turns: all.clone().filter(|&chart| block.opens_group(chart)).map(turn).collect(),
+        }
+    }
+}
+
 impl ChartText {
-    fn new(scene: &Scene<'_>, chart: &Chart) -> Self {
-        let (lines, condition) = if chart.open { scene.open_chart(chart) } else { (scene.chart(chart), String::new()) };
-        let p = scene.language.field("");
+    fn new(scene: &Scene<'_>, block: usize, chart: &Chart) -> Self {
+        let lines = if chart.open { Vec::new() } else { scene.chart(block, chart) };
+        let (claim, condition, pivot) = scene.claim(block, chart);
+        let claims = chart.open || chart.pivot.is_some();
         let free = chart.free.iter().map(|&joint| remark(&scene.program.joints[joint].name));
+        let read: Vec<&String> = claim.iter().chain([&condition, &pivot]).collect();
+        let has = |what: String, name: &'static str| reads(&read, &what).then_some(name);
+        let language = scene.language;
+        let names =
+            [has(language.field(""), "p"), has(language.known(""), "known"), has(language.shared(""), "shared")];
+        let claim_names: Vec<&str> = names.into_iter().flatten().collect();
+        let shared = reads(&lines.iter().collect::<Vec<_>>(), &language.shared("")).then_some("shared");
+        let known = (block > 0).then_some("known");
+        let own: Vec<&str> = [Some("p"), known, shared].into_iter().flatten().collect();
         ChartText {
             label: remark(&chart.label),
-            quoted: scene.language.quote(&chart.label),
+            quoted: language.quote(&chart.label),
             guards: chart.guards.iter().map(|guard| guard_text(&guard.text, guard.near)).collect(),
             free: free.collect(),
             open: chart.open,
-            reads_p: !chart.open || lines.iter().chain([&condition]).any(|line| line.contains(&p)),
-            lines,
+            body: Function::new(language, block, lines, &own),
+            claim: claims.then(|| Function::new(language, block, claim, &claim_names)),
             condition,
+            pivot: if chart.pivot.is_some() { language.call("abs", &pivot) } else { pivot },
         }
     }
+}
+
+impl Function {
+    fn new(language: &dyn Language, block: usize, lines: Vec<String>, names: &[&str]) -> Self {
+        let kind = |name: &str| match name {
+            "p" => "Parameters".to_owned(),
+            "known" => "Known".to_owned(),
+            _ => format!("Shared{}", block + 1),
+        };
+        let parameters: Vec<String> = names.iter().map(|name| language.argument(name, &kind(name))).collect();
+        Function { lines, parameters: parameters.join(", "), arguments: names.join(", ") }
+    }
+}
+
+/// Whether a text reads fields of something: `what` stands there, but not as the end of a longer word.
+fn reads(lines: &[&String], what: &str) -> bool {
+    let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    lines.iter().any(|line| line.match_indices(what).any(|(at, _)| !line[..at].ends_with(word)))
 }
 
 impl Code {
@@ -248,11 +363,14 @@ impl PreferenceText {
 impl Needs {
     fn new(program: &Program) -> Self {
         let guards = || program.charts().flat_map(|chart| &chart.guards);
-        let closed = || program.charts().filter(|chart| !chart.open);
         let angles = program.joints.iter().filter(|joint| is_angle(joint.value)).count();
         Needs {
-            answers: closed().next().is_some(),
-            polish: closed().any(|chart| chart.free.is_empty()),
+            answers: program.charts().any(|chart| !chart.open),
+            families: program.charts().any(|chart| !chart.free.is_empty()),
+            open: program.charts().any(|chart| chart.open),
+            groups: program.charts().any(|chart| chart.pivot.is_some()),
+            rotation: program.conditions.iter().any(|condition| matches!(condition, Condition::Rotation(_))),
+            unit: program.conditions.iter().any(|condition| matches!(condition, Condition::Unit(_))),
             near: guards().any(|guard| guard.near),
             away: guards().any(|guard| !guard.near),
             pivot: root_steps(program).any(|(_, polynomials)| polynomials > 1),

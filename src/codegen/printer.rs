@@ -24,6 +24,12 @@ pub(super) trait Language {
     fn is_reserved(&self, word: &str) -> bool;
     /// A field of the parameters `p`.
     fn field(&self, name: &str) -> String;
+    /// A field of what earlier blocks found.
+    fn known(&self, name: &str) -> String;
+    /// A field of what the charts of a block share.
+    fn shared(&self, name: &str) -> String;
+    /// An argument of a function: a pointer to something of this type.
+    fn argument(&self, name: &str, kind: &str) -> String;
     /// `function` (`abs`, `sqrt`, `cos` or `sin`) of an expression; the argument of all but `abs` is typed.
     fn call(&self, function: &str, argument: &str) -> String;
     /// The greater of two typed expressions.
@@ -37,10 +43,42 @@ pub(super) trait Language {
     fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String>;
     /// Lines that open the loop over `roots{depth}` with index `i{depth}`, and over its values if they have a name.
     fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String>;
+    /// Lines that open the loop with index `i{depth}` over rows of numbers, each row's being called by `names` where they have one.
+    fn open_samples(&self, depth: usize, names: &[Option<&str>], rows: &[Vec<String>]) -> Vec<String>;
     /// Leaving a chart unless a condition holds.
     fn leave_unless(&self, condition: &str) -> Vec<String>;
-    /// Handing over an answer: its branch and the chart's end of branches, joint values, free joints, and values of the unknowns that are no joint's.
-    fn finish(&self, branch: &str, q: &[String], free: &[String], extra: &[String]) -> Vec<String>;
+    /// Handing over an answer.
+    fn finish(&self, answer: &Finish<'_>) -> Vec<String>;
+    /// Going on to a block with what is known now.
+    fn go_on(&self, state: &State<'_>) -> Vec<String>;
+}
+
+/// What a chart of the last block hands over, as expressions.
+pub(super) struct Finish<'a> {
+    /// The branch number, and the end of those of the first block's chart.
+    pub branch: [String; 2],
+    /// The joints.
+    pub q: &'a [String],
+    /// By joint whether it is free; empty when it is `usual`.
+    pub free: &'a [String],
+    /// The free joints of a chart that adds none.
+    pub usual: String,
+    /// Values of the unknowns that are no joint's.
+    pub extra: &'a [String],
+}
+
+/// What a chart hands over to the next block, as expressions.
+pub(super) struct State<'a> {
+    /// Number of the block, from 1.
+    pub next: usize,
+    /// Whether an earlier block found something too.
+    pub goes_on: bool,
+    /// The branch number, and the end of those of the first block's chart.
+    pub branch: [String; 2],
+    /// By joint whether it is free; empty when the chart adds none.
+    pub free: &'a [String],
+    /// Names of the unknowns that were found, which are local variables.
+    pub found: &'a [String],
 }
 
 /// How tightly a text binds: what it needs parentheses for.
@@ -94,19 +132,29 @@ pub(super) struct Printer<'a> {
     local_parameters: bool,
     /// Number of register 0.
     first_register: usize,
+    /// By unknown: whether an earlier block found it.
+    known: Vec<bool>,
+    /// Registers below this number are shared by the block's charts.
+    shared: usize,
     /// Registers that are read once, until they are.
     waiting: HashMap<usize, Expression>,
 }
 
 impl<'a> Printer<'a> {
     pub fn new(language: &'a dyn Language, names: &'a Names, demand: Demand) -> Self {
-        let waiting = HashMap::new();
-        Printer { language, names, demand, local_parameters: false, first_register: 0, waiting }
+        let (known, shared, waiting) = (Vec::new(), 0, HashMap::new());
+        Printer { language, names, demand, local_parameters: false, first_register: 0, known, shared, waiting }
     }
 
     /// For code in which parameters are local variables and the registers count from `first_register`.
     pub fn among_parameters(mut self, first_register: usize) -> Self {
         (self.local_parameters, self.first_register) = (true, first_register);
+        self
+    }
+
+    /// For code of a block before which some unknowns are `known`; registers below `shared` are the block's own.
+    pub fn within_block(mut self, known: Vec<bool>, shared: usize) -> Self {
+        (self.known, self.shared) = (known, shared);
         self
     }
 
@@ -152,6 +200,12 @@ impl<'a> Printer<'a> {
         self.expression(operand).text
     }
 
+    /// An unknown: a local variable, or a field of what earlier blocks found.
+    pub fn unknown(&self, index: usize) -> String {
+        let name = &self.names.unknowns[index];
+        if self.known.get(index).copied().unwrap_or(false) { self.language.known(name) } else { name.clone() }
+    }
+
     fn register(&self, index: usize) -> String {
         format!("r{}", self.first_register + index)
     }
@@ -164,7 +218,10 @@ impl<'a> Printer<'a> {
             Operand::Constant(value) => Expression::atom(number(value)),
             Operand::Parameter(index) if self.local_parameters => Expression::atom(&self.names.parameters[index]),
             Operand::Parameter(index) => Expression::atom(self.language.field(&self.names.parameters[index])),
-            Operand::Unknown(index) => Expression::atom(&self.names.unknowns[index]),
+            Operand::Unknown(index) => Expression::atom(self.unknown(index)),
+            Operand::Register(index) if index < self.shared => {
+                Expression::atom(self.language.shared(&self.register(index)))
+            }
             Operand::Register(index) => {
                 self.waiting.remove(&index).unwrap_or_else(|| Expression::atom(self.register(index)))
             }

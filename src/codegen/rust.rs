@@ -1,7 +1,7 @@
 //! Rust: a file on `core` alone.
 
 use super::outline::Outline;
-use super::printer::{INDENT, Language, spread};
+use super::printer::{Finish, INDENT, Language, State, spread};
 use crate::solver::Program;
 
 const SKELETON: &str = include_str!("skeleton/solver.rs.txt");
@@ -27,6 +27,18 @@ impl Language for Rust {
 
     fn field(&self, name: &str) -> String {
         format!("p.{name}")
+    }
+
+    fn known(&self, name: &str) -> String {
+        format!("known.{name}")
+    }
+
+    fn shared(&self, name: &str) -> String {
+        format!("shared.{name}")
+    }
+
+    fn argument(&self, name: &str, kind: &str) -> String {
+        format!("{name}: &{kind}")
     }
 
     fn call(&self, function: &str, argument: &str) -> String {
@@ -81,11 +93,34 @@ impl Language for Rust {
         vec![format!("if {negation} {{"), format!("{INDENT}return;"), "}".to_owned()]
     }
 
-    fn finish(&self, branch: &str, q: &[String], free: &[String], extra: &[String]) -> Vec<String> {
-        let mut lines = spread("let q = [", q, "];");
-        let free = if free.is_empty() { "NONE_FREE".to_owned() } else { format!("[{}]", free.join(", ")) };
-        let extra = if extra.is_empty() { String::new() } else { format!(", &[{}]", extra.join(", ")) };
-        lines.push(format!("answers.finish(p, {branch}, q, {free}{extra});"));
+    fn open_samples(&self, _: usize, names: &[Option<&str>], rows: &[Vec<String>]) -> Vec<String> {
+        let names: Vec<&str> = names.iter().map(|name| name.unwrap_or("_")).collect();
+        let rows: Vec<String> = rows.iter().map(|row| format!("[{}]", row.join(", "))).collect();
+        spread(&format!("for [{}] in [", names.join(", ")), &rows, "] {")
+    }
+
+    fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
+        let mut lines = spread("let q = [", answer.q, "];");
+        let free = list(answer.free).unwrap_or_else(|| answer.usual.clone());
+        let extra = list(answer.extra).map(|list| format!(", &{list}")).unwrap_or_default();
+        lines.push(format!("answers.finish(p, {}, q, {free}{extra});", answer.branch.join(", ")));
         lines
     }
+
+    fn go_on(&self, state: &State<'_>) -> Vec<String> {
+        let [branch, last] = &state.branch;
+        let mut fields = vec![format!("branch: {branch}"), format!("last: {last}")];
+        fields.extend(list(state.free).map(|list| format!("free: {list}")));
+        fields.extend(state.found.iter().cloned());
+        fields.push(if state.goes_on { "..*known".to_owned() } else { "..NOTHING_KNOWN".to_owned() });
+        vec![
+            format!("let next = Known {{ {} }};", fields.join(", ")),
+            format!("block_{}(p, &next, answers);", state.next),
+        ]
+    }
+}
+
+/// The items as an array, if there are any.
+fn list(items: &[String]) -> Option<String> {
+    (!items.is_empty()).then(|| format!("[{}]", items.join(", ")))
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::ends::{Ends, TASK_NAME};
 use super::{System, formulate};
 use crate::document::{Document, TEXT_LIMIT, read_text};
 use crate::kinematics::urdf::URDF_LIMIT;
@@ -10,15 +11,6 @@ use crate::{Error, ErrorKind, Result};
 
 /// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot.
 pub const INPUT_NAMES: [&str; 3] = ["0_chain.toml", "0_system.toml", "0_robot.urdf"];
-
-/// The links of a robot between which a chain is wanted.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Ends {
-    /// Where it starts; by default the root.
-    pub base: Option<String>,
-    /// Where it ends; by default the only leaf.
-    pub tip: Option<String>,
-}
 
 /// What a file describes.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,10 +34,12 @@ pub struct InputFile {
     pub text: String,
     /// What it describes.
     pub description: Description,
+    /// What the folder's [`TASK_NAME`] says; nothing without one.
+    pub ends: Ends,
 }
 
 impl InputFile {
-    /// Reads a mechanism's folder or an input file. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot; one with a
+    /// Reads a mechanism's folder or an input file, in a folder with its [`TASK_NAME`]. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot; one with a
     /// `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
     ///
     /// # Errors
@@ -64,25 +58,39 @@ impl InputFile {
             Description::System(_) => INPUT_NAMES[1],
             Description::Tree(_) => INPUT_NAMES[2],
         };
-        Ok(InputFile { path: file, name, text, description })
+        let ends = read_ends(&file)?;
+        Ok(InputFile { path: file, name, text, description, ends })
     }
 
-    /// The chain of this input, between `ends` when it is a robot; none when it is a system.
+    /// The chain of this input for what `ends` asks, and for the rest the folder's task file; none when it is a system.
     ///
     /// # Errors
-    /// As [`Tree::chain`]; [`ErrorKind::BadValue`] for ends of an input that has no links. All name the file.
+    /// As [`Tree::chain`] and [`Chain::with_task`]; [`ErrorKind::BadValue`] for ends of an input that has no links, and for a task
+    /// of a system. All name the file.
     pub fn chain(&self, ends: &Ends) -> Result<Option<Chain>> {
+        let ends = ends.or(&self.ends);
+        let bad = |text| Err(Error::new(ErrorKind::BadValue, text));
         let chain = match &self.description {
             Description::Tree(tree) => tree.chain(ends.base.as_deref(), ends.tip.as_deref()).map(Some),
-            _ if *ends != Ends::default() => {
-                let text = "base and tip are chosen, but only a URDF has links to choose from; leave them out";
-                Err(Error::new(ErrorKind::BadValue, text))
+            _ if ends.base.is_some() || ends.tip.is_some() => {
+                bad("base and tip are chosen, but only a URDF has links to choose from; leave them out")
             }
             Description::Chain(chain) => Ok(Some((**chain).clone())),
+            Description::System(_) if ends != Ends::default() => bad(
+                "a task is chosen, but a system of equations states its own; leave task, direction and given joints out",
+            ),
             Description::System(_) => Ok(None),
         };
-        chain.map_err(|error| error.in_file(&self.path))
+        let asked = chain.and_then(|chain| chain.map(|chain| ends.ask(chain)).transpose());
+        asked.map_err(|error| error.in_file(&self.path))
     }
+}
+
+/// What the task file beside `file` asks, when `file` is the input of a mechanism's folder.
+fn read_ends(file: &Path) -> Result<Ends> {
+    let is_named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
+    let beside = file.with_file_name(TASK_NAME);
+    if is_named && beside.is_file() { Ends::read(&beside) } else { Ok(Ends::default()) }
 }
 
 fn from_toml(text: &str) -> Result<Description> {
@@ -111,10 +119,13 @@ pub struct Source {
     pub chain: Option<Chain>,
     /// The equations; none for a chain whose task is only solved joint by joint.
     pub system: Option<System>,
+    /// What was asked of it, when not all by default.
+    pub ends: Ends,
 }
 
 impl Source {
-    /// Reads a mechanism's folder or an input file, as [`InputFile::read`] does; of a robot, the chain from its root to its only leaf.
+    /// Reads a mechanism's folder or an input file, as [`InputFile::read`] does, for what its task file asks; of a robot without
+    /// one, the chain from its root to its only leaf.
     ///
     /// # Errors
     /// As [`InputFile::read`], [`InputFile::chain`] and [`mod@formulate`], with file and line.
@@ -122,20 +133,26 @@ impl Source {
         Source::read_between(path, &Ends::default())
     }
 
-    /// The same, of a robot the chain between `ends`.
+    /// The same, for what `ends` asks.
     ///
     /// # Errors
     /// As [`InputFile::read`], [`InputFile::chain`] and [`mod@formulate`], with file and line.
     pub fn read_between(path: &Path, ends: &Ends) -> Result<Source> {
         let input = InputFile::read(path)?;
         let chain = input.chain(ends)?;
-        let InputFile { path, name, text, description } = input;
+        let ends = ends.or(&input.ends);
+        let InputFile { path, name, text, description, .. } = input;
         let system = match (&chain, description) {
             (Some(chain), _) => formulated(chain).map_err(|error| error.in_file(&path))?,
             (None, Description::System(system)) => Some(system),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
-        Ok(Source { path, name, text, chain, system })
+        Ok(Source { path, name, text, chain, system, ends })
+    }
+
+    /// The file that keeps in a derivation's folder what was asked of the input: its name, [`TASK_NAME`], and its text.
+    pub fn task_file(&self) -> Option<(String, Vec<u8>)> {
+        (self.ends != Ends::default()).then(|| (TASK_NAME.to_owned(), self.ends.to_toml().into_bytes()))
     }
 
     /// The chain, when it is to be solved joint by joint: it asks for no order of unknowns and no choice of root, which belong to

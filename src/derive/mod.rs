@@ -8,6 +8,7 @@ pub mod closure;
 pub mod compile;
 mod constants;
 pub mod derivation;
+pub mod ends;
 pub mod formulate;
 mod generic;
 mod grow;
@@ -29,9 +30,10 @@ pub mod triangular;
 
 pub use crate::kinematics::{Choice, LengthUnit, Root};
 pub use derivation::Derivation;
+pub use ends::Ends;
 pub use formulate::formulate;
 pub use grow::{derive_tree, describe};
-pub use input::{Description, Ends, InputFile, Source};
+pub use input::{Description, InputFile, Source};
 pub use proved::Proved;
 pub use prover::Orders;
 pub use system::{

@@ -368,7 +368,7 @@ impl From<Chain> for ChainParts {
 
 impl Chain {
     /// The task in words: `planar_pose in xz`, `ray of [1, 0, 0]`, `position, ElbowYaw given`.
-    fn asked(&self) -> String {
+    pub fn asked(&self) -> String {
         let plane = self.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
         let aimed = if self.task().aims() { format!(" of {}", show(self.direction())) } else { String::new() };
         let given = &self.parts.given;

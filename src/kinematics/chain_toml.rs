@@ -185,7 +185,7 @@ fn read_rpy(table: Table<'_>) -> Result<ExactRotation> {
     let degrees: ExactVector = node.exact_vector()?;
     let turns: Result<Vec<Turn>> = degrees.iter().map(Turn::from_degrees).collect();
     match turns.as_deref() {
-        Ok([roll, pitch, yaw]) if [roll, pitch, yaw].iter().all(|turn| turn.is_exact()) => {
+        Ok([roll, pitch, yaw]) if [roll, pitch, yaw].iter().all(|turn| turn.is_quarter()) => {
             Ok(ExactRotation::from_rpy([*roll, *pitch, *yaw]))
         }
         _ => {
@@ -223,7 +223,7 @@ enum TaskKind {
 }
 
 /// The task, and the direction in the tip frame that it aims.
-pub(super) fn read_task(table: Table<'_>) -> Result<(Task, ExactVector)> {
+pub(crate) fn read_task(table: Table<'_>) -> Result<(Task, ExactVector)> {
     table.deny_unknown(&["kind", "plane", "direction"])?;
     let task = read_kind(table)?;
     match table.optional("direction") {
@@ -257,7 +257,7 @@ fn read_kind(table: Table<'_>) -> Result<Task> {
 }
 
 /// The names under `given`; none without it.
-pub(super) fn read_given(root: Table<'_>) -> Result<Vec<String>> {
+pub(crate) fn read_given(root: Table<'_>) -> Result<Vec<String>> {
     root.optional("given").map_or_else(|| Ok(Vec::new()), read_names)
 }
 

@@ -2,8 +2,10 @@
 //!
 //! Standard: Denavit and Hartenberg 1955, as in Paul 1981. Modified: Craig 1986.
 
-use super::validate::{Fault, check_count};
-use super::{Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Tip, Turn};
+use super::chain::along_z;
+use super::frame::{Frame, ROUNDING};
+use super::validate::{Fault, Part, check_count};
+use super::{Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Turn};
 use crate::Result;
 use crate::number::BigRational;
 
@@ -78,20 +80,21 @@ impl DhRow {
     }
 
     /// The joint whose axis is the z axis of `frame`.
-    fn joint(&self, frame: &Placement) -> Joint {
+    fn joint(&self, frame: &Frame) -> Joint {
         Joint {
             name: self.name.clone(),
             symbol: self.symbol.clone(),
             kind: self.kind,
-            axis: frame.rotation.turn(&Placement::shifted(2, BigRational::from_integer(1.into())).origin),
-            point: frame.origin.clone(),
+            axis: frame.direction(&along_z()),
+            point: frame.point(),
             limits: self.limits,
         }
     }
 }
 
 impl DhTable {
-    /// The same mechanism in screw axes.
+    /// The same mechanism in screw axes. Relations of neighbouring axes that fail by 1e-12 rad or m at most are made exact, as
+    /// [`Chain::snapped`] does.
     ///
     /// # Errors
     /// As [`Chain::new`].
@@ -101,7 +104,7 @@ impl DhTable {
 
     pub(super) fn assemble(&self) -> std::result::Result<Chain, Fault> {
         check_count(self.rows.len())?;
-        let (mut joints, mut frame) = (Vec::new(), self.base.clone());
+        let (mut joints, mut frame) = (Vec::new(), Frame::base().then(&self.base));
         for row in &self.rows {
             match self.convention {
                 DhConvention::Standard => {
@@ -116,18 +119,23 @@ impl DhTable {
             }
         }
         let tip = frame.then(&self.tool);
-        Chain::assemble(ChainParts {
+        let chain = Chain::assemble(ChainParts {
             name: self.name.clone(),
             description: self.description.clone(),
             source: self.source.clone(),
             length_unit: self.length_unit,
             joints,
-            tip: Tip { point: tip.origin, rotation: tip.rotation.matrix() },
+            tip: tip.tip(),
             task: self.task,
             direction: self.direction.clone(),
             given: self.given.clone(),
             order: None,
             choice: None,
+        })?;
+        chain.snapped(ROUNDING).map(|(chain, _)| chain).map_err(|error| Fault {
+            part: Part::Chain,
+            key: "joint",
+            error,
         })
     }
 }

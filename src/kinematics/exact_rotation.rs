@@ -1,16 +1,17 @@
-//! Exactly orthogonal rational rotations: integer quaternions up to scale (Euler-Rodrigues parameters), so that nothing drifts
-//! however many are composed. Main types: [`ExactRotation`], [`Turn`].
+//! Exact rotations: quaternions up to scale (Euler-Rodrigues parameters) over Q(sqrt 2, sqrt 3), so that nothing drifts however many
+//! are composed, and 45 and 45 degrees are a quarter turn. Main types: [`ExactRotation`], [`Turn`].
 
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
+use super::surd::{Surd, SurdVector};
 use super::{ExactMatrix, ExactVector};
 use crate::number::{BigInt, BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
 /// pi to 60 decimals.
 const PI: &str = "3.141592653589793238462643383279502884197169399375105820974944";
-/// The fewest decimals that a rounded multiple of pi/2 must have to be taken for the exact one.
+/// The fewest decimals that a rounded multiple of pi/4 or pi/6 must have to be taken for the exact one.
 const DECIMALS: usize = 4;
 /// The most decimals that are looked at.
 const MOST_DECIMALS: usize = 40;
@@ -21,64 +22,96 @@ const BITS: u64 = 60;
 /// 2^60, the scale of the cosine and sine of half a rest.
 const SCALE: f64 = 1_152_921_504_606_846_976.0;
 
-/// The angle of an elementary rotation: quarter turns, which are exact, and a rest.
+/// The angle of an elementary rotation: whole steps of 15 degrees, which are exact, and a rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Turn {
-    /// 0 to 3.
-    quarters: u8,
+    /// 0 to 23: a multiple of 2 or 3.
+    steps: u8,
     /// What is left, in \[-pi/4, pi/4\] \[rad\].
     rest: f64,
 }
 
 impl Turn {
-    /// The angle `degrees`; multiples of 90 are exact.
+    /// The angle `degrees`; multiples of 30 and of 45 are exact.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] beyond a million radians.
     pub fn from_degrees(degrees: &BigRational) -> Result<Self> {
-        let turns = (degrees / integer(90)).round();
-        let rest = (degrees - &turns * integer(90)) * pi() / integer(180);
-        Turn::new(&turns, &rest)
+        let turns = (degrees / integer(15)).round();
+        if *degrees == &turns * integer(15) && is_step(&turns) {
+            return Turn::new(&turns, &BigRational::zero());
+        }
+        let quarters = (degrees / integer(90)).round();
+        let rest = (degrees - &quarters * integer(90)) * pi() / integer(180);
+        Turn::new(&(quarters * integer(6)), &rest)
     }
 
-    /// The angle `radians`. It is taken for the multiple k pi/2 when it is the rounded or truncated decimal of k pi/2 with at
-    /// least four decimals (1.5708, 3.14159, -1.570796), or within 1e-15 of it.
+    /// The angle `radians`. It is taken for a multiple of pi/4 or pi/6 when it is its rounded or truncated decimal with at least
+    /// four decimals (1.5708, 3.14159, -0.785398, 0.5236), or within 1e-15 of it.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] beyond a million radians.
     pub fn from_radians(radians: &BigRational) -> Result<Self> {
+        let step = pi() / integer(12);
+        let turns = (radians / &step).round();
+        if is_step(&turns) && is_decimal_of(radians, &(&step * &turns)) {
+            return Turn::new(&turns, &BigRational::zero());
+        }
         let quarter = pi() / integer(2);
-        let turns = (radians / &quarter).round();
-        let whole = &quarter * &turns;
-        let rest = if is_decimal_of(radians, &whole) { BigRational::zero() } else { radians - whole };
-        Turn::new(&turns, &rest)
+        let quarters = (radians / &quarter).round();
+        let rest = radians - quarter * &quarters;
+        Turn::new(&(quarters * integer(6)), &rest)
     }
 
-    fn new(turns: &BigRational, rest: &BigRational) -> Result<Self> {
-        if turns.abs() > integer(GREATEST) {
+    fn new(steps: &BigRational, rest: &BigRational) -> Result<Self> {
+        if steps.abs() > integer(6 * GREATEST) {
             return Err(Error::new(ErrorKind::BadValue, "the angle is too large; give at most a million radians"));
         }
-        let quarters = turns.to_integer().mod_floor(&BigInt::from(4)).to_u8().unwrap_or(0);
-        Ok(Turn { quarters, rest: rest.to_f64().unwrap_or(0.0) })
+        let steps = steps.to_integer().mod_floor(&BigInt::from(24)).to_u8().unwrap_or(0);
+        Ok(Turn { steps, rest: rest.to_f64().unwrap_or(0.0) })
     }
 
-    /// Whether it is a whole number of quarter turns: its rotation is the true one. Any other rotation is exactly orthogonal too,
+    /// Whether it is a multiple of 45 or of 30 degrees: its rotation is the true one. Any other rotation is exactly orthogonal too,
     /// and within 1e-15 of the true one.
     pub fn is_exact(self) -> bool {
         self.rest == 0.0
     }
 
-    /// The cosine and sine of half the angle, as integers up to scale.
-    fn half(self) -> (BigInt, BigInt) {
-        let [c, s] =
-            [(self.rest / 2.0).cos(), (self.rest / 2.0).sin()].map(|x| BigInt::from((x * SCALE).round() as i64));
-        match self.quarters {
+    /// Whether it is a whole number of quarter turns: its rotation has whole entries.
+    pub fn is_quarter(self) -> bool {
+        self.is_exact() && self.steps.is_multiple_of(6)
+    }
+
+    /// The angle in degrees, in \[0, 360), when it is exact.
+    pub fn degrees(self) -> Option<u16> {
+        self.is_exact().then(|| 15 * u16::from(self.steps))
+    }
+
+    /// The cosine and sine of half the angle, up to scale: tan 15 = 2 - sqrt 3, tan 22.5 = sqrt 2 - 1, tan 30 = 1 / sqrt 3.
+    fn half(self) -> (Surd, Surd) {
+        let (c, s) = match self.steps % 6 {
+            0 if self.rest == 0.0 => (Surd::of(1, 0, 0), Surd::default()),
+            2 => (Surd::of(1, 0, 0), Surd::of(2, 0, -1)),
+            3 => (Surd::of(1, 0, 0), Surd::of(-1, 1, 0)),
+            4 => (Surd::of(0, 0, 1), Surd::of(1, 0, 0)),
+            _ => {
+                let scaled = |x: f64| Surd::from(&BigRational::from_integer(((x * SCALE).round() as i64).into()));
+                (scaled((self.rest / 2.0).cos()), scaled((self.rest / 2.0).sin()))
+            }
+        };
+        match self.steps / 6 {
             0 => (c, s),
-            1 => (&c - &s, c + s),
-            2 => (-s, c),
-            _ => (&c + &s, s - c),
+            1 => (c.sub(&s), c.add(&s)),
+            2 => (s.neg(), c),
+            _ => (c.add(&s), s.sub(&c)),
         }
     }
+}
+
+/// Whether a number of steps of 15 degrees is a multiple of 30 or of 45 degrees.
+fn is_step(steps: &BigRational) -> bool {
+    let steps = steps.to_integer();
+    [2, 3].iter().any(|n| (&steps % BigInt::from(*n)).is_zero())
 }
 
 /// Whether `given` is within 1e-15 of `exact`, or is its rounded or truncated decimal with enough decimals.
@@ -112,36 +145,38 @@ pub fn over_common<const N: usize>(numbers: [&BigRational; N]) -> ([BigInt; N], 
     (numbers.map(|number| number.numer() * (&common / number.denom())), common)
 }
 
-/// A rotation whose matrix has rational entries and is exactly orthogonal.
+/// A rotation, exactly: whole quarter turns, multiples of 45 and 30 degrees and rational quaternions, and all their products.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExactRotation {
-    /// w, x, y, z: coprime integers; the unit quaternion is this over its length.
-    quaternion: [BigInt; 4],
+    /// w, x, y, z up to scale: their rational parts are coprime integers, and the first that is not zero is a positive integer.
+    quaternion: [Surd; 4],
 }
 
 impl ExactRotation {
     /// The rotation that moves nothing.
     pub fn identity() -> Self {
-        ExactRotation { quaternion: [1, 0, 0, 0].map(BigInt::from) }
+        ExactRotation { quaternion: [1, 0, 0, 0].map(|n| Surd::of(n, 0, 0)) }
     }
 
     /// The rotation by `turn` about a coordinate axis: 0, 1, 2 (modulo 3) for x, y, z.
     pub fn about(axis: usize, turn: Turn) -> Self {
         let (cosine, sine) = turn.half();
-        let mut quaternion = [cosine, BigInt::zero(), BigInt::zero(), BigInt::zero()];
+        let mut quaternion = [cosine, Surd::default(), Surd::default(), Surd::default()];
         quaternion[1 + axis % 3] = sine;
         ExactRotation { quaternion }.reduced()
     }
 
     /// Rz(yaw) Ry(pitch) Rx(roll), the rotation of a URDF `rpy`. Two or more general angles are rounded together, to 60 bits.
-    pub fn from_rpy([roll, pitch, yaw]: [Turn; 3]) -> Self {
+    pub fn from_rpy(turns: [Turn; 3]) -> Self {
+        let [roll, pitch, yaw] = turns;
         let about = ExactRotation::about;
-        about(2, yaw).then(&about(1, pitch)).then(&about(0, roll)).rounded()
+        let product = about(2, yaw).then(&about(1, pitch)).then(&about(0, roll));
+        if turns.iter().all(|turn| turn.is_exact()) { product } else { product.rounded() }
     }
 
     /// The rotation of the quaternion `xyzw`, of any length, to 60 bits; `None` for zero.
     pub fn from_quaternion([x, y, z, w]: &[BigRational; 4]) -> Option<Self> {
-        let (quaternion, _) = over_common([w, x, y, z]);
+        let quaternion = [w, x, y, z].map(Surd::from);
         quaternion.iter().any(|part| !part.is_zero()).then(|| ExactRotation { quaternion }.reduced().rounded())
     }
 
@@ -149,11 +184,12 @@ impl ExactRotation {
     #[must_use]
     pub fn then(&self, inner: &ExactRotation) -> Self {
         let ([a, b, c, d], [e, f, g, h]) = (&self.quaternion, &inner.quaternion);
+        let sum = |[p, q, r, s]: [Surd; 4]| p.add(&q).add(&r).add(&s);
         let quaternion = [
-            a * e - b * f - c * g - d * h,
-            a * f + b * e + c * h - d * g,
-            a * g - b * h + c * e + d * f,
-            a * h + b * g - c * f + d * e,
+            sum([a.mul(e), b.mul(f).neg(), c.mul(g).neg(), d.mul(h).neg()]),
+            sum([a.mul(f), b.mul(e), c.mul(h), d.mul(g).neg()]),
+            sum([a.mul(g), b.mul(h).neg(), c.mul(e), d.mul(f)]),
+            sum([a.mul(h), b.mul(g), c.mul(f).neg(), d.mul(e)]),
         ];
         ExactRotation { quaternion }.reduced()
     }
@@ -162,52 +198,89 @@ impl ExactRotation {
     #[must_use]
     pub fn inverse(&self) -> Self {
         let [w, x, y, z] = &self.quaternion;
-        ExactRotation { quaternion: [w.clone(), -x, -y, -z] }
+        ExactRotation { quaternion: [w.clone(), x.neg(), y.neg(), z.neg()] }.reduced()
     }
 
-    /// `vector`, rotated.
+    /// `vector`, rotated by [`ExactRotation::matrix`].
     pub fn turn(&self, vector: &ExactVector) -> ExactVector {
+        self.matrix().map(|row| row.iter().zip(vector).map(|(entry, x)| entry * x).sum())
+    }
+
+    /// `vector`, rotated exactly.
+    pub(super) fn turned(&self, vector: &SurdVector) -> SurdVector {
         let (rows, scale) = self.scaled_matrix();
-        let (numerators, common) = over_common(vector.each_ref());
-        let divisor = scale * common;
         rows.map(|row| {
-            let entry: BigInt = row.iter().zip(&numerators).map(|(factor, x)| factor * x).sum();
-            BigRational::new(entry, divisor.clone())
+            let terms = row.iter().zip(vector).map(|(entry, x)| entry.mul(x));
+            terms.fold(Surd::default(), |sum, term| sum.add(&term)).over(&scale)
         })
     }
 
-    /// The matrix, by rows.
+    /// The matrix, by rows: exactly orthogonal, and rational. It is the rotation itself when that is rational, else within 1e-17.
     pub fn matrix(&self) -> ExactMatrix {
-        let (rows, scale) = self.scaled_matrix();
-        rows.map(|row| row.map(|entry| BigRational::new(entry, scale.clone())))
+        let (rows, scale) =
+            if self.is_rational() { self.scaled_matrix() } else { self.clone().rounded().scaled_matrix() };
+        rows.map(|row| row.map(|entry| &entry.parts[0] / &scale.parts[0]))
+    }
+
+    /// Whether its matrix is rational.
+    fn is_rational(&self) -> bool {
+        self.quaternion.iter().all(|part| part.rational().is_some())
     }
 
     /// The matrix times the second value, |quaternion|^2: the formula of Euler and Rodrigues.
-    fn scaled_matrix(&self) -> ([[BigInt; 3]; 3], BigInt) {
+    fn scaled_matrix(&self) -> ([[Surd; 3]; 3], Surd) {
         let [w, x, y, z] = &self.quaternion;
-        let [ww, xx, yy, zz] = [w * w, x * x, y * y, z * z];
-        let twice = |n: BigInt| n * 2;
+        let [ww, xx, yy, zz] = [w, x, y, z].map(|part| part.mul(part));
+        let twice = |a: Surd| a.add(&a);
+        let square = |signs: [bool; 3]| {
+            let parts = [&xx, &yy, &zz].into_iter().zip(signs);
+            parts.fold(ww.clone(), |sum, (part, plus)| if plus { sum.add(part) } else { sum.sub(part) })
+        };
+        let [xy, xz, yz, wx, wy, wz] = [x.mul(y), x.mul(z), y.mul(z), w.mul(x), w.mul(y), w.mul(z)];
         let rows = [
-            [&ww + &xx - &yy - &zz, twice(x * y - w * z), twice(x * z + w * y)],
-            [twice(x * y + w * z), &ww - &xx + &yy - &zz, twice(y * z - w * x)],
-            [twice(x * z - w * y), twice(y * z + w * x), &ww - &xx - &yy + &zz],
+            [square([true, false, false]), twice(xy.sub(&wz)), twice(xz.add(&wy))],
+            [twice(xy.add(&wz)), square([false, true, false]), twice(yz.sub(&wx))],
+            [twice(xz.sub(&wy)), twice(yz.add(&wx)), square([false, false, true])],
         ];
-        (rows, ww + xx + yy + zz)
+        (rows, square([true; 3]))
     }
 
-    fn reduced(mut self) -> Self {
-        let common = self.quaternion.iter().fold(BigInt::zero(), |common, part| common.gcd(part));
-        if !common.is_one() {
-            self.quaternion = self.quaternion.map(|part| part / &common);
-        }
-        self
+    /// The same rotation in the form that is fixed for [`ExactRotation::quaternion`].
+    fn reduced(self) -> Self {
+        let first = self.quaternion.iter().find(|part| !part.is_zero()).filter(|part| part.rational().is_none());
+        let factor = first.map_or(Surd::of(1, 0, 0), |first| first.adjugate().0);
+        let quaternion = self.quaternion.each_ref().map(|part| part.mul(&factor));
+        let parts = || quaternion.iter().flat_map(|part| &part.parts);
+        let common = parts().fold(BigInt::one(), |common, part| common.lcm(part.denom()));
+        let divisor =
+            parts().fold(BigInt::zero(), |divisor, part| divisor.gcd(&(part.numer() * (&common / part.denom()))));
+        let is_negative = parts().find(|part| !part.is_zero()).is_some_and(Signed::is_negative);
+        let scale = BigRational::new(if is_negative { -common } else { common }, divisor.max(BigInt::one()));
+        ExactRotation { quaternion: quaternion.map(|part| Surd { parts: part.parts.map(|part| part * &scale) }) }
     }
 
-    /// The same rotation to [`BITS`] bits.
+    /// Whether its quaternion is long: the product of several general rotations.
+    pub(super) fn is_long(&self) -> bool {
+        self.quaternion.iter().flat_map(|part| &part.parts).any(|part| part.numer().bits() > 2 * BITS)
+    }
+
+    /// The same rotation, to 120 bits when it is long.
+    pub(super) fn shortened(self) -> Self {
+        if self.is_long() { self.to_bits(2 * BITS) } else { self }
+    }
+
+    /// The nearest rotation with rational entries, to [`BITS`] bits.
     fn rounded(self) -> Self {
-        let bits = self.quaternion.iter().map(BigInt::bits).max().unwrap_or(0);
-        let Some(excess) = bits.checked_sub(BITS).filter(|excess| *excess > 0) else { return self };
+        self.to_bits(BITS)
+    }
+
+    fn to_bits(self, kept: u64) -> Self {
+        let values = self.quaternion.each_ref().map(Surd::value);
+        let (integers, _) = over_common(values.each_ref());
+        let bits = integers.iter().map(BigInt::bits).max().unwrap_or(0);
+        let Some(excess) = bits.checked_sub(kept).filter(|excess| *excess > 0) else { return self };
         let half = BigInt::one() << (excess - 1);
-        ExactRotation { quaternion: self.quaternion.map(|part| (part + &half) >> excess) }.reduced()
+        let round = |part: BigInt| Surd::from(&BigRational::from_integer((part + &half) >> excess));
+        ExactRotation { quaternion: integers.map(round) }.reduced()
     }
 }

@@ -21,6 +21,7 @@ pub use num_bigint::BigInt;
 pub use num_rational::BigRational;
 pub use primes::primes_below;
 pub use rational::Rationals;
+pub(crate) use rational::common_divisor;
 pub use reconstruct::reconstruct;
 pub use zp::Zp;
 

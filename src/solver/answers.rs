@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, BLUR, MAX_JOINTS, MERGE, NEAR, ROUNDING};
+use super::{ADRIFT, ASIDE, BLUR, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
 
 /// A solution with the largest share of an equation's value in its scale.
 struct Answer {
@@ -57,11 +57,7 @@ impl<'a> Answers<'a> {
         }
         for (joint, sign) in (0..self.program.joints.len()).flat_map(|joint| [(joint, -1.0), (joint, 1.0)]) {
             let mut start = *q;
-            let way = 2.0 * sign * fit.relative.sqrt();
-            start[joint] = match self.program.joints[joint].value {
-                JointValue::Angle { .. } => refine::wrap(q[joint] + way),
-                JointValue::Plain(_) => q[joint] + way * self.program.scale.max(q[joint].abs()),
-            };
+            start[joint] = self.displaced(q[joint], joint, 2.0 * sign * fit.relative.sqrt());
             let mut fit = refine::measure(self.program, &start, &mut self.frame);
             refine::polish(self.program, &mut start, &mut fit, &NONE_FREE, &mut self.frame);
             self.keep(path, &start, &fit);
@@ -82,7 +78,7 @@ impl<'a> Answers<'a> {
         if equal.iter().any(|&other| self.list[other].holds_against(&answer)) {
             return;
         }
-        if let Some(&other) = equal.first() {
+        if let (Some(&other), true) = (equal.first(), answer.is_isolated()) {
             answer.solution.branch = self.list[other].solution.branch;
         }
         equal.into_iter().rev().for_each(|other| drop(self.list.remove(other)));
@@ -113,9 +109,60 @@ impl<'a> Answers<'a> {
     /// Whether the answer with this index is the same as a new one: members of one family, or within [`MERGE`] with joints left
     /// out that are free in either, or one singular configuration.
     fn is_one(&mut self, other: usize, answer: &Answer) -> bool {
-        let (a, b) = (&self.list[other].solution, &answer.solution);
-        let family = !b.free.is_empty() && a.branch == b.branch && a.free == b.free;
-        family || self.close(a, b, MERGE) || self.blurred(other, answer)
+        let (a, b) = (&self.list[other], answer);
+        if self.close(&a.solution, &b.solution, MERGE) {
+            return true;
+        }
+        match (a.is_isolated(), b.is_isolated()) {
+            (true, true) => self.blurred(other, answer),
+            (false, false) => {
+                a.solution.free == b.solution.free
+                    && (a.solution.branch == b.solution.branch || self.leads_to(other, &b.solution))
+            }
+            (true, false) => b.is_exact() && self.lies_on_family(&a.solution.q.clone(), &b.solution.free),
+            (false, true) => a.is_exact() && self.lies_on_family(&b.solution.q, &a.solution.free.clone()),
+        }
+    }
+
+    /// Whether the equations hold within rounding too where the joints `free` are a little elsewhere and the others follow.
+    fn lies_on_family(&mut self, q: &[f64], free: &[usize]) -> bool {
+        let mut start = [0.0; MAX_JOINTS];
+        start[..q.len()].copy_from_slice(q);
+        free.iter().for_each(|&joint| start[joint] = self.displaced(q[joint], joint, ASIDE));
+        self.follow(&mut start, free).relative <= ROUNDING
+    }
+
+    /// Whether the family of the answer with this index has `member`, another with the same free joints: as these move there in
+    /// stages, the other joints follow.
+    fn leads_to(&mut self, other: usize, member: &Solution) -> bool {
+        let family = &self.list[other].solution;
+        let (mut q, count) = ([0.0; MAX_JOINTS], family.q.len());
+        q[..count].copy_from_slice(&family.q);
+        let mut accepted = false;
+        for stages in (1..=STAGES).rev() {
+            for &joint in &member.free {
+                q[joint] += difference(self.program, joint, &member.q, &q) / stages as f64;
+            }
+            accepted = self.follow(&mut q, &member.free).accepted;
+        }
+        accepted && (0..count).all(|joint| self.is_near(joint, &q, &member.q, BLUR))
+    }
+
+    /// Polishes joints of which `free` ones stay where they are.
+    fn follow(&mut self, q: &mut Joints, free: &[usize]) -> Fit {
+        let mut held = NONE_FREE;
+        free.iter().for_each(|&joint| held[joint] = true);
+        let mut fit = refine::measure(self.program, q, &mut self.frame);
+        refine::polish(self.program, q, &mut fit, &held, &mut self.frame);
+        fit
+    }
+
+    /// The value of a joint moved by `way`: an angle by that, a length by that share of its size.
+    fn displaced(&self, value: f64, joint: usize, way: f64) -> f64 {
+        match self.program.joints[joint].value {
+            JointValue::Angle { .. } => refine::wrap(value + way),
+            JointValue::Plain(_) => value + way * self.program.scale.max(value.abs()),
+        }
     }
 
     /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open
@@ -123,7 +170,7 @@ impl<'a> Answers<'a> {
     fn blurred(&mut self, other: usize, answer: &Answer) -> bool {
         let (other, program) = (&self.list[other], self.program);
         let (a, b) = (&other.solution, &answer.solution);
-        if !(a.free.is_empty() && b.free.is_empty() && self.close(a, b, BLUR)) {
+        if !self.close(a, b, BLUR) {
             return false;
         }
         let mut middle = [0.0; MAX_JOINTS];
@@ -135,24 +182,36 @@ impl<'a> Answers<'a> {
     }
 
     fn close(&self, a: &Solution, b: &Solution, tolerance: f64) -> bool {
-        let program = self.program;
-        let close = |joint: usize| {
-            let allowed = match program.joints[joint].value {
-                JointValue::Angle { .. } => tolerance,
-                JointValue::Plain(_) => tolerance * program.scale.max(a.q[joint].abs()),
-            };
-            difference(program, joint, &a.q, &b.q).abs() <= allowed
+        let left_out = |joint: usize| a.free.contains(&joint) || b.free.contains(&joint);
+        (0..a.q.len()).all(|joint| left_out(joint) || self.is_near(joint, &a.q, &b.q, tolerance))
+    }
+
+    fn is_near(&self, joint: usize, a: &[f64], b: &[f64], tolerance: f64) -> bool {
+        let allowed = match self.program.joints[joint].value {
+            JointValue::Angle { .. } => tolerance,
+            JointValue::Plain(_) => tolerance * self.program.scale.max(a[joint].abs()),
         };
-        (0..a.q.len()).all(|joint| a.free.contains(&joint) || b.free.contains(&joint) || close(joint))
+        difference(self.program, joint, a, b).abs() <= allowed
     }
 }
 
 impl Answer {
-    /// Whether this answer stays where `other` is equal to it: the better one, and the first member of a family that holds within
-    /// rounding.
+    fn is_isolated(&self) -> bool {
+        self.solution.free.is_empty()
+    }
+
+    fn is_exact(&self) -> bool {
+        self.relative <= ROUNDING
+    }
+
+    /// Whether this answer stays where `other` is equal to it: the better one does. But a family that holds within rounding stays
+    /// against its members, and its first member against the others.
     fn holds_against(&self, other: &Answer) -> bool {
-        let family = !self.solution.free.is_empty() && self.solution.free == other.solution.free;
-        self.relative <= if family { other.relative.max(ROUNDING) } else { other.relative }
+        match (self.is_isolated(), other.is_isolated()) {
+            (true, false) if other.is_exact() => false,
+            (false, _) if self.is_exact() => true,
+            _ => self.relative <= other.relative,
+        }
     }
 }
 

@@ -44,6 +44,10 @@ pub const POLISHED: f64 = 1e-15;
 /// A member of a family that misses the equations by no more than this share of their size, by rounding in the blocks before, is
 /// polished with its free joints held.
 pub const ADRIFT: f64 = 1e-7;
+/// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a family.
+pub const ASIDE: f64 = 0.1;
+/// In how many stages a family is followed from one member to another.
+pub const STAGES: usize = 4;
 /// A target's rotation or unit vector may be this far from one.
 pub const CONSISTENT: f64 = 1e-9;
 /// The most joints that a program may have.

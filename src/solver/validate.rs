@@ -7,8 +7,10 @@ use crate::{Error, ErrorKind, Result, roots};
 
 /// The most answers of a program.
 const MOST_ANSWERS: usize = 4096;
-/// The most blocks, and the most unknowns.
-const MOST: usize = 256;
+/// The most blocks.
+const MOST_BLOCKS: usize = 64;
+/// The most unknowns.
+const MOST_UNKNOWNS: usize = 1024;
 /// Branch numbers stay below this: a double holds them all.
 const MOST_BRANCHES: usize = 1 << 53;
 
@@ -39,8 +41,8 @@ impl Program {
         };
         ensure(word(&self.name), "name: letters, digits and `_` are allowed")?;
         ensure((1..=MAX_JOINTS).contains(&self.joints.len()), &format!("joints: 1 to {MAX_JOINTS} are allowed"))?;
-        ensure(self.unknowns.len() <= MOST, &format!("unknowns: at most {MOST} are allowed"))?;
-        ensure((1..=MOST).contains(&self.blocks.len()), &format!("blocks: 1 to {MOST} are allowed"))?;
+        ensure(self.unknowns.len() <= MOST_UNKNOWNS, &format!("unknowns: at most {MOST_UNKNOWNS} are allowed"))?;
+        ensure((1..=MOST_BLOCKS).contains(&self.blocks.len()), &format!("blocks: 1 to {MOST_BLOCKS} are allowed"))?;
         ensure(self.scale.is_finite() && self.scale > 0.0, "scale: a positive number is allowed")?;
         for joint in &self.joints {
             ensure(self.has_unknowns(joint.value), &format!("joint `{}`", joint.name))?;
@@ -126,16 +128,18 @@ impl Context<'_> {
         Ok(())
     }
 
-    /// The blocks one after the other; what is behind a block without a closed chart is never reached.
+    /// The blocks one after the other. Only a single block may be all open.
     fn blocks(&mut self, blocks: &[Block]) -> Result<()> {
         self.unknowns = vec![false; self.program.unknowns.len()];
-        let mut reached = true;
         for block in blocks {
             self.block(block)?;
-            reached &= block.charts.iter().any(|chart| !chart.open);
+            let ends = !block.charts.iter().any(|chart| !chart.open);
+            ensure(!ends || blocks.len() == 1, &format!("block `{}` has no chart that goes on", block.label))?;
+            if ends {
+                return Ok(());
+            }
         }
-        let place = blocks.last().map_or("", |block| block.label.as_str());
-        ensure(!reached || self.unknowns.iter().all(|&set| set), &format!("block `{place}`: an unknown is never set"))
+        ensure(self.unknowns.iter().all(|&set| set), "an unknown is never set")
     }
 
     fn block(&mut self, block: &Block) -> Result<()> {

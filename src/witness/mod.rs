@@ -1,6 +1,8 @@
 //! Numeric checks of a derived program by witnesses that share nothing with it: the original equations in floating point, joint
 //! values that made the target, forward kinematics, the exact number of real roots (Sturm), the screw solver, a numeric oracle.
 
+mod accuracy;
+pub mod chain;
 mod exact;
 mod model;
 mod newton;
@@ -9,6 +11,7 @@ mod report;
 mod screws;
 mod targets;
 
+pub use accuracy::{Accuracy, Class};
 pub use report::{Fault, Kind, Report, Row, Summary, Verdict};
 
 use crate::derive::Source;

@@ -11,8 +11,20 @@ pub enum Kind {
     Boundary,
     /// On or near the zero set of factors; the text says which and how near, such as `pz = 1e-7`.
     Stratum(String),
-    /// A reachable target times ten.
+    /// Out of reach: a reachable target times ten, or ten reaches further away.
     Far,
+    /// From joint values whose cosines and sines are rational.
+    Rational,
+    /// From one joint at a multiple of a right angle.
+    Special,
+    /// From a singular configuration of a chain.
+    Singular,
+    /// From a configuration 10^-k (rad, or a share of the reach) away from a singular one.
+    Near(u32),
+    /// The target of a singular configuration moved by 10^-k where the tip cannot go: to either side of the boundary of the workspace.
+    Edge(u32),
+    /// Any target, reachable or not.
+    Anywhere,
 }
 
 /// What is wrong with the answers at a target.
@@ -30,6 +42,8 @@ pub enum Fault {
     Bound,
     /// A joint is called free where the Jacobian is regular.
     Free,
+    /// The joint values that made the target belong to a family of solutions, and no answer with a free joint stands for it.
+    Family,
     /// The number of answers differs from the exact number of real solutions.
     Count,
     /// The answers differ from those of the screw solver.
@@ -163,7 +177,7 @@ fn line(cells: impl Iterator<Item = String>) -> String {
 }
 
 /// The least power of ten that is not less than `value`: `1e-15`; `0` for zero.
-fn decade(value: f64) -> String {
+pub(super) fn decade(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
         value if value.is_finite() => format!("1e{}", value.log10().ceil()),
@@ -178,6 +192,12 @@ impl fmt::Display for Kind {
             Kind::Boundary => f.write_str("boundary"),
             Kind::Stratum(text) => f.write_str(text),
             Kind::Far => f.write_str("far"),
+            Kind::Rational => f.write_str("rational"),
+            Kind::Special => f.write_str("special"),
+            Kind::Singular => f.write_str("singular"),
+            Kind::Near(k) => write!(f, "1e-{k} of singular"),
+            Kind::Edge(k) => write!(f, "1e-{k} of the edge"),
+            Kind::Anywhere => f.write_str("anywhere"),
         }
     }
 }
@@ -191,6 +211,7 @@ impl fmt::Display for Fault {
             Fault::Duplicate => "duplicate",
             Fault::Bound => "bound",
             Fault::Free => "free",
+            Fault::Family => "family",
             Fault::Count => "count",
             Fault::Screw => "screw",
             Fault::Oracle => "oracle",

@@ -1,12 +1,12 @@
 //! The witnesses that know the chain: forward kinematics, and the screw solver.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::kinematics::screw::two_link::{Solution as Angles, TwoLink};
 use crate::kinematics::screw::{self, ScrewSolver, Target};
 use crate::kinematics::{Chain, JointKind, Plane, Task};
 use crate::solver::Solution;
-use crate::spatial::Screw;
+use crate::spatial::{Pose, Screw};
 use crate::{Error, ErrorKind, Result};
 
 /// By how much forward kinematics at `q` misses `target`, as a share of the lengths at hand; infinite where it fails.
@@ -94,10 +94,20 @@ fn bent(branch: usize, answer: &Angles) -> Solution {
     }
 }
 
+/// The rotation with nine entries, by rows.
+fn rotation(entries: &[f64]) -> UnitQuaternion<f64> {
+    let matrix = Rotation3::from_matrix_unchecked(Matrix3::from_row_slice(entries));
+    UnitQuaternion::from_rotation_matrix(&matrix)
+}
+
 /// The numbers of a derived solver's target, in the form of the task.
 fn planned(task: Task, target: &[f64]) -> Result<Target> {
     Ok(match (task, target) {
         (Task::Position, &[x, y, z]) => Target::Position([x, y, z].into()),
+        (Task::Pose, &[x, y, z, ..]) if target.len() == 12 => {
+            Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation(&target[3..])))
+        }
+        (Task::Rotation, _) if target.len() == 9 => Target::Rotation(rotation(target)),
         (Task::Ray, &[x, y, z, i, j, k]) => Target::Ray { point: [x, y, z].into(), direction: [i, j, k].into() },
         (Task::Direction, &[i, j, k]) => Target::Direction([i, j, k].into()),
         (Task::PlanarPosition { .. }, &[x, y]) => Target::PlanarPosition([x, y]),

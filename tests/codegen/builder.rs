@@ -13,6 +13,11 @@ pub struct Code {
 }
 
 impl Code {
+    /// Code that goes on behind a number of registers.
+    pub fn after(registers: usize) -> Self {
+        Code { lines: vec![], registers }
+    }
+
     fn push(&mut self, operation: Operation) -> Operand {
         self.lines.push(Instruction { target: self.registers, operation });
         self.registers += 1;
@@ -37,6 +42,10 @@ impl Code {
 
     pub fn abs(&mut self, a: Operand) -> Operand {
         self.push(Operation::Abs(a))
+    }
+
+    pub fn sqrt(&mut self, a: Operand) -> Operand {
+        self.push(Operation::Sqrt(a))
     }
 
     /// `a + b + ...`, from the left.

@@ -1,15 +1,17 @@
 //! Printed solvers: compiled, run, and compared with the evaluator of the same program.
 
-mod builder;
+pub mod builder;
 mod derivations;
 pub mod harness;
 mod names;
-mod samples;
+pub mod samples;
 mod text;
+
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use harness::compare;
 use proptest::test_runner::{RngAlgorithm, TestRng};
-use samples::{arm, leg, polar, quartic};
+use samples::{arm, leg, pan_tilt, polar, quartic, wrist};
 
 /// Numbers that are the same in every run.
 fn random() -> impl FnMut(f64, f64) -> f64 {
@@ -89,4 +91,37 @@ fn quartic_with_choices_of_polynomials_in_every_language_equals_the_evaluator() 
     }
     let report = compare(&quartic::program(), &targets);
     assert!(report.is_none_or(|report| report.answers > 6000));
+}
+
+#[test]
+fn two_blocks_and_samples_in_every_language_equal_the_evaluator() {
+    let mut between = random();
+    let mut targets = odd(3);
+    for k in 0..1000 {
+        let small = 10f64.powi(-(k % 17));
+        targets.push(pan_tilt::direction(between(-3.2, 3.2), between(-3.2, 3.2)).to_vec());
+        targets.push(pan_tilt::direction(between(-3.2, 3.2), FRAC_PI_2 - small).to_vec());
+        targets.push(vec![0.0, 0.0, 1.0 - 1e-10]);
+        targets.push(vec![between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)]);
+    }
+    let report = compare(&pan_tilt::program(), &targets);
+    assert!(report.is_none_or(|report| report.answers > 4000 && report.families > 1000 && report.refused > 900));
+}
+
+#[test]
+fn a_wrist_with_pivots_in_every_language_equals_the_evaluator() {
+    let mut between = random();
+    let mut targets = odd(9);
+    for k in 0..600 {
+        let small = 10f64.powi(-(k % 17));
+        let mut angle = || between(-3.2, 3.2);
+        targets.push(wrist::rotation([angle(), angle(), angle()]).to_vec());
+        targets.push(wrist::rotation([angle(), small, angle()]).to_vec());
+        targets.push(wrist::rotation([angle(), 0.0, angle()]).to_vec());
+        targets.push(wrist::rotation([angle(), PI, angle()]).map(|value| value + 1e-3 * small * angle()).to_vec());
+    }
+    for gap in [false, true] {
+        let report = compare(&wrist::program(gap), &targets);
+        assert!(report.is_none_or(|report| report.answers > 2000 && report.families > 600));
+    }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::builder::*;
 use super::harness::compare;
-use super::samples::quartic;
+use super::samples::{pan_tilt, quartic, wrist};
 use groebot::codegen;
 use groebot::solver::{Chart, Checks, Joint, JointValue, Program, Rule, Step, Unit};
 
@@ -50,9 +50,11 @@ fn named(names: &[String]) -> Program {
 
 #[test]
 fn every_word_of_a_printed_file_is_a_possible_name() {
-    let program = quartic::program();
-    let mut names = words(&codegen::rust::emit(&program));
-    names.extend(words(&codegen::c99::emit(&program)));
+    let mut names = BTreeSet::new();
+    for program in [quartic::program(), wrist::program(true), pan_tilt::program()] {
+        names.extend(words(&codegen::rust::emit(&program)));
+        names.extend(words(&codegen::c99::emit(&program)));
+    }
     names.extend(words("while async gen dyn Self None Some union register restrict inline asm typeof bool unix linux"));
     names.extend(words(
         "INFINITY NULL M_PI DBL_MAX errno isnan fabs r12 roots3 choice0_1 i7 __x _y 9 q0 EXTRAS NONE_FREE",

@@ -129,9 +129,8 @@ fn a_relation_with_another_point_is_refuted() {
     let chain = chain("RRRRRR", &[Shared::Point(3, 5)], Task::Pose, 1);
     let mechanism = Mechanism::new(&chain).unwrap();
     let mut relation = mechanism.relations()[0].clone();
-    if let Object::Point(point) | Object::Direction(point) | Object::Line { point, .. } = &mut relation.moved {
-        point[0] += BigRational::new(1.into(), 1_000_000.into());
-    }
+    let (Object::Point(point) | Object::Direction(point) | Object::Line { point, .. }) = &mut relation.moved;
+    point[0] += BigRational::new(1.into(), 1_000_000.into());
     assert_eq!(prove(&mechanism, &relation).unwrap_err().kind(), ErrorKind::Certificate);
 }
 

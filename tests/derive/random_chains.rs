@@ -36,7 +36,7 @@ impl Draw {
     }
 
     pub fn rotation(&mut self) -> ExactRotation {
-        let quaternion = std::array::from_fn(|_| BigRational::from_integer(self.integer(3).into()));
+        let quaternion = std::array::from_fn(|_| BigRational::from_integer(self.integer(9).into()));
         ExactRotation::from_quaternion(&quaternion).expect("no part is zero")
     }
 

@@ -85,8 +85,39 @@ fn decimals_of_multiples_of_a_quarter_turn_are_these() {
         assert_eq!(turn, degrees, "{text}");
         assert!(turn.is_exact(), "{text}");
     }
-    for text in ["1.57", "1.571", "1.5706", "1.5709", "1.5708001", "3.1417", "0.7854", "0.0001", "1e-14", "3.14"] {
+    for text in [
+        "1.57",
+        "1.571",
+        "1.5706",
+        "1.5709",
+        "1.5708001",
+        "3.1417",
+        "0.0001",
+        "1e-14",
+        "3.14",
+        "0.785",
+        "0.7855",
+        "0.2618",
+    ] {
         assert!(!Turn::from_radians(&exact(text)).unwrap().is_exact(), "{text}");
+    }
+    let thirds = [
+        ("0.7854", 45),
+        ("-0.785398", 315),
+        ("2.35619", 135),
+        ("0.5236", 30),
+        ("0.5235", 30),
+        ("1.0471975512", 60),
+        ("-2.0944", 240),
+    ];
+    for (text, degrees) in thirds {
+        let turn = Turn::from_radians(&exact(text)).unwrap();
+        assert_eq!(
+            (turn, turn.degrees()),
+            (Turn::from_degrees(&whole(degrees)).unwrap(), Some(degrees as u16)),
+            "{text}"
+        );
+        assert!(!turn.is_quarter());
     }
     assert!(Turn::from_radians(&exact("1e300")).is_err() && Turn::from_degrees(&exact("-1e12")).is_err());
 }
@@ -103,6 +134,41 @@ fn quarter_turns_are_whole_matrices() {
             let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
             let image = [[1, 0], [0, 1], [-1, 0], [0, -1]][quarters.rem_euclid(4) as usize];
             assert_eq!([&matrix[u][u], &matrix[v][u]], [&whole(image[0]), &whole(image[1])]);
+        }
+    }
+}
+
+/// 45 and 45 degrees are a quarter turn, 30 and 60 too, and -45 undoes 45: exactly.
+#[test]
+fn sums_of_45_and_30_degrees_are_exact() {
+    for axis in 0..3 {
+        let about = |degrees: i64| ExactRotation::about(axis, Turn::from_degrees(&whole(degrees)).unwrap());
+        for (parts, sum) in [
+            (vec![45, 45], 90),
+            (vec![30, 60], 90),
+            (vec![30, 30, 30], 90),
+            (vec![45, -45], 0),
+            (vec![60, 60, 60], 180),
+            (vec![45, 30, -30, 225], 270),
+        ] {
+            let product = parts.iter().map(|degrees| about(*degrees)).reduce(|a, b| a.then(&b)).unwrap();
+            assert_eq!(product, about(sum), "{parts:?}");
+        }
+    }
+}
+
+/// Against the power series: the rational matrix of a multiple of 15 degrees is orthogonal and within 1e-16.
+#[test]
+fn steps_have_their_sines() {
+    for axis in 0..3 {
+        for degrees in (-360..=360).step_by(15).filter(|degrees| degrees % 30 == 0 || degrees % 45 == 0) {
+            let pi = exact("3.14159265358979323846264338327950288");
+            let given = ExactRotation::about(axis, Turn::from_degrees(&whole(degrees)).unwrap()).matrix();
+            let wanted = elementary(axis, &(pi * whole(degrees) / whole(180)));
+            assert_orthogonal(&given);
+            for (a, b) in given.iter().flatten().zip(wanted.iter().flatten()) {
+                assert!((a - b).abs() < exact("1e-16"), "{degrees}: {}", a - b);
+            }
         }
     }
 }

@@ -9,6 +9,7 @@ mod geometry;
 pub mod jacobian;
 mod oracle;
 mod screw;
+mod snap;
 mod tree;
 mod urdf;
 

@@ -1,5 +1,6 @@
 //! The robots that come with the crate: their data against a second statement of the same figures.
 
+mod derivations;
 mod figures;
 mod polar;
 

@@ -1,6 +1,8 @@
 //! The checks of derived programs: right programs pass, damaged ones do not.
 
+mod chain;
 mod chains;
+mod derived;
 mod screws;
 
 use groebot::Watch;

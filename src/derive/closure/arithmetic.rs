@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use num_traits::Zero;
 
-use crate::number::{BigRational, Field, Ring, Zp};
+use crate::number::{BigInt, BigRational, Field, Ring, Zp};
 
 /// A commutative ring of values that may keep books on what it is asked for: numbers, polynomials, registers of a program.
 pub trait Arithmetic {
@@ -57,7 +57,8 @@ impl Arithmetic for Exact {
 #[derive(Clone, Debug)]
 pub struct Modular {
     field: Zp,
-    images: HashMap<BigRational, u64>,
+    /// By numerator: denominators with the images. (To hash a whole fraction costs more than to reduce it.)
+    images: HashMap<BigInt, Vec<(BigInt, u64)>>,
     unlucky: bool,
 }
 
@@ -82,12 +83,17 @@ impl Arithmetic for Modular {
     type Value = u64;
 
     fn rational(&mut self, number: &BigRational) -> u64 {
-        if let Some(image) = self.images.get(number) {
+        let known = self.images.get(number.numer());
+        if let Some((_, image)) =
+            known.and_then(|list| list.iter().find(|(denominator, _)| denominator == number.denom()))
+        {
             return *image;
         }
         let image = self.field.from_rational(number);
         self.unlucky |= image.is_none();
-        *self.images.entry(number.clone()).or_insert(image.unwrap_or(0))
+        let image = image.unwrap_or(0);
+        self.images.entry(number.numer().clone()).or_default().push((number.denom().clone(), image));
+        image
     }
     fn add(&mut self, a: &u64, b: &u64) -> u64 {
         Ring::add(&self.field, a, b)

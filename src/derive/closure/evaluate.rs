@@ -5,110 +5,13 @@
 //! occur to the first degree.
 
 use super::arithmetic::{Arithmetic, Factor, Multilinear};
+use super::assignment::{Assignment, JointValue, Turn};
 use super::mechanism::Mechanism;
 use super::relation::{Letter, Measure, Object, Relation, Word};
 use super::vector;
-use crate::kinematics::{ExactMatrix, ExactVector, Task};
+use crate::kinematics::{ExactMatrix, ExactVector};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
-
-/// What is known about a joint.
-#[derive(Clone, Debug, PartialEq)]
-pub enum JointValue<V> {
-    /// Nothing: its unknowns stay.
-    Unknown,
-    /// The cosine c of its angle and s', the sine divided by the length of the axis vector.
-    Angle {
-        /// c.
-        cosine: V,
-        /// s'.
-        sine: V,
-    },
-    /// d', its shift divided by the length of the axis vector.
-    Length(V),
-}
-
-/// The rotation of a target, as far as the task knows it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Turn<V> {
-    /// Not at all.
-    Nothing,
-    /// Where it takes the direction that the task aims, [`Mechanism::aim`].
-    Direction([V; 3]),
-    /// Its matrix, base_from_tip, by rows.
-    Matrix([[V; 3]; 3]),
-}
-
-/// The target T: the position of the tip and its rotation, as far as the task knows them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Target<V> {
-    /// The position of the tip; where the task does not know it, any: that at zero.
-    pub position: [V; 3],
-    /// The rotation.
-    pub turn: Turn<V>,
-}
-
-/// The values of the joints and of the target.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Assignment<V> {
-    /// One for each joint.
-    pub joints: Vec<JointValue<V>>,
-    /// The target.
-    pub target: Target<V>,
-}
-
-impl<V: Clone> Target<V> {
-    /// The target of these `parameters`, in the order of [`Mechanism::parameters`].
-    ///
-    /// # Errors
-    /// [`ErrorKind::BadValue`] when there are not as many as the task has.
-    pub fn new<A: Arithmetic<Value = V>>(mechanism: &Mechanism, parameters: &[V], arithmetic: &mut A) -> Result<Self> {
-        let wanted = mechanism.parameters().len();
-        if parameters.len() != wanted {
-            let text = format!("{} numbers of the target are given; the task has {wanted}", parameters.len());
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
-        let mut position = mechanism.tip_point().each_ref().map(|entry| arithmetic.rational(entry));
-        let turn = match mechanism.task() {
-            Task::Pose => {
-                position.clone_from_slice(&parameters[..3]);
-                Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 + 3 * i + j].clone())))
-            }
-            Task::Position => {
-                position.clone_from_slice(parameters);
-                Turn::Nothing
-            }
-            Task::PlanarPosition { plane } => {
-                plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
-                Turn::Nothing
-            }
-            Task::Ray => {
-                position.clone_from_slice(&parameters[..3]);
-                Turn::Direction(std::array::from_fn(|k| parameters[3 + k].clone()))
-            }
-            Task::Direction => Turn::Direction(std::array::from_fn(|k| parameters[k].clone())),
-            Task::Rotation => {
-                Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 * i + j].clone())))
-            }
-            Task::PlanarPose { plane } => {
-                plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
-                Turn::Matrix(about(plane.normal(), &parameters[2], &parameters[3], arithmetic))
-            }
-        };
-        Ok(Target { position, turn })
-    }
-}
-
-/// The rotation about a coordinate axis with this cosine and sine.
-fn about<A: Arithmetic>(normal: usize, c: &A::Value, s: &A::Value, arithmetic: &mut A) -> [[A::Value; 3]; 3] {
-    let (a, b) = ((normal + 1) % 3, (normal + 2) % 3);
-    let mut rows = vector::identity().map(|row| row.map(|entry| arithmetic.rational(&entry)));
-    rows[a][a] = c.clone();
-    rows[b][b] = c.clone();
-    rows[b][a] = s.clone();
-    rows[a][b] = arithmetic.neg(s);
-    rows
-}
 
 /// Coordinates as polynomials in the unknown joints.
 pub type Vector<V> = [Multilinear<V>; 3];
@@ -174,10 +77,11 @@ pub fn carry<A: Arithmetic>(
     Evaluation { mechanism, assignment, arithmetic }.carry(word, object, measure)
 }
 
-struct Evaluation<'a, A: Arithmetic> {
-    mechanism: &'a Mechanism,
-    assignment: &'a Assignment<A::Value>,
-    arithmetic: &'a mut A,
+/// An evaluation in progress.
+pub struct Evaluation<'a, A: Arithmetic> {
+    pub mechanism: &'a Mechanism,
+    pub assignment: &'a Assignment<A::Value>,
+    pub arithmetic: &'a mut A,
 }
 
 /// The motion x -> after + R (x - before).
@@ -193,7 +97,7 @@ enum Rotation<'a, V> {
     /// About an axis vector, by the angle of a joint; the other way round when inverse.
     Axis {
         axis: &'a ExactVector,
-        square: &'a BigRational,
+        dual: &'a ExactVector,
         joint: usize,
         value: &'a JointValue<V>,
         inverse: bool,
@@ -286,19 +190,6 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         }
     }
 
-    fn number(&mut self, number: &BigRational) -> Multilinear<A::Value> {
-        let value = self.arithmetic.rational(number);
-        Multilinear::constant(value, self.arithmetic)
-    }
-
-    fn numbers(&mut self, vector: &ExactVector) -> Vector<A::Value> {
-        vector.each_ref().map(|entry| self.number(entry))
-    }
-
-    fn values(&mut self, vector: &[A::Value; 3]) -> Vector<A::Value> {
-        vector.each_ref().map(|entry| Multilinear::constant(entry.clone(), self.arithmetic))
-    }
-
     fn motion(&mut self, letter: Letter) -> Motion<'a, A::Value> {
         let (mechanism, assignment) = (self.mechanism, self.assignment);
         match letter {
@@ -322,8 +213,8 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         let (screw, value) = (&self.mechanism.joints()[joint], &self.assignment.joints[joint]);
         if screw.is_revolute() {
             let centre = self.numbers(&screw.point);
-            let (axis, square) = (&screw.axis, &screw.square);
-            let rotation = Rotation::Axis { axis, square, joint, value, inverse };
+            let (axis, dual) = (&screw.axis, &screw.dual);
+            let rotation = Rotation::Axis { axis, dual, joint, value, inverse };
             return Motion { before: centre.clone(), after: centre, rotation };
         }
         let axis = self.numbers(&screw.axis);
@@ -344,10 +235,6 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
             _ => entry.times_unknown(Factor::Length(joint), self.arithmetic),
         };
         if inverse { product.neg(self.arithmetic) } else { product }
-    }
-
-    fn times_value(&mut self, entry: &Multilinear<A::Value>, value: &A::Value) -> Multilinear<A::Value> {
-        entry.mul(&Multilinear::constant(value.clone(), self.arithmetic), self.arithmetic)
     }
 
     fn apply(&mut self, motion: &Motion<'_, A::Value>, image: &Image<A::Value>) -> Image<A::Value> {
@@ -404,8 +291,8 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         let mechanism = self.mechanism;
         match *rotation {
             Rotation::Identity => v.clone(),
-            Rotation::Axis { axis, square, joint, value, inverse } => {
-                let [along, across, third] = self.split(axis, square, v);
+            Rotation::Axis { axis, dual, joint, value, inverse } => {
+                let [along, across, third] = self.split(axis, dual, v);
                 let third = if inverse { third.map(|entry| entry.neg(self.arithmetic)) } else { third };
                 let turned = self.combine(joint, value, &across, &third);
                 self.plus(&along, &turned)
@@ -441,8 +328,8 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
     }
 
     /// The part of `v` along the axis, the part across it, and w cross v.
-    fn split(&mut self, axis: &ExactVector, square: &BigRational, v: &Vector<A::Value>) -> [Vector<A::Value>; 3] {
-        let share = self.dot_number(&vector::scale(axis, &square.recip()), v);
+    fn split(&mut self, axis: &ExactVector, dual: &ExactVector, v: &Vector<A::Value>) -> [Vector<A::Value>; 3] {
+        let share = self.dot_number(dual, v);
         let along = axis.each_ref().map(|entry| share.scale(entry, self.arithmetic));
         let across = self.minus(v, &along);
         let third = std::array::from_fn(|k| {
@@ -473,41 +360,6 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
             };
             first.add(&second, self.arithmetic)
         })
-    }
-
-    fn plus(&mut self, a: &Vector<A::Value>, b: &Vector<A::Value>) -> Vector<A::Value> {
-        std::array::from_fn(|k| a[k].add(&b[k], self.arithmetic))
-    }
-
-    fn minus(&mut self, a: &Vector<A::Value>, b: &Vector<A::Value>) -> Vector<A::Value> {
-        std::array::from_fn(|k| a[k].sub(&b[k], self.arithmetic))
-    }
-
-    fn dot(&mut self, a: &Vector<A::Value>, b: &Vector<A::Value>) -> Multilinear<A::Value> {
-        let products = std::array::from_fn(|k| a[k].mul(&b[k], self.arithmetic));
-        self.sum(products)
-    }
-
-    fn cross(&mut self, a: &Vector<A::Value>, b: &Vector<A::Value>) -> Vector<A::Value> {
-        std::array::from_fn(|k| {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            let (first, second) = (a[i].mul(&b[j], self.arithmetic), a[j].mul(&b[i], self.arithmetic));
-            first.sub(&second, self.arithmetic)
-        })
-    }
-
-    fn dot_number(&mut self, a: &ExactVector, b: &Vector<A::Value>) -> Multilinear<A::Value> {
-        let products = std::array::from_fn(|k| b[k].scale(&a[k], self.arithmetic));
-        self.sum(products)
-    }
-
-    fn dot_values(&mut self, a: &[A::Value; 3], b: &Vector<A::Value>) -> Multilinear<A::Value> {
-        let products = std::array::from_fn(|k| self.times_value(&b[k], &a[k]));
-        self.sum(products)
-    }
-
-    fn sum(&mut self, [x, y, z]: Vector<A::Value>) -> Multilinear<A::Value> {
-        x.add(&y, self.arithmetic).add(&z, self.arithmetic)
     }
 }
 

@@ -46,6 +46,11 @@ impl Features {
         Features { directions: frame.clone(), normals: frame, points, line: None, anchor }
     }
 
+    /// Whether nothing stays.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty() && self.directions.is_empty() && self.normals.is_empty()
+    }
+
     /// Every measure of something fixed by this row and something moved that `tail` leaves in place.
     pub fn pairs(&self, tail: &Features) -> Vec<(Measure, Object, Object)> {
         let each = |measure, fixed: &[Object], moved: &[Object]| -> Vec<(Measure, Object, Object)> {
@@ -130,7 +135,7 @@ fn normals(turns: &[&ScrewJoint], slides: &[&ScrewJoint], beside: &ExactVector) 
         ([first, ..], _) => vec![first.axis.clone()],
         ([], [first, rest @ ..]) => match rest.iter().find(|joint| !vector::parallel(&joint.axis, &first.axis)) {
             None => across(&first.axis, beside),
-            Some(other) => vec![vector::primitive(&vector::cross(&first.axis, &other.axis))],
+            Some(other) => vec![vector::tidy(&vector::cross(&first.axis, &other.axis))],
         },
         ([], []) => Vec::new(),
     };
@@ -145,7 +150,7 @@ fn normals(turns: &[&ScrewJoint], slides: &[&ScrewJoint], beside: &ExactVector) 
 fn across(axis: &ExactVector, beside: &ExactVector) -> Vec<ExactVector> {
     let first = match vector::cross(axis, beside) {
         cross if vector::is_zero(&cross) => vector::perpendicular(axis),
-        cross => vector::primitive(&cross),
+        cross => vector::tidy(&cross),
     };
-    vec![first.clone(), vector::primitive(&vector::cross(axis, &first))]
+    vec![first.clone(), vector::tidy(&vector::cross(axis, &first))]
 }

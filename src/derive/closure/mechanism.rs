@@ -21,13 +21,16 @@ pub struct ScrewJoint {
     pub square: BigRational,
     /// o: a point of the axis.
     pub point: ExactVector,
+    /// w / |w|^2.
+    pub(super) dual: ExactVector,
 }
 
 impl ScrewJoint {
     fn new(name: &str, symbol: &str, kind: JointKind, axis: &ExactVector, point: &ExactVector) -> Self {
         let axis = vector::normalised(axis);
         let (square, point) = (vector::dot(&axis, &axis), point.clone());
-        ScrewJoint { name: name.to_owned(), symbol: symbol.to_owned(), kind, axis, square, point }
+        let dual = vector::scale(&axis, &square.recip());
+        ScrewJoint { name: name.to_owned(), symbol: symbol.to_owned(), kind, axis, square, point, dual }
     }
 
     /// Whether it turns.

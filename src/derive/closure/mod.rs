@@ -6,6 +6,8 @@
 //! D. L. Pieper, *The kinematics of manipulators under computer control* (1968): distances and components in which joints cancel.
 
 mod arithmetic;
+mod assignment;
+mod coordinates;
 mod evaluate;
 mod explain;
 mod feature;
@@ -16,9 +18,10 @@ mod relation;
 mod vector;
 
 pub use arithmetic::{Arithmetic, Exact, Factor, Factors, Modular, Multilinear};
-pub use evaluate::{Assignment, Image, JointValue, Target, Turn, Vector, carry, evaluate, evaluate_side};
-pub(super) use feature::common_point_of as common_point;
+pub use assignment::{Assignment, JointValue, Target, Turn};
+pub use evaluate::{Image, Vector, carry, evaluate, evaluate_side};
 pub(crate) use explain::show;
+pub(super) use feature::common_point_of as common_point;
 pub use mechanism::{Mechanism, ScrewJoint};
 pub use prove::prove;
 pub use relation::{Letter, Measure, Object, Relation, Word};

@@ -6,7 +6,8 @@
 //! joint is then left once at most, and the multilinear polynomial is its own normal form.
 
 use super::arithmetic::Exact;
-use super::evaluate::{Assignment, JointValue, Target, Turn, evaluate};
+use super::assignment::{Assignment, JointValue, Target, Turn};
+use super::evaluate::evaluate;
 use super::mechanism::Mechanism;
 use super::relation::{Letter, Measure, Relation, Word};
 use super::vector;

@@ -7,6 +7,9 @@ use crate::kinematics::{ExactMatrix, ExactVector};
 use crate::number::{BigInt, BigRational};
 use crate::poly::rational_root;
 
+/// Integer coordinates beyond this are long.
+const LONG: i64 = 100;
+
 pub fn zero() -> ExactVector {
     std::array::from_fn(|_| BigRational::zero())
 }
@@ -73,10 +76,17 @@ pub fn primitive(a: &ExactVector) -> ExactVector {
     if divisor.is_zero() { a.clone() } else { scale(a, &BigRational::new(common, divisor)) }
 }
 
-/// A vector of coprime integers perpendicular to `a`: the coordinate axis least along it, made so.
+/// The vector along `a` of coprime integers, or, where these are long, with 1 as its greatest coordinate.
+pub fn tidy(a: &ExactVector) -> ExactVector {
+    let whole = primitive(a);
+    let greatest = whole.iter().map(Signed::abs).max().unwrap_or_default();
+    if greatest > BigRational::from_integer(LONG.into()) { scale(&whole, &greatest.recip()) } else { whole }
+}
+
+/// A vector perpendicular to `a`: across the coordinate axis that is least along it.
 pub fn perpendicular(a: &ExactVector) -> ExactVector {
     let least = (0..3).min_by_key(|&k| a[k].abs()).unwrap_or(0);
-    primitive(&cross(a, &unit(least)))
+    tidy(&cross(a, &unit(least)))
 }
 
 /// Three independent directions: along `a`, and two perpendicular to it and to one another.

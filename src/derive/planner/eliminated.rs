@@ -2,14 +2,15 @@
 
 use std::rc::Rc;
 
+use super::echelon::Echelon;
 use super::evidence::Space;
 use super::one_joint::Candidate;
-use super::sights::{Sample, Sight, Sights, is_number, members};
+use super::sights::{Sample, Sight, Sights, is_number, members, set};
 use super::specimen::Random;
 use super::types::{PlanStep, Way};
-use crate::derive::closure::Factors;
+use crate::derive::closure::Factor;
 use crate::groebner::basis_modulo_prime;
-use crate::number::{Field, Ring};
+use crate::number::Ring;
 use crate::poly::Polynomial;
 use crate::{Result, Watch};
 
@@ -20,8 +21,16 @@ const CANDIDATES: usize = 4;
 /// So many relations are looked at for independent ones.
 const LOOKED_AT: usize = 24;
 
+/// The effort of a joint that no sum of squares eliminates.
+const HARD: usize = 15;
+/// The effort of linear relations among coefficients.
+const LINEAR: usize = 20;
+
+/// A relation, by its place, with what it looks like.
+type Seen = (usize, Rc<Sight>);
+
 /// The steps to one of the joints of the set `joints`, given those of `known`, that have at most [`GREATEST`] solutions: for each
-/// joint the one of lowest degree.
+/// joint the one of lowest degree and least effort.
 ///
 /// # Errors
 /// As [`Sights::of`]; what `watch` stops with.
@@ -31,52 +40,68 @@ pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Wa
     let mut best: Vec<Option<Candidate>> = vec![None; places.len()];
     for chosen in combinations(relations.len(), places.len()) {
         watch.check()?;
-        let some: Vec<(usize, Rc<Sight>)> = chosen.into_iter().map(|at| relations[at].clone()).collect();
+        let some: Vec<Seen> = chosen.into_iter().map(|at| relations[at].clone()).collect();
         if !covers(&some, joints) {
             continue;
         }
-        let Some(degrees) = degrees(sights, &some, &places, watch)? else { continue };
-        for (at, &degree) in degrees.iter().enumerate() {
-            let is_better = best[at].as_ref().is_none_or(|(step, _)| degree < step.degree);
-            if is_better && (1..=GREATEST).contains(&degree) {
-                best[at] = Some(step(sights, &some, &places, at, degree));
+        let (degrees, symbols) = freed_degrees(sights, &some, &places, watch)?;
+        for (at, &degree) in degrees.iter().enumerate().filter(|(_, degree)| is_allowed(degree)) {
+            let away: Vec<usize> = places.iter().copied().filter(|&place| place != places[at]).collect();
+            let hard = away.iter().filter(|&&joint| !turns_as_one(sights, &some, joint)).count();
+            let effort = 10 * places.len() + symbols + HARD * hard;
+            if best[at].as_ref().is_none_or(|(step, least)| (degree, effort) < (step.degree, *least)) {
+                let relations = some.iter().map(|(index, _)| sights.relations[*index].clone()).collect();
+                let way = Way::Eliminated { relations, away };
+                best[at] = Some((PlanStep { joint: places[at], way, degree }, effort));
             }
         }
     }
     Ok(best.into_iter().flatten().collect())
 }
 
-fn step(sights: &Sights<'_>, some: &[(usize, Rc<Sight>)], places: &[usize], at: usize, degree: usize) -> Candidate {
-    let relations = some.iter().map(|(index, _)| sights.relations[*index].clone()).collect();
-    let away = places.iter().copied().filter(|&place| place != places[at]).collect();
-    let step = PlanStep { joint: places[at], way: Way::Eliminated { relations, away }, degree };
-    (step, 10 * places.len())
-}
-
 /// Whether every joint of the set occurs.
-fn covers(some: &[(usize, Rc<Sight>)], joints: u32) -> bool {
+fn covers(some: &[Seen], joints: u32) -> bool {
     let factors = some.iter().flat_map(|(_, sight)| sight.iter().flat_map(|(product, _)| product.list()));
     factors.fold(0, |set, factor| set | 1 << factor.joint()) == joints
 }
 
+/// Whether the relations are combinations, with numbers, of coordinates of one vector that `joint` turns: the sum of their squares
+/// then is free of the joint, which eliminates it (Pieper 1968). That is so when the rows (A, B) of A c + B s' stay among themselves
+/// under a quarter turn, (A, B) -> (B, -n A), at all targets alike.
+fn turns_as_one(sights: &Sights<'_>, some: &[Seen], joint: usize) -> bool {
+    let (field, n) = (sights.field(), sights.squares[joint]);
+    let mut rows = Echelon::new(field);
+    let mut turned = Vec::new();
+    for (_, sight) in some {
+        let (mut row, mut turn) = (Vec::new(), Vec::new());
+        for (product, sample) in sight.iter() {
+            let rest: Vec<Factor> = product.list().iter().copied().filter(|factor| factor.joint() != joint).collect();
+            let (cosine, sine) = (Factor::Cosine(joint), Factor::Sine(joint));
+            for (k, &value) in sample.iter().enumerate() {
+                if product.list().contains(&cosine) {
+                    row.push(((false, rest.clone(), k), value));
+                    turn.push(((true, rest.clone(), k), field.neg(&field.mul(&n, &value))));
+                } else if product.list().contains(&sine) {
+                    row.push(((true, rest.clone(), k), value));
+                    turn.push(((false, rest.clone(), k), value));
+                }
+            }
+        }
+        rows.insert(row);
+        turned.push(turn);
+    }
+    turned.into_iter().all(|turn| !rows.insert(turn))
+}
+
 /// The first linearly independent relations in which only joints of the set are unknown.
-fn independent(sights: &mut Sights<'_>, joints: u32, known: u32) -> Result<Vec<(usize, Rc<Sight>)>> {
-    let field = sights.field();
-    let within: Vec<usize> = subsets(joints).flat_map(|subset| sights.among(subset, known)).collect();
-    let mut within = within;
+fn independent(sights: &mut Sights<'_>, joints: u32, known: u32) -> Result<Vec<Seen>> {
+    let mut within: Vec<usize> = subsets(joints).flat_map(|subset| sights.among(subset, known)).collect();
     within.sort_unstable();
-    let mut rows: Vec<Vec<(Factors, u64)>> = Vec::new();
+    let mut rows = Echelon::new(sights.field());
     let mut found = Vec::new();
     for index in within.into_iter().take(LOOKED_AT) {
-        let unknown = joints & sights.joints_of(index);
-        let sight = sights.of(index, unknown)?;
-        let mut row: Vec<(Factors, u64)> = sight.iter().map(|(product, sample)| (product.clone(), sample[0])).collect();
-        for own in &rows {
-            cancel(field, &mut row, own);
-        }
-        row.retain(|(_, value)| *value != 0);
-        if !row.is_empty() {
-            rows.push(row);
+        let sight = sights.of(index, joints & sights.joints_of(index))?;
+        if rows.insert(sight.iter().map(|(product, sample)| (product.clone(), sample[0]))) {
             found.push((index, sight));
         }
         if found.len() == CANDIDATES {
@@ -84,21 +109,6 @@ fn independent(sights: &mut Sights<'_>, joints: u32, known: u32) -> Result<Vec<(
         }
     }
     Ok(found)
-}
-
-/// Takes as much of `own` from `row` as cancels the last product of `own`.
-fn cancel<F: Field<Element = u64>>(field: F, row: &mut Vec<(Factors, u64)>, own: &[(Factors, u64)]) {
-    let Some((lead, value)) = own.last() else { return };
-    let Some(at) = row.iter().position(|(product, _)| product == lead) else { return };
-    let Some(factor) = field.checked_div(&row[at].1, value) else { return };
-    for (product, value) in own {
-        let change = field.mul(&factor, value);
-        match row.iter_mut().find(|(own, _)| own == product) {
-            Some((_, sum)) => *sum = field.sub(sum, &change),
-            None => row.push((product.clone(), field.neg(&change))),
-        }
-    }
-    row.sort();
 }
 
 /// The subsets that are not empty.
@@ -112,31 +122,67 @@ fn combinations(count: usize, size: usize) -> Vec<Vec<usize>> {
 }
 
 /// The numbers of values of the joints when all coefficients that are no numbers are free, as they are for the basis with symbols;
-/// proportional ones stay so. `None` when they are not finite, or zero.
-fn degrees(
-    sights: &Sights<'_>,
-    some: &[(usize, Rc<Sight>)],
+/// proportional ones stay so; and the number of these symbols. Where that leaves more values than a step may have, other linear
+/// relations of the coefficients are kept too, which counts as [`LINEAR`] symbols more.
+fn freed_degrees(
+    sights: &mut Sights<'_>,
+    some: &[Seen],
     places: &[usize],
     watch: &Watch,
-) -> Result<Option<Vec<usize>>> {
-    let mut random = Random::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
+) -> Result<(Vec<usize>, usize)> {
     let space = Space::new(sights.mechanism, places, sights.field())?;
+    let mut actual = Vec::new();
+    for (_, sight) in some {
+        actual.push(space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?);
+    }
+    // Freed coefficients may have finitely many solutions where the actual ones have not, but no fewer.
+    if !degrees(sights, actual, &space, places, watch)?.iter().any(is_allowed) {
+        return Ok((vec![0; places.len()], 0));
+    }
+    let mut random = Random::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
+    let (polynomials, symbols) = freed(sights, some, &space, &mut random)?;
+    let free = degrees(sights, polynomials, &space, places, watch)?;
+    if free.iter().any(is_allowed) {
+        return Ok((free, symbols));
+    }
+    let mut mixtures = Vec::new();
+    for (index, _) in some {
+        let unknown = set(places) & sights.joints_of(*index);
+        let mixture = sights.mixture(*index, unknown)?;
+        mixtures.push(space.polynomial(mixture.iter().map(|(product, &value)| (product, value)))?);
+    }
+    Ok((degrees(sights, mixtures, &space, places, watch)?, symbols + LINEAR))
+}
+
+/// Whether a step may have so many solutions.
+fn is_allowed(degree: &usize) -> bool {
+    (1..=GREATEST).contains(degree)
+}
+
+/// The numbers of values of the joints; zero when there are none or infinitely many.
+fn degrees(
+    sights: &Sights<'_>,
+    polynomials: Vec<Polynomial<u64>>,
+    space: &Space,
+    places: &[usize],
+    watch: &Watch,
+) -> Result<Vec<usize>> {
     let mut generators = space.circles(&sights.squares)?;
-    generators.extend(freed(sights, some, &space, &mut random)?);
+    generators.extend(polynomials);
     let basis = basis_modulo_prime(&space.ring, &generators, watch)?;
     match basis.quotient_dimension() {
-        None | Some(0) => Ok(None),
-        Some(_) => space.degrees(&basis, places, &mut random, watch).map(Some),
+        None | Some(0) => Ok(vec![0; places.len()]),
+        Some(_) => space.degrees(&basis, places, &mut Random::new(sights.field().modulus()), watch),
     }
 }
 
-/// The relations with random numbers for symbols.
+/// The relations with random numbers for symbols, and how many these are.
 fn freed(
     sights: &Sights<'_>,
-    some: &[(usize, Rc<Sight>)],
+    some: &[Seen],
     space: &Space,
     random: &mut Random,
-) -> Result<Vec<Polynomial<u64>>> {
+) -> Result<(Vec<Polynomial<u64>>, usize)> {
     let field = sights.field();
     let mut symbols: Vec<(Sample, u64)> = Vec::new();
     let mut value = |sample: &Sample| {
@@ -152,9 +198,10 @@ fn freed(
         symbols.push((*sample, value));
         value
     };
-    let polynomial = |(_, sight): &(usize, Rc<Sight>)| {
+    let polynomial = |(_, sight): &Seen| {
         let terms: Vec<_> = sight.iter().map(|(product, sample)| (product, value(sample))).collect();
         space.polynomial(terms.into_iter())
     };
-    some.iter().map(polynomial).collect()
+    let polynomials = some.iter().map(polynomial).collect::<Result<_>>()?;
+    Ok((polynomials, symbols.len()))
 }

@@ -6,6 +6,7 @@
 //! D. L. Pieper, *The kinematics of manipulators under computer control* (1968), for steps by quartics; D. Manocha and J. F. Canny,
 //! "Efficient inverse kinematics for general 6R manipulators", IEEE Trans. Robotics and Automation 10 (1994), for what has no plan.
 
+mod echelon;
 mod eliminated;
 mod evidence;
 mod one_joint;
@@ -37,9 +38,12 @@ const SEED: u64 = 5;
 /// [`ErrorKind::PositiveDimensional`] when joints are free, with those that may be given; [`ErrorKind::Unsupported`] when there is no
 /// such plan, with the number of solutions, the degrees of the joints and what the geometry lacks; what `watch` stops with.
 pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
+    if mechanism.unknown().len() > mechanism.task().freedoms() {
+        return Err(refuse::free(mechanism, watch)?);
+    }
     let relations = mechanism.relations();
     let Some(evidence) = evidence::gather(mechanism, &relations, watch)? else {
-        return Err(refuse::free(mechanism, &relations, watch)?);
+        return Err(refuse::free(mechanism, watch)?);
     };
     let dimension = evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(0);
     let steps = search(mechanism, &relations, &evidence[0], dimension, watch)?;
@@ -67,7 +71,7 @@ fn search(
     for reach in REACHES {
         let Some(steps) = Search::new(&mut sights, reach, watch).steps()? else { continue };
         let product = steps.iter().map(|step| step.degree).product();
-        if product <= dimension {
+        if product == dimension {
             return Ok(steps);
         }
         if best.as_ref().is_none_or(|(least, _)| product < *least) {

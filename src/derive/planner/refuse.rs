@@ -2,7 +2,7 @@
 
 use super::evidence::is_finite;
 use super::types::Evidence;
-use crate::derive::closure::{Mechanism, Relation};
+use crate::derive::closure::Mechanism;
 use crate::kinematics::ExactVector;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -10,25 +10,33 @@ use crate::{Error, ErrorKind, Result, Watch};
 ///
 /// # Errors
 /// What `watch` stops with.
-pub fn free(mechanism: &Mechanism, relations: &[Relation], watch: &Watch) -> Result<Error> {
-    let unknown = mechanism.unknown();
-    let mut suits = Vec::new();
-    for &joint in &unknown {
-        let given: Vec<usize> = mechanism.given().iter().copied().chain([joint]).collect();
-        if unknown.len() > 1 && is_finite(&mechanism.clone().with_given(&given)?, relations, watch)? {
-            suits.push(format!("`{}`", mechanism.joints()[joint].name));
-        }
-    }
-    let (task, freedoms) = (mechanism.task().name(), mechanism.task().freedoms());
-    let many = format!("the `{task}` task leaves some of the {} unknown joints free", unknown.len());
+pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
+    let (unknown, freedoms) = (mechanism.unknown(), mechanism.task().freedoms());
+    let suits = if unknown.len() <= freedoms + 1 { suitable(mechanism, watch)? } else { Vec::new() };
     let advice = match suits.as_slice() {
-        [] => format!(
-            "it determines {freedoms} joints at most, and two or more of these must be given; or give another task"
-        ),
+        [] if unknown.len() > freedoms => format!("give the values of at least {}", unknown.len() - freedoms),
+        [] => "more than one must be given, or another task asked".to_owned(),
         [one] => format!("give the value of the joint {one}"),
         list => format!("give the value of one of the joints {}", list.join(", ")),
     };
+    let many =
+        format!("the `{}` task leaves some of the {} unknown joints free", mechanism.task().name(), unknown.len());
     Ok(Error::new(ErrorKind::PositiveDimensional, format!("{many}: {advice}")))
+}
+
+/// The names of the joints that leave finitely many solutions when their value is given.
+fn suitable(mechanism: &Mechanism, watch: &Watch) -> Result<Vec<String>> {
+    let relations = mechanism.relations();
+    let mut names = Vec::new();
+    for joint in mechanism.unknown() {
+        let given: Vec<usize> = mechanism.given().iter().copied().chain([joint]).collect();
+        if given.len() < mechanism.joints().len()
+            && is_finite(&mechanism.clone().with_given(&given)?, &relations, watch)?
+        {
+            names.push(format!("`{}`", mechanism.joints()[joint].name));
+        }
+    }
+    Ok(names)
 }
 
 /// The error of a mechanism whose joints are not found one at a time with at most four solutions each.
@@ -37,7 +45,7 @@ pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize
     let degrees: Vec<String> = mechanism.unknown().iter().map(degree).collect();
     let found = match product {
         None => "no order of the joints determines one at a time with at most 4 values each".to_owned(),
-        Some(product) => format!("the best order of the joints gives {product} solutions, some of them false"),
+        Some(product) => format!("the best order of the joints gives {product} instead"),
     };
     let text = format!(
         "a target of the `{}` task has {} complex solutions (values of the joints: {}); {found}; {}",

@@ -1,6 +1,6 @@
 //! What relations look like at three random targets modulo one prime: which coefficients are numbers, which are proportional.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use super::specimen::{Random, Specimen};
@@ -9,7 +9,10 @@ use crate::derive::closure::{Arithmetic, Factor, Factors, Mechanism, Modular, Mu
 use crate::number::{Ring, Zp};
 
 /// So many targets.
-const SPECIMENS: usize = 3;
+pub const SPECIMENS: usize = 3;
+
+/// So many targets are mixed: one more than the symbols that a mixture leaves free.
+const MIXED: usize = 12;
 
 /// A coefficient at all targets.
 pub type Sample = [u64; SPECIMENS];
@@ -25,6 +28,8 @@ pub struct Sights<'a> {
     pub squares: Vec<u64>,
     arithmetic: Modular,
     specimens: Vec<Specimen>,
+    /// Random numbers with the sum 1, one for each specimen.
+    weights: Vec<u64>,
     /// The joints of each relation.
     joints: Vec<u32>,
     seen: HashMap<(usize, u32), Rc<Sight>>,
@@ -37,11 +42,14 @@ impl<'a> Sights<'a> {
         mut arithmetic: Modular,
         random: &mut Random,
     ) -> Result<Self> {
+        let field = arithmetic.field();
+        let mut weights: Vec<u64> = (1..MIXED).map(|_| random.below(field.modulus())).collect();
+        weights.push(weights.iter().fold(field.one(), |rest, weight| field.sub(&rest, weight)));
         let draw = |_| Specimen::draw(mechanism, &mut arithmetic, random);
-        let specimens = (0..SPECIMENS).map(draw).collect::<Result<_>>()?;
+        let specimens = (0..MIXED).map(draw).collect::<Result<_>>()?;
         let squares = mechanism.joints().iter().map(|joint| arithmetic.rational(&joint.square)).collect();
         let joints = relations.iter().map(|relation| set(&relation.joints())).collect();
-        Ok(Sights { mechanism, relations, squares, arithmetic, specimens, joints, seen: HashMap::new() })
+        Ok(Sights { mechanism, relations, squares, arithmetic, specimens, weights, joints, seen: HashMap::new() })
     }
 
     /// The prime field.
@@ -66,12 +74,27 @@ impl<'a> Sights<'a> {
         }
         let relation = &self.relations[index];
         let mut values = Vec::with_capacity(SPECIMENS);
-        for specimen in &self.specimens {
+        for specimen in &self.specimens[..SPECIMENS] {
             values.push(specimen.evaluate(self.mechanism, relation, unknown, &mut self.arithmetic)?);
         }
         let sight = Rc::new(gather(&values));
         self.seen.insert((index, unknown), Rc::clone(&sight));
         Ok(sight)
+    }
+
+    /// The relation `index` with free coefficients that only keep their linear relations with rational numbers: the mean of the
+    /// relation at many targets, with random weights of which the sum is 1.
+    pub fn mixture(&mut self, index: usize, unknown: u32) -> Result<BTreeMap<Factors, u64>> {
+        let (relation, field) = (&self.relations[index], self.field());
+        let mut mixture: BTreeMap<Factors, u64> = BTreeMap::new();
+        for (specimen, weight) in self.specimens.iter().zip(&self.weights) {
+            let value = specimen.evaluate(self.mechanism, relation, unknown, &mut self.arithmetic)?;
+            for (product, coefficient) in value.terms() {
+                let sum = mixture.entry(product.clone()).or_default();
+                *sum = field.add(sum, &field.mul(weight, coefficient));
+            }
+        }
+        Ok(mixture)
     }
 
     /// `a / b` when it is the same number at all targets.
@@ -104,9 +127,9 @@ fn gather(values: &[Multilinear<u64>]) -> Sight {
     sight
 }
 
-/// The coefficient of a single factor.
-pub fn coefficient(sight: &Sight, factor: Factor) -> Sample {
-    let found = sight.iter().find(|(product, _)| product.list() == [factor]);
+/// The coefficient of a product.
+pub fn coefficient(sight: &Sight, factors: &[Factor]) -> Sample {
+    let found = sight.iter().find(|(product, _)| product.list() == factors);
     found.map_or([0; SPECIMENS], |(_, sample)| *sample)
 }
 

@@ -9,6 +9,7 @@ use crate::derive::closure::Relation;
 /// How a step finds its joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[expect(clippy::large_enum_variant, reason = "a plan has a handful of them")]
 pub enum Way {
     /// One relation in which no other joint is unknown: a linear equation in c and s' (two solutions), or one in d'.
     Single(Relation),

@@ -91,9 +91,10 @@ fn unit(lane: usize, p: u32) -> [u32; LANES] {
 
 /// Takes what the lanes hold as new rows, reducing each by those before it: the lanes that were not zero, with their leads.
 fn extract(sweep: &mut Sweep<'_, u32, LANES>, lanes: usize) -> Vec<(usize, u32)> {
+    let Sparse { columns, coefficients } = sweep.take();
     let mut found: Vec<(usize, usize, Vec<u32>)> = Vec::new();
     for lane in 0..lanes {
-        let mut row = sweep.lane(lane);
+        let mut row: Vec<u32> = coefficients.iter().map(|lanes| lanes[lane]).collect();
         // Leads of this batch, from the left: a row found later may lead further left.
         let mut earlier: Vec<_> = found.iter().collect();
         earlier.sort_by_key(|(_, lead, _)| *lead);
@@ -109,22 +110,23 @@ fn extract(sweep: &mut Sweep<'_, u32, LANES>, lanes: usize) -> Vec<(usize, u32)>
             found.push((lane, lead, row));
         }
     }
-    sweep.reset();
-    let free = sweep.free();
-    found
-        .into_iter()
-        .map(|(lane, lead, row)| {
-            sweep.adopt(sparse(&row, free));
-            (lane, (free + lead) as u32)
-        })
-        .collect()
+    let adopt = |(lane, lead, row): (usize, usize, Vec<u32>)| {
+        sweep.adopt(sparse(&columns, row.into_iter()));
+        (lane, columns[lead])
+    };
+    found.into_iter().map(adopt).collect()
 }
 
-/// The nonzero entries of a row of the free columns.
-fn sparse(row: &[u32], free: usize) -> Sparse<u32> {
-    let nonzero = row.iter().enumerate().filter(|(_, entry)| **entry != 0);
-    let (columns, coefficients) = nonzero.map(|(column, &entry)| ((free + column) as u32, entry)).unzip();
+/// The nonzero entries among those of `columns`.
+fn sparse(columns: &[u32], entries: impl Iterator<Item = u32>) -> Sparse<u32> {
+    let nonzero = columns.iter().copied().zip(entries).filter(|(_, entry)| *entry != 0);
+    let (columns, coefficients) = nonzero.unzip();
     Sparse { columns, coefficients }
+}
+
+/// One row a lane.
+fn apart(rows: &Sparse<[u32; LANES]>, lane: usize) -> Sparse<u32> {
+    sparse(&rows.columns, rows.coefficients.iter().map(|lanes| lanes[lane]))
 }
 
 /// Reduces the found rows by one another, those with the smallest leads first.
@@ -141,11 +143,10 @@ fn interreduce(sweep: &mut Sweep<'_, u32, LANES>, watch: &Watch) -> Result<()> {
         }
         let first = own.iter().min().copied().unwrap_or(0);
         sweep.clear(first as usize, &own, watch)?;
-        let free = sweep.free();
+        let rows = sweep.take();
         for (lane, &row) in group.iter().enumerate() {
-            sweep.rows[row] = sparse(&sweep.lane(lane), free);
+            sweep.rows[row] = apart(&rows, lane);
         }
-        sweep.reset();
     }
     Ok(())
 }
@@ -159,13 +160,12 @@ pub(super) fn normal_forms(
     watch: &Watch,
 ) -> Result<Vec<Sparse<u32>>> {
     let mut sweep = Sweep::<u32, LANES>::new([p; LANES], way.instructions, shape, coefficients);
-    let free = sweep.free();
     let mut forms = Vec::with_capacity(shape.lower.len());
     for rows in shape.lower.chunks(LANES) {
         watch.check()?;
         take_each(&mut sweep, rows, watch)?;
-        forms.extend((0..rows.len()).map(|lane| sparse(&sweep.lane(lane), free)));
-        sweep.reset();
+        let taken = sweep.take();
+        forms.extend((0..rows.len()).map(|lane| apart(&taken, lane)));
     }
     Ok(forms)
 }

@@ -14,6 +14,8 @@ pub(super) struct Sparse<C> {
 }
 
 const NONE: u32 = u32::MAX;
+/// Entries of a small row: what a list has room for from the start.
+const ROOM: usize = 32;
 /// Columns that are cleared before the watch is asked.
 const PART: usize = 1024;
 
@@ -76,6 +78,21 @@ fn accumulate<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, ro
 #[inline(always)]
 fn load<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, row: &Sparse<C>, factor: &[u32; N]) {
     sweep.moduli.subtract(&mut sweep.sums, &row.columns, &row.coefficients, factor);
+}
+
+/// Moves the residues of the sums in the free columns to `taken`.
+#[inline(always)]
+fn take<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, taken: &mut Sparse<[u32; N]>) {
+    for column in sweep.shape.upper.len()..sweep.sums.len() {
+        if sweep.sums[column] != [0; N] {
+            let residues = sweep.moduli.residues(&sweep.sums[column]);
+            sweep.sums[column] = [0; N];
+            if residues != [0; N] {
+                taken.columns.push(column as u32);
+                taken.coefficients.push(residues);
+            }
+        }
+    }
 }
 
 /// `target - factor * row`, dense residues of the first lane's modulus.
@@ -167,13 +184,12 @@ impl<'a, C: Coefficient<N>, const N: usize> Sweep<'a, C, N> {
         self.rows.push(row);
     }
 
-    /// The residues of one lane in the free columns.
-    pub fn lane(&self, lane: usize) -> Vec<u32> {
-        self.sums[self.free()..].iter().map(|sums| self.moduli.residue(lane, sums[lane])).collect()
-    }
-
-    /// Forgets the sums.
-    pub fn reset(&mut self) {
-        self.sums.fill([0; N]);
+    /// What the lanes hold in the free columns; all sums are zero afterwards.
+    pub fn take(&mut self) -> Sparse<[u32; N]> {
+        let mut rows = Sparse { columns: Vec::with_capacity(ROOM), coefficients: Vec::with_capacity(ROOM) };
+        let (sweep, taken) = (self, &mut rows);
+        dispatch!(sweep.instructions, [C: Coefficient<N>, const N: usize],
+            (sweep: &mut Sweep<'_, C, N>, taken: &mut Sparse<[u32; N]>), take);
+        rows
     }
 }

@@ -176,16 +176,15 @@ impl<'a, const W: usize> Builder<'a, W> {
     /// Puts the columns in order: those with a reducer first, each part descending.
     pub fn finish(self) -> (Shape, Columns<W>) {
         let packing = &self.running.packing;
-        let mut order: Vec<(bool, Key<W>, u32)> = (0..self.monomials.len() as u32)
-            .map(|place| {
-                let key = self.table.key(self.monomials[place as usize]);
-                (self.roles[place as usize] != Role::Free, packing.rank(key), place)
-            })
-            .collect();
-        order.sort_unstable_by(|a, b| b.cmp(a));
+        let (mut order, mut free): (Vec<_>, Vec<_>) = (0..self.monomials.len() as u32)
+            .map(|place| (packing.rank(self.table.key(self.monomials[place as usize])), place))
+            .partition(|&(_, place)| self.roles[place as usize] != Role::Free);
+        order.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+        free.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+        order.append(&mut free);
         let mut column = vec![0; order.len()];
         let mut upper_order = Vec::with_capacity(self.upper.len());
-        for (index, &(_, _, place)) in order.iter().enumerate() {
+        for (index, &(_, place)) in order.iter().enumerate() {
             column[place as usize] = index as u32;
             if let Role::Upper(row) = self.roles[place as usize] {
                 upper_order.push(row);
@@ -195,7 +194,7 @@ impl<'a, const W: usize> Builder<'a, W> {
         entries.iter_mut().for_each(|place| *place = column[*place as usize]);
         let upper = upper_order.into_iter().map(|row: u32| self.upper[row as usize]).collect();
         let keys: Columns<W> =
-            order.iter().map(|&(_, _, place)| *self.table.key(self.monomials[place as usize])).collect();
+            order.iter().map(|&(_, place)| *self.table.key(self.monomials[place as usize])).collect();
         (Shape { columns: keys.len(), upper, lower: self.lower, entries }, keys)
     }
 }

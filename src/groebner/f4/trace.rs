@@ -154,7 +154,7 @@ impl Round {
             let form = sweep.rows[row].clone();
             sweep.load(&form, &moduli.map(|p| p - 1));
             sweep.clear(lead as usize, &[lead; N], watch)?;
-            sweep.rows[row] = take_row(&mut sweep);
+            sweep.rows[row] = sweep.take();
         }
         // As they were adjoined: the smallest lead first.
         let rows = order.iter().map(|&row| &sweep.rows[row]);
@@ -167,23 +167,7 @@ fn reduced<const N: usize>(sweep: &mut Sweep<'_, [u32; N], N>, row: &Row, watch:
     watch.check()?;
     sweep.accumulate(row, &sweep.moduli.p.map(|p| p - 1));
     sweep.clear(0, &[u32::MAX; N], watch)?;
-    Ok(take_row(sweep))
-}
-
-/// What the lanes hold in the free columns; the sums are zero afterwards.
-fn take_row<const N: usize>(sweep: &mut Sweep<'_, [u32; N], N>) -> Sparse<[u32; N]> {
-    let mut row = Sparse { columns: Vec::new(), coefficients: Vec::new() };
-    for column in sweep.free()..sweep.sums.len() {
-        if sweep.sums[column] != [0; N] {
-            let residues = sweep.moduli.residues(&sweep.sums[column]);
-            sweep.sums[column] = [0; N];
-            if residues != [0; N] {
-                row.columns.push(column as u32);
-                row.coefficients.push(residues);
-            }
-        }
-    }
-    row
+    Ok(sweep.take())
 }
 
 /// Makes `row` begin in the column `lead`: lanes with something further left are struck out.

@@ -2,12 +2,14 @@
 
 use std::collections::VecDeque;
 
+use num_traits::One as _;
+
 use super::lift::image;
 use super::prime::{Prime, Stream};
 use super::variables::reduced;
 use super::{Poly, Ring, sequence};
 use crate::groebner::Basis;
-use crate::number::{BigRational, Rationals, Ring as _, Zp};
+use crate::number::{BigInt, BigRational, Rationals, Ring as _, Zp, common_divisor};
 use crate::poly::{Fractions, Monomial, Polynomial, PolynomialRing, Term, gcd};
 use crate::{Result, Watch};
 
@@ -48,6 +50,25 @@ impl Element {
     }
 }
 
+/// Multiplies polynomials, not all zero, by the number that makes their coefficients integers without a common divisor.
+fn make_integral(ground: &PolynomialRing<Rationals>, mut polynomials: Vec<&mut Ground>) {
+    let numbers = || polynomials.iter().flat_map(|f| f.terms()).map(|term| &term.coefficient);
+    let multiple = numbers()
+        .filter(|q| !q.is_integer())
+        .fold(BigInt::one(), |lcm, q| &lcm / common_divisor(&lcm, q.denom()) * q.denom());
+    let mut divisor = BigInt::ZERO;
+    for q in numbers() {
+        if divisor.is_one() {
+            break;
+        }
+        divisor = common_divisor(&divisor, q.numer());
+    }
+    let factor = BigRational::new(multiple, divisor);
+    if !factor.is_one() {
+        polynomials.iter_mut().for_each(|f| **f = ground.scale(f, &factor));
+    }
+}
+
 /// The reduced basis of elements with these coefficients, smallest first.
 pub(super) fn assemble(
     ring: &Ring,
@@ -64,18 +85,31 @@ pub(super) fn assemble(
     if elements.iter().any(|parts| parts[0].0 == ring.layout().one()) {
         return Ok(Basis { ring: ring.clone(), polynomials: vec![ring.one()], cofactors: Vec::new() });
     }
-    let mut done: Vec<Parts> = Vec::with_capacity(elements.len());
-    for parts in elements {
-        watch.check()?;
-        done.push(reduce_tail(ring, parts, &done)?);
-    }
+    let elements = if are_reduced(ring, &elements) { elements } else { reduce_tails(ring, elements, watch)? };
     let line = Line::new(ring);
-    let polynomials = done.into_iter().map(|parts| line.divide_by_first(ring, parts)).collect();
+    let polynomials = elements.into_iter().map(|parts| line.divide_by_first(ring, parts)).collect();
     Ok(Basis { ring: ring.clone(), polynomials, cofactors: Vec::new() })
 }
 
 fn embedded(ring: &Ring, parts: Parts) -> Poly {
     ring.collect(parts.into_iter().map(|(monomial, c)| Term { coefficient: ring.field().embed(&c), monomial }))
+}
+
+/// Whether no leading monomial divides one in another tail.
+fn are_reduced(ring: &Ring, elements: &[Parts]) -> bool {
+    let divides = |lead: &Monomial, parts: &Parts| parts[1..].iter().any(|(m, _)| ring.layout().divides(lead, m));
+    elements.iter().enumerate().all(|(index, f)| !elements[..index].iter().any(|g| divides(&g[0].0, f)))
+}
+
+/// Reduces all tails, smallest element first, on integer coefficients.
+fn reduce_tails(ring: &Ring, elements: Vec<Parts>, watch: &Watch) -> Result<Vec<Parts>> {
+    let mut done: Vec<Parts> = Vec::with_capacity(elements.len());
+    for mut parts in elements {
+        watch.check()?;
+        make_integral(ring.field().ring(), parts.iter_mut().map(|(_, c)| c).collect());
+        done.push(reduce_tail(ring, parts, &done)?);
+    }
+    Ok(done)
 }
 
 /// Reduces the tail of `f` by the elements `smaller` without fractions: `f` is multiplied instead.
@@ -116,7 +150,9 @@ fn cross_factors(ring: &Ring, lead: &Ground, c: Ground) -> (Option<Ground>, Grou
     }
     let shared = gcd(ground, &c, lead);
     let divide = |f: &Ground| ground.exact_div(f, &shared).expect("a gcd divides");
-    (Some(divide(lead)), divide(&c))
+    let (mut scale, mut factor) = (divide(lead), divide(&c));
+    make_integral(ground, vec![&mut scale, &mut factor]);
+    (Some(scale), factor)
 }
 
 /// Subtracts `c` from the coefficient of `monomial` in descending parts.
@@ -146,6 +182,7 @@ fn without_content(ring: &Ring, mut parts: Parts) -> Parts {
     if ground.degree(&content) > 0 {
         parts.iter_mut().for_each(|(_, c)| *c = ground.exact_div(c, &content).expect("a content divides"));
     }
+    make_integral(ground, parts.iter_mut().map(|(_, c)| c).collect());
     parts
 }
 

@@ -5,12 +5,10 @@ use std::collections::HashMap;
 use super::{Mimic, Tree, TreeJoint, TreeJointKind, listing, some_among};
 use crate::document::shown;
 use crate::kinematics::chain::along_z;
-use crate::kinematics::exact_rotation::over_common;
-use crate::kinematics::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Tip};
-use crate::number::{BigInt, BigRational};
+use crate::kinematics::frame::{Frame, ROUNDING};
+use crate::kinematics::{Chain, ChainParts, Joint, JointKind, LengthUnit, SnapReport, Task};
 use crate::{Error, ErrorKind, Result};
-use num_integer::Integer;
-use num_traits::{ToPrimitive, Zero};
+use num_traits::ToPrimitive;
 
 /// The longest path, fixed joints included.
 const MAX_PATH: usize = 64;
@@ -68,7 +66,8 @@ impl Tree {
 
     /// The chain from the link `base` to the link `tip` (defaults as in [`Tree::path`]), in the frame of `base`, with the task
     /// `pose`, in metres. Fixed joints are merged into the joints around them. A joint that is passed upwards has its axis
-    /// reversed, so that its values and limits stay its own.
+    /// reversed, so that its values and limits stay its own. Relations of neighbouring axes that fail by 1e-12 rad or m at most are
+    /// made exact, as [`Chain::snapped`] does.
     ///
     /// # Errors
     /// As [`Tree::path`]; [`ErrorKind::Unsupported`] for a floating or planar joint on the way, and for joints on the way that
@@ -76,7 +75,12 @@ impl Tree {
     pub fn chain(&self, base: Option<&str>, tip: Option<&str>) -> Result<Chain> {
         let path = self.path(base, tip)?;
         self.check_independent(&path)?;
-        let (joints, frame) = self.walk(&path)?;
+        Ok(self.raw_chain(&path)?.snapped(ROUNDING)?.0)
+    }
+
+    /// The chain along `path` before its roundings are taken off.
+    fn raw_chain(&self, path: &TreePath) -> Result<Chain> {
+        let (joints, frame) = self.walk(path)?;
         if joints.is_empty() {
             let text = format!(
                 "nothing moves between `{}` and `{}`; choose links with moving joints between them",
@@ -92,7 +96,7 @@ impl Tree {
             source: None,
             length_unit: LengthUnit::Metre,
             joints,
-            tip: Tip { point: frame.origin, rotation: frame.rotation.matrix() },
+            tip: frame.tip(),
             task: Task::Pose,
             direction: along_z(),
             given: Vec::new(),
@@ -124,6 +128,9 @@ impl Tree {
                 up.join(", ")
             ));
         }
+        notes.extend(
+            self.raw_chain(path).and_then(|chain| chain.snapped(ROUNDING)).ok().and_then(|(_, report)| off(&report)),
+        );
         notes
     }
 
@@ -169,30 +176,41 @@ impl Tree {
     }
 
     /// The moving joints in the base frame, and the frame of the tip.
-    fn walk(&self, path: &TreePath) -> Result<(Vec<Joint>, Placement)> {
-        let (mut joints, mut frame) = (Vec::new(), Placement::identity());
+    fn walk(&self, path: &TreePath) -> Result<(Vec<Joint>, Frame)> {
+        let (mut joints, mut frame) = (Vec::new(), Frame::base());
         for (index, is_up) in &path.joints {
             let joint = &self.joints[*index];
             if !is_up {
                 frame = frame.then(&joint.origin);
             }
             if let Some(kind) = kind_of(joint)? {
-                let axis = frame.rotation.turn(&primitive(&joint.axis));
+                let axis = frame.direction(&joint.axis);
                 joints.push(Joint {
                     name: joint.name.clone(),
                     symbol: (joints.len() + 1).to_string(),
                     kind,
                     axis: if *is_up { axis.map(|x| -x) } else { axis },
-                    point: frame.origin.clone(),
+                    point: frame.point(),
                     limits: joint.limits.filter(|_| joint.kind != TreeJointKind::Continuous),
                 });
             }
             if *is_up {
-                frame = frame.then(&joint.origin.inverse());
+                frame = frame.before(&joint.origin);
             }
         }
         Ok((joints, frame))
     }
+}
+
+/// Which axes were moved by less than a rounding.
+fn off(report: &SnapReport) -> Option<String> {
+    let names: Vec<String> =
+        report.moved.iter().map(|moved| moved.joint.as_deref().map_or("the tip".into(), shown)).collect();
+    let text = format!(
+        "moved by 1e-12 rad or m at most, so that axes are parallel, meet or pass exactly: {}",
+        names.join(", ")
+    );
+    (!names.is_empty()).then_some(text)
 }
 
 /// `Leader`, or `2 * Leader + 0.1`.
@@ -220,11 +238,4 @@ fn kind_of(joint: &TreeJoint) -> Result<Option<JointKind>> {
             Err(joint.error(ErrorKind::Unsupported, &message))
         }
     }
-}
-
-/// The direction of `axis` in coprime integers: (0, 0.7071, -0.7071) is (0, 1, -1).
-fn primitive(axis: &ExactVector) -> ExactVector {
-    let (integers, _) = over_common(axis.each_ref());
-    let divisor = integers.iter().fold(BigInt::zero(), |divisor, x| divisor.gcd(x));
-    integers.map(|x| BigRational::from_integer(if divisor.is_zero() { x } else { x / &divisor }))
 }

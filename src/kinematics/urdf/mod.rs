@@ -145,13 +145,14 @@ fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(ExactRotation, Vec<
     let mut notes = Vec::new();
     for ((name, angle), turn) in ["roll", "pitch", "yaw"].into_iter().zip(rpy).zip(&turns) {
         let angle = angle.to_f64().unwrap_or(f64::NAN);
-        match turn.is_exact() {
-            true if angle == 0.0 => {}
-            true => {
-                let degrees = 90.0 * (angle / std::f64::consts::FRAC_PI_2).round() + 0.0;
+        match turn.degrees() {
+            Some(_) if angle == 0.0 => {}
+            Some(degrees) => {
+                let whole = (angle / std::f64::consts::TAU - f64::from(degrees) / 360.0).round();
+                let degrees = f64::from(degrees) + 360.0 * whole;
                 notes.push(format!("{name} {angle} rad is taken as {degrees} deg exactly"));
             }
-            false => {
+            None => {
                 let note = "has no exact sine; its rotation is exactly orthogonal, right to 1e-15";
                 notes.push(format!("{name} {angle} rad {note}"));
             }

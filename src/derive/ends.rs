@@ -1,0 +1,124 @@
+//! What is asked of a mechanism beyond its description: the links of a robot, a task, joints with given values. Main type: [`Ends`].
+//!
+//! In a mechanism's folder the file [`TASK_NAME`] keeps it:
+//!
+//! ```toml
+//! base = "torso"
+//! tip = "l_hand"
+//! given = ["LElbowYaw"]
+//!
+//! [task]
+//! kind = "ray"
+//! direction = [1, 0, 0]
+//! ```
+//!
+//! Every key is optional; `task` and `given` are as in [`chain.toml`](mod@crate::kinematics::chain_toml).
+
+use std::path::Path;
+
+use crate::document::{Document, TEXT_LIMIT, read_text};
+use crate::kinematics::chain_toml::{read_given, read_task};
+use crate::kinematics::{Chain, ExactVector, Plane, Task};
+use crate::{Error, ErrorKind, Result};
+
+/// The name of the file in a mechanism's folder that says what is asked of the input beside it.
+pub const TASK_NAME: &str = "0_task.toml";
+
+/// Between which links of a robot a chain is wanted, and for which task.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Ends {
+    /// Where it starts; by default the root.
+    pub base: Option<String>,
+    /// Where it ends; by default the only leaf.
+    pub tip: Option<String>,
+    /// What is asked of the tip; by default what the description says.
+    pub task: Option<Task>,
+    /// The direction in the tip frame that the task aims; by default what the description says, else z.
+    pub direction: Option<ExactVector>,
+    /// The joints whose values the user gives; when empty, those that the description names.
+    pub given: Vec<String>,
+}
+
+impl Ends {
+    /// What the file at `path` asks.
+    ///
+    /// # Errors
+    /// As [`read_text`] and [`Ends::from_toml`], with the file.
+    pub fn read(path: &Path) -> Result<Ends> {
+        Ends::from_toml(&read_text(path, TEXT_LIMIT)?).map_err(|error| error.in_file(path))
+    }
+
+    /// What `text` asks.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`]; [`ErrorKind::BadValue`] for a wrong type or
+    /// value. All have a line.
+    pub fn from_toml(text: &str) -> Result<Ends> {
+        let document = Document::parse(text)?;
+        let root = document.root();
+        root.deny_unknown(&["base", "tip", "given", "task"])?;
+        let name = |key| root.optional(key).map(|node| node.text().map(str::to_owned)).transpose();
+        let mut ends = Ends { base: name("base")?, tip: name("tip")?, given: read_given(root)?, ..Ends::default() };
+        if let Some(node) = root.optional("task") {
+            let (task, direction) = read_task(node.table()?)?;
+            (ends.task, ends.direction) = (Some(task), task.aims().then_some(direction));
+        }
+        Ok(ends)
+    }
+
+    /// The text of which [`Ends::from_toml`] reads the same.
+    pub fn to_toml(&self) -> String {
+        let quoted = |text: &str| serde_json::Value::from(text).to_string();
+        let mut page = String::new();
+        for (key, name) in [("base", &self.base), ("tip", &self.tip)] {
+            page += &name.as_ref().map(|name| format!("{key} = {}\n", quoted(name))).unwrap_or_default();
+        }
+        if !self.given.is_empty() {
+            let names: Vec<String> = self.given.iter().map(|name| quoted(name)).collect();
+            page += &format!("given = [{}]\n", names.join(", "));
+        }
+        if let Some(task) = self.task {
+            let plane = task.plane().map(Plane::name).map(|plane| format!("plane = {}\n", quoted(plane)));
+            page += &format!("\n[task]\nkind = {}\n{}", quoted(task.name()), plane.unwrap_or_default());
+        }
+        if let Some(direction) = &self.direction {
+            let numbers = direction.each_ref().map(|entry| quoted(&entry.to_string()));
+            page += &format!("direction = [{}]\n", numbers.join(", "));
+        }
+        page
+    }
+
+    /// What this asks, and for the rest what `other` asks. A direction belongs to its task.
+    #[must_use]
+    pub fn or(&self, other: &Ends) -> Ends {
+        let first = |mine: &Option<String>, yours: &Option<String>| mine.clone().or_else(|| yours.clone());
+        let task = self.task.or(other.task);
+        let direction = self.direction.clone().or_else(|| other.direction.clone());
+        Ends {
+            base: first(&self.base, &other.base),
+            tip: first(&self.tip, &other.tip),
+            task,
+            direction: direction.filter(|_| self.direction.is_some() || task.is_none_or(Task::aims)),
+            given: if self.given.is_empty() { other.given.clone() } else { self.given.clone() },
+        }
+    }
+
+    /// `chain` for the task that is asked.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a direction of a task that aims none; as [`Chain::with_task`].
+    pub fn ask(&self, chain: Chain) -> Result<Chain> {
+        if self.task.is_none() && self.direction.is_none() && self.given.is_empty() {
+            return Ok(chain);
+        }
+        let task = self.task.unwrap_or(chain.task());
+        if self.direction.is_some() && !task.aims() {
+            let text =
+                format!("the task `{}` aims no direction; leave it out, or ask for `ray` or `direction`", task.name());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let direction = self.direction.clone().unwrap_or_else(|| chain.direction().clone());
+        let given = if self.given.is_empty() { chain.parts().given.clone() } else { self.given.clone() };
+        chain.with_task(task, direction, given)
+    }
+}

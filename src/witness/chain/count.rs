@@ -1,0 +1,331 @@
+//! The exact number of distinct real solutions at rational targets: [`Counter`].
+//!
+//! The equations' Groebner basis is learned once modulo a prime; for each target F4 repeats the arithmetic modulo further primes
+//! (Traverso 1988), where the minimal polynomial of a linear form of the unknowns is read off (Wiedemann 1986). Rebuilt over
+//! Q, it has as many real roots as there are real solutions when its degree is the number of all solutions (the shape lemma; Cox,
+//! Little, O'Shea, "Using Algebraic Geometry", 2.4): Descartes' rule of signs counts them.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Zero};
+
+use super::exact::{ExactChain, Reached, Value};
+use super::form::Form;
+use crate::groebner::{Basis, Trace, WordQuotient, f4};
+use crate::kinematics::Chain;
+use crate::number::{BigRational, Chinese, Zp, primes_below, reconstruct, residue};
+use crate::poly::{Monomial, Order, Polynomial, PolynomialRing, Term};
+use crate::roots::isolate_square_free;
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// Primes that a replay takes at once.
+const LANES: usize = 4;
+/// Bits of certainty of each rebuilt fraction.
+const SURPLUS: u32 = 30;
+/// Batches of primes after which a target is given up.
+const BATCHES: usize = 400;
+/// Batches of primes between two attempts to rebuild.
+const PATIENCE: usize = 4;
+/// Linear forms that are tried.
+const FORMS: u64 = 3;
+
+/// The polynomials of one target with integer coefficients: exponents of a term, and its coefficient.
+type System = Vec<Vec<(Vec<u32>, BigInt)>>;
+
+/// A basis modulo a prime with the way to it.
+struct Learned {
+    trace: Trace,
+    /// The terms of each generator, greatest first.
+    terms: Vec<Vec<Vec<u32>>>,
+    /// The monomials of each basis polynomial.
+    supports: Vec<Vec<Monomial>>,
+    /// The dimension of the quotient ring.
+    dimension: usize,
+}
+
+/// The monic minimal polynomial of a linear form modulo a prime, constant term first.
+struct Image {
+    prime: u32,
+    polynomial: Vec<u32>,
+}
+
+/// Counts the solutions of a chain's equations.
+pub(super) struct Counter {
+    exact: ExactChain,
+    names: Vec<String>,
+    /// The unknowns of each joint; `None` where it is given.
+    unknowns: Vec<Option<Value>>,
+    learned: Option<Learned>,
+}
+
+impl Counter {
+    pub fn new(chain: &Chain, given: &[usize]) -> Self {
+        let exact = ExactChain::new(chain);
+        let mut names = Vec::new();
+        let mut unknowns = Vec::new();
+        for joint in 0..exact.joints() {
+            if given.contains(&joint) {
+                unknowns.push(None);
+                continue;
+            }
+            unknowns.push(Some(exact.unknown(joint, names.len())));
+            let letters: &[&str] = if exact.turns(joint) { &["c", "s"] } else { &["d"] };
+            names.extend(letters.iter().map(|letter| format!("{letter}{}", joint + 1)));
+        }
+        Counter { exact, names, unknowns, learned: None }
+    }
+
+    /// The chain over Q.
+    pub fn chain(&self) -> &ExactChain {
+        &self.exact
+    }
+
+    /// The number of distinct real solutions with the tip where it is at the joint values `values`; `None` when there are
+    /// infinitely many, or multiple ones.
+    ///
+    /// # Errors
+    /// What `watch` stops with.
+    pub fn count(&mut self, values: &[Value], watch: &Watch) -> Result<Option<usize>> {
+        let system = self.system(values);
+        let polynomial = match self.eliminant(&system, 1, watch)? {
+            Some(polynomial) => Some(polynomial),
+            None => self.eliminant_afresh(&system, watch)?,
+        };
+        polynomial.map(|polynomial| isolate_square_free(&polynomial, watch).map(|roots| roots.len())).transpose()
+    }
+
+    /// The eliminant where the computation goes another way than that of the targets before.
+    fn eliminant_afresh(&mut self, system: &System, watch: &Watch) -> Result<Option<Vec<BigInt>>> {
+        if !self.learn(system, watch)? {
+            return Ok(None);
+        }
+        for form in 1..=FORMS {
+            if let Some(polynomial) = self.eliminant(system, form, watch)? {
+                return Ok(Some(polynomial));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The equations and the circle relations, with integer coefficients.
+    fn system(&self, values: &[Value]) -> System {
+        let reached: Reached = self.exact.reached(values);
+        let letters: Vec<Value> = self
+            .unknowns
+            .iter()
+            .zip(values)
+            .map(|(unknown, known)| unknown.as_ref().unwrap_or(known).clone())
+            .collect();
+        let equations = self.exact.equations(&reached, &letters);
+        let mut system: System = equations.iter().map(|form| self.integral(form)).collect();
+        let mut first = 0;
+        for (joint, unknown) in self.unknowns.iter().enumerate() {
+            if let Some(Value::Turn(_)) = unknown {
+                system.push(self.circle(first, self.exact.square(joint)));
+                first += 1;
+            }
+            first += usize::from(unknown.is_some());
+        }
+        system
+    }
+
+    /// The primitive multiple of an equation.
+    fn integral(&self, form: &Form) -> Vec<(Vec<u32>, BigInt)> {
+        let denominator = form.terms().fold(BigInt::one(), |lcm, (_, c)| lcm.lcm(c.denom()));
+        let exponents = |set: u32| (0..self.names.len()).map(|v| set >> v & 1).collect::<Vec<u32>>();
+        let mut terms: Vec<(Vec<u32>, BigInt)> =
+            form.terms().map(|(set, c)| (exponents(set), c.numer() * (&denominator / c.denom()))).collect();
+        let content = terms.iter().fold(BigInt::zero(), |gcd, (_, c)| gcd.gcd(c));
+        terms.iter_mut().for_each(|(_, c)| *c /= &content);
+        terms
+    }
+
+    /// `c^2 + n s^2 = 1`, where `c` has number `first`.
+    fn circle(&self, first: usize, square: &BigRational) -> Vec<(Vec<u32>, BigInt)> {
+        let power = |v: Option<usize>| (0..self.names.len()).map(|w| if v == Some(w) { 2 } else { 0 }).collect();
+        let (n, d) = (square.numer().clone(), square.denom().clone());
+        vec![(power(Some(first)), d.clone()), (power(Some(first + 1)), n), (power(None), -d)]
+    }
+
+    fn ring(&self, prime: u32) -> Result<PolynomialRing<Zp>> {
+        PolynomialRing::new(Zp::new(u64::from(prime))?, &self.names, Order::GrevLex)
+    }
+
+    fn image(&self, system: &System, prime: u32) -> Result<(PolynomialRing<Zp>, Vec<Polynomial<u64>>)> {
+        let ring = self.ring(prime)?;
+        let mut generators = Vec::with_capacity(system.len());
+        for polynomial in system {
+            let mut terms = Vec::with_capacity(polynomial.len());
+            for (exponents, c) in polynomial {
+                terms.push(Term { coefficient: u64::from(residue(c, prime)), monomial: ring.monomial(exponents)? });
+            }
+            generators.push(ring.collect(terms));
+        }
+        Ok((ring, generators))
+    }
+
+    /// Learns the way to the basis at a target; whether there are finitely many solutions.
+    fn learn(&mut self, system: &System, watch: &Watch) -> Result<bool> {
+        let prime = primes().next().ok_or_else(no_primes)?;
+        let (ring, generators) = self.image(system, prime)?;
+        let (basis, trace) = Trace::learn(&ring, &generators, watch)?;
+        if basis.require_zero_dimensional().is_err() {
+            return Ok(false);
+        }
+        let exponents = |f: &Polynomial<u64>| f.terms().iter().map(|t| ring.layout().exponents(&t.monomial)).collect();
+        let support = |f: &Polynomial<u64>| f.terms().iter().map(|term| term.monomial.clone()).collect();
+        let dimension = WordQuotient::new(&basis, watch)?.dimension();
+        self.learned = Some(Learned {
+            trace,
+            terms: generators.iter().map(exponents).collect(),
+            supports: basis.polynomials.iter().map(support).collect(),
+            dimension,
+        });
+        Ok(true)
+    }
+
+    /// The minimal polynomial over Z of linear form number `form`; `None` when nothing is learned, the target goes another way than
+    /// the learned one, or the form takes a value twice.
+    fn eliminant(&self, system: &System, form: u64, watch: &Watch) -> Result<Option<Vec<BigInt>>> {
+        let Some(learned) = &self.learned else { return Ok(None) };
+        let Some(lanes) = lanes(system, &learned.terms) else { return Ok(None) };
+        let mut images: Vec<Image> = Vec::new();
+        let mut primes = primes().skip(1);
+        for batch in 1..=BATCHES {
+            let mut moduli = [0; LANES];
+            for p in &mut moduli {
+                *p = primes.next().ok_or_else(no_primes)?;
+            }
+            images.extend(self.images(learned, &lanes, moduli, form, watch)?);
+            if batch == 1 && !self.confirms(system, learned, images.first(), form, watch)? {
+                return Ok(None);
+            }
+            if batch % PATIENCE == 0
+                && let Some(polynomial) = rebuilt(&images)?
+            {
+                return Ok(Some(polynomial));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The minimal polynomials modulo several primes, by the learned way; less those that go another.
+    fn images(
+        &self,
+        learned: &Learned,
+        lanes: &[Vec<BigInt>],
+        moduli: [u32; LANES],
+        form: u64,
+        watch: &Watch,
+    ) -> Result<Vec<Image>> {
+        let row = |f: &Vec<BigInt>| f.iter().map(|c| moduli.map(|p| residue(c, p))).collect();
+        let coefficients: Vec<Vec<[u32; LANES]>> = lanes.iter().map(row).collect();
+        let mut images = Vec::with_capacity(LANES);
+        for (prime, rows) in moduli.into_iter().zip(learned.trace.replay(moduli, &coefficients, watch)?) {
+            let Some(rows) = rows else { continue };
+            let basis = learned.basis(self.ring(prime)?, &rows);
+            let minimal = self.minimal_polynomial(&basis, learned.dimension, form, watch)?;
+            images.extend(minimal.map(|polynomial| Image { prime, polynomial }));
+        }
+        Ok(images)
+    }
+
+    /// Whether F4 without the learned way comes to the same polynomial.
+    fn confirms(
+        &self,
+        system: &System,
+        learned: &Learned,
+        image: Option<&Image>,
+        form: u64,
+        watch: &Watch,
+    ) -> Result<bool> {
+        let Some(Image { prime, polynomial }) = image else { return Ok(false) };
+        let (ring, generators) = self.image(system, *prime)?;
+        let basis = f4(&ring, &generators, watch)?;
+        if basis.require_zero_dimensional().is_err() {
+            return Ok(false);
+        }
+        let afresh = self.minimal_polynomial(&basis, learned.dimension, form, watch)?;
+        Ok(afresh.as_ref() == Some(polynomial))
+    }
+
+    /// The minimal polynomial of a linear form, constant term first; `None` when its degree is not `dimension`.
+    fn minimal_polynomial(
+        &self,
+        basis: &Basis<Zp>,
+        dimension: usize,
+        form: u64,
+        watch: &Watch,
+    ) -> Result<Option<Vec<u32>>> {
+        let ring = &basis.ring;
+        let quotient = WordQuotient::new(basis, watch)?;
+        let weighted = |v: usize| ring.scale(&ring.variable(v), &(form * (v * v) as u64 + 1));
+        let terms = (0..self.names.len()).flat_map(|v| weighted(v).terms().to_vec());
+        let minimal = quotient.minimal_polynomial(&ring.collect(terms), watch)?.coefficients;
+        let full = quotient.dimension() == dimension && minimal.len() == dimension + 1;
+        Ok(full.then(|| minimal.into_iter().map(|c| c as u32).collect()))
+    }
+}
+
+impl Learned {
+    /// The basis with these coefficients.
+    fn basis(&self, ring: PolynomialRing<Zp>, rows: &[Vec<u32>]) -> Basis<Zp> {
+        let row = |(support, row): (&Vec<Monomial>, &Vec<u32>)| {
+            let terms = support.iter().zip(row);
+            ring.collect(terms.map(|(m, &c)| Term { coefficient: u64::from(c), monomial: m.clone() }))
+        };
+        let polynomials = self.supports.iter().zip(rows).map(row).collect();
+        Basis { ring, polynomials, cofactors: Vec::new() }
+    }
+}
+
+fn primes() -> impl Iterator<Item = u32> {
+    primes_below(1 << 31).map(|p| p as u32)
+}
+
+fn no_primes() -> Error {
+    Error::new(ErrorKind::Budget, "no primes below 2^31 are left")
+}
+
+/// The coefficients of the learned terms; `None` when a polynomial has others.
+fn lanes(system: &System, terms: &[Vec<Vec<u32>>]) -> Option<Vec<Vec<BigInt>>> {
+    if system.len() != terms.len() {
+        return None;
+    }
+    let row = |(polynomial, terms): (&Vec<(Vec<u32>, BigInt)>, &Vec<Vec<u32>>)| {
+        let known = polynomial.iter().all(|(exponents, _)| terms.contains(exponents));
+        let find = |wanted: &Vec<u32>| polynomial.iter().find(|(exponents, _)| exponents == wanted);
+        let value = |wanted: &Vec<u32>| find(wanted).map_or_else(BigInt::zero, |(_, c)| c.clone());
+        known.then(|| terms.iter().map(value).collect())
+    };
+    system.iter().zip(terms).map(row).collect()
+}
+
+/// The integer polynomial whose monic images are given, rebuilt from all but the last, which confirms it.
+fn rebuilt(images: &[Image]) -> Result<Option<Vec<BigInt>>> {
+    let Some((last, used)) = images.split_last() else { return Ok(None) };
+    let primes: Vec<u32> = used.iter().map(|image| image.prime).collect();
+    let chinese = Chinese::new(&primes)?;
+    let mut denominator = BigInt::one();
+    let mut coefficients: Vec<BigRational> = Vec::with_capacity(last.polynomial.len());
+    for k in 0..last.polynomial.len() {
+        let residues: Vec<u32> = used.iter().map(|image| image.polynomial[k]).collect();
+        let multiple = chinese.lift(&residues, &chinese.factors_times(&denominator));
+        let Some(fraction) = reconstruct(&multiple, chinese.modulus(), SURPLUS) else { return Ok(None) };
+        let value = fraction / &denominator;
+        denominator = denominator.lcm(value.denom());
+        coefficients.push(value);
+    }
+    let whole: Vec<BigInt> = coefficients.iter().map(|c| c.numer() * (&denominator / c.denom())).collect();
+    Ok(last.agrees(&whole, &denominator).then_some(whole))
+}
+
+impl Image {
+    /// Whether this is the image of `polynomial` divided by `lead`.
+    fn agrees(&self, polynomial: &[BigInt], lead: &BigInt) -> bool {
+        let p = u64::from(self.prime);
+        let lead = u64::from(residue(lead, self.prime));
+        let same = |(c, &image): (&BigInt, &u32)| u64::from(residue(c, self.prime)) == u64::from(image) * lead % p;
+        polynomial.iter().zip(&self.polynomial).all(same)
+    }
+}

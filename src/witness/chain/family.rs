@@ -1,0 +1,126 @@
+//! One-parameter families of solutions at singular targets: whether there is one, and whether a path in it leads to an answer.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::model::{Model, RESIDUAL};
+use super::singular::{least_squares, null_vector};
+
+/// A family's own configurations are at most this ordinary.
+const SINGULAR: f64 = 1e-12;
+/// How far along the null vector a family is looked for.
+const PROBE: f64 = 0.05;
+/// The residual of a member of a family, after correction.
+const MEMBER: f64 = 1e-12;
+/// Steps \[rad, or reaches\] of a path.
+const STEP: f64 = 0.2;
+/// Corrections of one member at most.
+const CORRECTIONS: usize = 20;
+/// Singular values below this share of the largest are taken as zero.
+const RANK: f64 = 1e-8;
+/// A way between two joint vectors bends by at most this share of its length, or of the square of its length when that is more.
+const STRAIGHT: f64 = 1e-2;
+/// How near a path must come to the answer it leads to.
+const ARRIVED: f64 = 1e-6;
+
+impl Model<'_> {
+    /// Whether `q` is one of a curve of joint vectors with the same target.
+    pub fn is_in_family(&self, target: &[f64], q: &[f64]) -> bool {
+        if self.sigma(q) > SINGULAR {
+            return false;
+        }
+        let Some(tangent) = null_vector(self.jacobian(q)) else { return false };
+        let mut moved = q.to_vec();
+        for (&joint, share) in self.unknown.iter().zip(tangent.iter()) {
+            moved[joint] += PROBE * share * self.unit(joint);
+        }
+        let across = |_: &[f64]| DMatrix::from_row_slice(1, tangent.len(), tangent.as_slice());
+        self.corrected(target, moved, &self.unknown, &across, MEMBER).is_some()
+    }
+
+    /// Whether joint vectors next to the straight way from `a` to `b` reach the target.
+    pub fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        let none = |_: &[f64]| DMatrix::zeros(0, self.unknown.len());
+        let width = self.distance(a, b);
+        [0.25, 0.5, 0.75].iter().all(|share| {
+            let point = |joint: usize| a[joint] + share * self.difference(joint, b[joint], a[joint]);
+            let between: Vec<f64> = (0..a.len()).map(point).collect();
+            let found = self.corrected(target, between.clone(), &self.unknown, &none, RESIDUAL);
+            found.is_some_and(|found| self.distance(&found, &between) <= width * width.max(STRAIGHT))
+        })
+    }
+
+    /// Whether the free joints of `answer` can be led from their values in `q` to those in `answer`, either way round, while the
+    /// others keep the tip at the target and end at the answer.
+    pub fn leads_to(&self, target: &[f64], q: &[f64], answer: &[f64], free: &[usize]) -> bool {
+        let short: Vec<f64> = free.iter().map(|&joint| self.difference(joint, answer[joint], q[joint])).collect();
+        let round = |(way, &joint): (&f64, &usize)| {
+            if self.turns(joint) { way - std::f64::consts::TAU.copysign(*way) } else { *way }
+        };
+        let long: Vec<f64> = short.iter().zip(free).map(round).collect();
+        [short, long]
+            .iter()
+            .any(|way| self.led(target, q, free, way).is_some_and(|end| self.distance(&end, answer) <= ARRIVED))
+    }
+
+    /// The end of the path on which the free joints go `way`.
+    fn led(&self, target: &[f64], q: &[f64], free: &[usize], way: &[f64]) -> Option<Vec<f64>> {
+        let others: Vec<usize> = self.unknown.iter().copied().filter(|joint| !free.contains(joint)).collect();
+        let units = free.iter().map(|&joint| self.unit(joint));
+        let longest = way.iter().zip(units).map(|(way, unit)| way.abs() / unit).fold(0.0, f64::max);
+        let steps = (longest / STEP).ceil().max(1.0);
+        let none = |_: &[f64]| DMatrix::zeros(0, others.len());
+        (1..=steps as usize).try_fold(q.to_vec(), |mut at, step| {
+            for (&joint, way) in free.iter().zip(way) {
+                at[joint] = q[joint] + way * step as f64 / steps;
+            }
+            self.corrected(target, at, &others, &none, MEMBER)
+        })
+    }
+
+    /// The member next to `q` with all but the joints `moving` held, by Gauss-Newton; `across` gives directions (rows, one column
+    /// a moving joint) in which it must not go.
+    fn corrected(
+        &self,
+        target: &[f64],
+        mut q: Vec<f64>,
+        moving: &[usize],
+        across: &dyn Fn(&[f64]) -> DMatrix<f64>,
+        tolerance: f64,
+    ) -> Option<Vec<f64>> {
+        let fixed = across(&q);
+        for _ in 0..CORRECTIONS {
+            if self.residual(target, &q) <= tolerance {
+                break;
+            }
+            let slopes = self.slopes(target, &q, moving);
+            let rows = slopes.nrows();
+            let mut system = slopes.insert_rows(rows, fixed.nrows(), 0.0);
+            system.rows_mut(rows, fixed.nrows()).copy_from(&fixed);
+            let mut missed = DVector::from_vec(self.misses(target, &q));
+            missed = missed.insert_rows(rows, fixed.nrows(), 0.0);
+            let step = least_squares(system, &missed, RANK)?;
+            for (&joint, step) in moving.iter().zip(step.iter()) {
+                q[joint] -= step * self.unit(joint);
+            }
+        }
+        (self.residual(target, &q) <= tolerance).then_some(q)
+    }
+
+    /// Central differences of the misses by the joints `moving` in their units.
+    fn slopes(&self, target: &[f64], q: &[f64], moving: &[usize]) -> DMatrix<f64> {
+        let width = f64::EPSILON.cbrt();
+        let column = |&joint: &usize| {
+            let moved = |by: f64| {
+                let mut q = q.to_vec();
+                q[joint] += by * self.unit(joint);
+                DVector::from_vec(self.misses(target, &q))
+            };
+            (moved(width) - moved(-width)) / (2.0 * width)
+        };
+        let columns: Vec<DVector<f64>> = moving.iter().map(column).collect();
+        if columns.is_empty() {
+            return DMatrix::zeros(self.misses(target, q).len(), 0);
+        }
+        DMatrix::from_columns(&columns)
+    }
+}

@@ -1,0 +1,286 @@
+//! The check of a chain's solver by witnesses that share nothing with it: forward kinematics of the chain, joint values that made
+//! the target, the exact number of real solutions, the screw solver, a numeric oracle. Main type: [`Check`].
+//!
+//! What counts as an answer, a match and an ordinary configuration: lengths in reaches, angles in radians; see
+//! [`Fault`] for what can be wrong.
+
+mod count;
+mod exact;
+mod family;
+mod form;
+mod given;
+mod model;
+mod rational;
+mod singular;
+mod targets;
+
+use super::report::{Fault, Kind, Report, Row, Verdict};
+use super::screws::Screws;
+use super::{DUPLICATE, ORACLE, Options, SEEDS, SINGULAR, TIE};
+use crate::kinematics::Chain;
+use crate::kinematics::oracle::{Oracle, Unknown};
+use crate::solver::{Program, Solution};
+use crate::{ErrorKind, Result, Watch};
+use model::{EXACT, Model, ORDINARY, RESIDUAL};
+use rational::Rationals;
+use targets::{Target, Targets};
+
+/// Rows at which the screw solver is asked about a chain with given joints.
+const GIVEN: usize = 60;
+
+/// What is checked: anything that solves targets given as numbers.
+///
+/// Inputs stand in the order of a derived program: position, then rotation by rows or direction, then the given joints.
+pub trait Solver {
+    /// All joint vectors of the target, with or without the given joints.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] where the solver says that it has a gap; anything else ends the check.
+    fn solve(&self, inputs: &[f64]) -> Result<Vec<Solution>>;
+}
+
+impl Solver for Program {
+    fn solve(&self, inputs: &[f64]) -> Result<Vec<Solution>> {
+        Program::solve(self, inputs)
+    }
+}
+
+/// The screw solver of a chain, as one to be checked.
+pub struct ByScrews(Screws);
+
+impl ByScrews {
+    /// `None` for a chain that screw theory does not solve.
+    pub fn new(chain: &Chain) -> Option<Self> {
+        Screws::new(chain).map(ByScrews)
+    }
+}
+
+impl Solver for ByScrews {
+    fn solve(&self, inputs: &[f64]) -> Result<Vec<Solution>> {
+        self.0.solve(inputs)
+    }
+}
+
+/// The checks of one solver of a chain.
+pub struct Check<'a> {
+    model: &'a Model<'a>,
+    solver: &'a dyn Solver,
+    bound: Option<usize>,
+    screws: Option<Screws>,
+    rationals: Rationals,
+    options: Options,
+    watch: &'a Watch,
+}
+
+impl<'a> Check<'a> {
+    /// Checks `solver`, which is for `chain` and its task, at targets of all kinds; `bound` is the certified number of complex
+    /// solutions, if it is known. Of the random targets the first [`Options::exact`] come from rational joint values, where solutions
+    /// are counted exactly.
+    ///
+    /// # Errors
+    /// Those of the solver but for gaps; what `watch` stops with. Failed checks are in the report.
+    pub fn run(
+        chain: &Chain,
+        solver: &dyn Solver,
+        bound: Option<usize>,
+        options: &Options,
+        watch: &Watch,
+    ) -> Result<Report> {
+        let model = Model::new(chain);
+        let screws = Screws::new(chain);
+        let rationals = Rationals::new(&model, options.seed);
+        let mut check = Check { model: &model, solver, bound, screws, rationals, options: *options, watch };
+        let mut targets = Targets::new(&model, options.seed);
+        let mut rows = Vec::with_capacity(options.targets);
+        for number in 0..options.targets {
+            watch.check()?;
+            watch.report("check", number, options.targets - number);
+            rows.push(check.row(number, targets.draw(number))?);
+        }
+        Ok(Report {
+            inputs: model.input_names(),
+            joints: chain.joints().iter().map(|joint| joint.name.clone()).collect(),
+            rows,
+        })
+    }
+
+    fn row(&mut self, number: usize, target: Target) -> Result<Row> {
+        let (target, exact) = self.rationals.in_place_of(self.model, target, self.options.exact, self.watch)?;
+        let Target { kind, inputs, joints } = target;
+        let answers = match self.solver.solve(&inputs) {
+            Ok(answers) => Some(answers),
+            Err(error) if error.kind() == ErrorKind::Unsupported => None,
+            Err(error) => return Err(error.with_context(format!("row {}, {kind}", number + 1))),
+        };
+        let mut row = Row {
+            number: number + 1,
+            kind,
+            target: inputs,
+            joints,
+            solutions: answers.as_ref().map_or(0, Vec::len),
+            exact,
+            screw: None,
+            oracle: None,
+            worst_residual: None,
+            nearest: None,
+            verdict: Verdict::Open,
+        };
+        if let Some(answers) = answers {
+            let complete = |answer: Solution| self.model.completed(&row.target, answer);
+            let answers: Vec<Solution> = answers.into_iter().map(complete).collect();
+            let faults = self.faults(number, &mut row, &answers)?;
+            row.verdict = if faults.is_empty() { Verdict::Pass } else { Verdict::Fail(faults) };
+        }
+        Ok(row)
+    }
+
+    fn faults(&self, number: usize, row: &mut Row, answers: &[Solution]) -> Result<Vec<Fault>> {
+        let mut faults = self.each(row, answers);
+        if faults.contains(&Fault::Range) {
+            return Ok(faults);
+        }
+        faults.extend(self.together(answers));
+        faults.extend(self.known(row, answers));
+        let wrong = row.exact.is_some_and(|exact| exact != answers.len()) && !self.is_tie(row, answers);
+        faults.extend(wrong.then_some(Fault::Count));
+        if let Some(others) = self.by_screws(number, &row.target)? {
+            row.screw = Some(others.len());
+            faults.extend((!self.agrees(&row.target, answers, &others)).then_some(Fault::Screw));
+        }
+        if number < self.options.oracle {
+            let (count, agrees) = self.oracle(&row.target, answers)?;
+            row.oracle = Some(count);
+            faults.extend((!agrees).then_some(Fault::Oracle));
+        }
+        Ok(faults)
+    }
+
+    /// The screw solver's answers; with given joints only at the first rows, since every target is a new chain then.
+    fn by_screws(&self, number: usize, target: &[f64]) -> Result<Option<Vec<Solution>>> {
+        match &self.screws {
+            Some(screws) => screws.solve(target).map(Some),
+            None if number < GIVEN && !self.model.given.is_empty() => Ok(given::solve(self.model, target)),
+            None => Ok(None),
+        }
+    }
+
+    /// Checks each answer by itself, and records the worst residual.
+    fn each(&self, row: &mut Row, answers: &[Solution]) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        let mut add = |wrong: bool, fault: Fault| {
+            if wrong && !faults.contains(&fault) {
+                faults.push(fault);
+            }
+        };
+        for answer in answers {
+            if !self.model.is_well_formed(&answer.q) {
+                add(true, Fault::Range);
+                continue;
+            }
+            let residual = self.model.residual(&row.target, &answer.q);
+            row.worst_residual = Some(row.worst_residual.map_or(residual, |worst| worst.max(residual)));
+            add(residual > RESIDUAL, Fault::Residual);
+            add(!answer.free.is_empty() && self.model.sigma(&answer.q) > SINGULAR, Fault::Free);
+        }
+        faults
+    }
+
+    /// Checks the answers as a set.
+    fn together(&self, answers: &[Solution]) -> Vec<Fault> {
+        let twice = |(index, a): (usize, &Solution)| {
+            answers[..index].iter().any(|b| self.model.distance(&a.q, &b.q) <= DUPLICATE)
+        };
+        let duplicate = answers.iter().enumerate().any(twice).then_some(Fault::Duplicate);
+        // A family may be told by several of its members.
+        let single = answers.iter().filter(|answer| answer.free.is_empty()).count();
+        let bound = self.bound.is_some_and(|bound| single > bound).then_some(Fault::Bound);
+        duplicate.into_iter().chain(bound).collect()
+    }
+
+    /// Whether the joint values that made the target are among the answers, and told as a family where they are of one.
+    fn known(&self, row: &mut Row, answers: &[Solution]) -> Option<Fault> {
+        let (q, target) = (row.joints.as_ref()?, &row.target);
+        let standing: Vec<&Solution> = answers.iter().filter(|answer| self.stands_for(target, answer, q)).collect();
+        let gap = |answer: &Solution| self.model.distance(q, &answer.q);
+        let single = answers.iter().filter(|answer| answer.free.is_empty()).map(gap).reduce(f64::min);
+        if standing.iter().any(|answer| !answer.free.is_empty()) {
+            return None;
+        }
+        row.nearest = single;
+        if self.model.is_in_family(target, q) {
+            return Some(Fault::Family);
+        }
+        standing.is_empty().then_some(Fault::Missing)
+    }
+
+    /// Whether `q` is `answer`, or of the family that it stands for.
+    fn stands_for(&self, target: &[f64], answer: &Solution, q: &[f64]) -> bool {
+        if self.model.matches(target, q, &answer.q) {
+            return true;
+        }
+        !answer.free.is_empty() && self.model.leads_to(target, q, &answer.q, &answer.free)
+    }
+
+    /// Whether the number of answers hangs on rounding.
+    fn is_tie(&self, row: &Row, answers: &[Solution]) -> bool {
+        let known = answers.iter().map(|answer| answer.q.as_slice()).chain(row.joints.as_deref());
+        known.into_iter().any(|q| self.model.sigma(q) <= TIE)
+    }
+
+    /// Whether each answer of the screw solver has its match among ours, and each ordinary one of ours among its. Answers that hold
+    /// within a solver's tolerance only, out of reach by less than that, may be missing on the other side; next to singular
+    /// configurations the screw solver loses answers, and one that it lacks is judged by forward kinematics alone.
+    fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
+        let covers = |some: &[Solution], answer: &Solution| {
+            let sure = self.model.residual(target, &answer.q) <= EXACT;
+            !sure || some.iter().any(|other| self.stands_for(target, other, &answer.q))
+        };
+        let ours = |answer: &Solution| self.model.sigma(&answer.q) <= ORDINARY || covers(others, answer);
+        answers.iter().all(ours) && others.iter().all(|other| covers(answers, other))
+    }
+
+    /// The number of the oracle's answers, and whether its ordinary ones are ours.
+    fn oracle(&self, target: &[f64], answers: &[Solution]) -> Result<(usize, bool)> {
+        let mut verdict = (0, false);
+        for seeds in SEEDS {
+            let found = self.search(target, seeds)?;
+            verdict = (found.len(), self.agrees_with_search(answers, &found));
+            if verdict.1 {
+                break;
+            }
+        }
+        Ok(verdict)
+    }
+
+    /// The oracle's joint vectors.
+    fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>> {
+        let model = self.model;
+        let unknown = |&joint: &usize| match model.turns(joint) {
+            true => Unknown::Angle,
+            false => Unknown::Displacement { low: -1.5 * model.length, high: 1.5 * model.length },
+        };
+        let unknowns: Vec<Unknown> = model.unknown.iter().map(unknown).collect();
+        let whole = |values: &[f64]| {
+            let part = Solution { q: values.to_vec(), residual: 0.0, branch: 0, free: Vec::new(), chosen: false };
+            model.completed(target, part).q
+        };
+        let oracle = Oracle { seeds, ..Oracle::default() };
+        let found = oracle.search(&unknowns, |values| model.misses(target, &whole(values)))?;
+        Ok(found.iter().map(|answer| whole(&answer.q)).collect())
+    }
+
+    fn agrees_with_search(&self, answers: &[Solution], found: &[Vec<f64>]) -> bool {
+        let ordinary = |q: &[f64]| self.model.sigma(q) > ORDINARY;
+        let near = |a: &[f64], b: &[f64]| self.model.distance(a, b) <= ORACLE;
+        let ours = |q: &Vec<f64>| !ordinary(q) || answers.iter().any(|answer| near(q, &answer.q));
+        let theirs = |answer: &Solution| !ordinary(&answer.q) || found.iter().any(|q| near(q, &answer.q));
+        found.iter().all(ours) && answers.iter().all(theirs)
+    }
+}
+
+/// The exact number of distinct real solutions with the tip where rational joint values bring it, and these.
+pub use rational::{Counted, count_exactly};
+
+fn is_random(kind: &Kind) -> bool {
+    *kind == Kind::Random
+}

@@ -1,0 +1,242 @@
+//! A chain and its task in floating point: what every check measures by. Only forward kinematics is used here.
+
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, Vector3};
+
+use super::singular::smallest_singular_value;
+use crate::kinematics::{Chain, JointKind, Task};
+use crate::solver::Solution;
+use crate::spatial::{Pose, Screw, angle};
+
+/// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].
+pub(super) const RESIDUAL: f64 = 1e-11;
+/// A joint vector that misses by no more is a solution beyond doubt.
+pub(super) const EXACT: f64 = 1e-13;
+/// A joint vector is ordinary when the smallest singular value of the scaled Jacobian exceeds this.
+pub(super) const ORDINARY: f64 = 1e-3;
+
+/// The chain, its task, and which of its joints are unknown.
+pub(super) struct Model<'a> {
+    pub chain: &'a Chain,
+    /// The reach, or one for a chain that only turns its tip.
+    pub length: f64,
+    /// The joints that are asked for.
+    pub unknown: Vec<usize>,
+    /// The joints whose values are given.
+    pub given: Vec<usize>,
+}
+
+impl<'a> Model<'a> {
+    pub fn new(chain: &'a Chain) -> Self {
+        let given = chain.given();
+        let unknown = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
+        let reach = chain.reach();
+        Model { chain, length: if reach > 0.0 { reach } else { 1.0 }, unknown, given }
+    }
+
+    /// Whether joint `index` turns.
+    pub fn turns(&self, index: usize) -> bool {
+        self.chain.joints()[index].kind == JointKind::Revolute
+    }
+
+    /// The names of a target's numbers: those of the task, then those of the given joints.
+    pub fn input_names(&self) -> Vec<String> {
+        let letters = ["x", "y", "z"];
+        let position = |axes: &[usize]| axes.iter().map(|&axis| format!("p{}", letters[axis])).collect::<Vec<_>>();
+        let aim = letters.map(|letter| format!("d{letter}")).to_vec();
+        let rotation = (0..9).map(|k| format!("r{}{}", k / 3 + 1, k % 3 + 1)).collect();
+        let mut names = match self.chain.task() {
+            Task::Position => position(&[0, 1, 2]),
+            Task::PlanarPosition { plane } => position(&plane.coordinates()),
+            Task::PlanarPose { plane } => [position(&plane.coordinates()), vec!["phi".to_owned()]].concat(),
+            Task::Pose => [position(&[0, 1, 2]), rotation].concat(),
+            Task::Ray => [position(&[0, 1, 2]), aim].concat(),
+            Task::Direction => aim,
+            Task::Rotation => rotation,
+        };
+        names.extend(self.given.iter().map(|&joint| self.chain.joints()[joint].name.clone()));
+        names
+    }
+
+    /// The number of a target's numbers that are lengths, all in front.
+    pub fn lengths(&self) -> usize {
+        match self.chain.task() {
+            Task::Position | Task::Pose | Task::Ray => 3,
+            Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
+            Task::Direction | Task::Rotation => 0,
+        }
+    }
+
+    /// The target that joint values reach, as the numbers that a program takes.
+    pub fn target(&self, q: &[f64]) -> Vec<f64> {
+        let mut target = self.seen(&self.forward(q));
+        target.extend(self.given.iter().map(|&joint| q[joint]));
+        target
+    }
+
+    pub fn forward(&self, q: &[f64]) -> Pose {
+        let steps = self.chain.screws().iter().zip(q).rev();
+        steps.fold(self.chain.base_from_tip(), |pose, (screw, &q)| screw.exp(q) * pose)
+    }
+
+    /// What the task sees of a pose.
+    pub fn seen(&self, pose: &Pose) -> Vec<f64> {
+        let tip = pose.translation.vector;
+        let matrix = pose.rotation.to_rotation_matrix();
+        let rotation = || (0..9).map(|k| matrix[(k / 3, k % 3)]).collect::<Vec<f64>>();
+        let aim = || (pose.rotation * self.chain.aim().into_inner()).iter().copied().collect::<Vec<f64>>();
+        let point = tip.as_slice().to_vec();
+        match self.chain.task() {
+            Task::Position => point,
+            Task::PlanarPosition { plane } => plane.coordinates().map(|axis| tip[axis]).to_vec(),
+            Task::PlanarPose { plane } => {
+                let turn = pose.rotation * self.chain.base_from_tip().rotation.inverse();
+                let phi = 2.0 * turn.imag()[plane.normal()].atan2(turn.scalar());
+                let [x, y] = plane.coordinates().map(|axis| tip[axis]);
+                vec![x, y, angle::wrap(phi)]
+            }
+            Task::Pose => [point, rotation()].concat(),
+            Task::Ray => [point, aim()].concat(),
+            Task::Direction => aim(),
+            Task::Rotation => rotation(),
+        }
+    }
+
+    /// By how much joint values miss each number of a target: shares of the reach, then plain numbers or radians.
+    pub fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
+        let seen = self.seen(&self.forward(q));
+        let size = self.size(q);
+        let planar = matches!(self.chain.task(), Task::PlanarPose { .. });
+        let miss = |(index, (seen, wanted)): (usize, (&f64, &f64))| match index {
+            index if index < self.lengths() => (seen - wanted) / size,
+            2 if planar => angle::difference(*seen, *wanted),
+            _ => seen - wanted,
+        };
+        seen.iter().zip(target).enumerate().map(miss).collect()
+    }
+
+    /// The reach with the slides of `q` added.
+    fn size(&self, q: &[f64]) -> f64 {
+        let slides = q.iter().enumerate().filter(|(joint, _)| !self.turns(*joint));
+        self.length + slides.map(|(_, q)| q.abs()).sum::<f64>()
+    }
+
+    /// The residual of joint values: the larger of the position's share of the reach and the angle of the orientation \[rad\].
+    pub fn residual(&self, target: &[f64], q: &[f64]) -> f64 {
+        let misses = self.misses(target, q);
+        let (position, turn) = misses.split_at(self.lengths());
+        let norm = |part: &[f64]| part.iter().map(|miss| miss * miss).sum::<f64>().sqrt();
+        // A small turn by an angle moves the nine entries of a matrix by its root of two in all.
+        let whole = matches!(self.chain.task(), Task::Pose | Task::Rotation);
+        let turn = norm(turn) / if whole { 2.0_f64.sqrt() } else { 1.0 };
+        let worst = norm(position).max(turn);
+        if worst.is_nan() { f64::INFINITY } else { worst }
+    }
+
+    /// The derivative of what the task sees, by the unknown joints: lengths in reaches, angles in radians. As many rows as the
+    /// task has freedoms.
+    pub fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
+        let pose = self.forward(q);
+        let tip = pose.translation.vector;
+        let aim = pose.rotation * self.chain.aim().into_inner();
+        let mut before = Pose::identity();
+        let mut columns = Vec::new();
+        for (joint, (screw, &value)) in self.chain.screws().iter().zip(q).enumerate() {
+            if !self.given.contains(&joint) {
+                let (v, w) = match screw.moved(&before) {
+                    Screw::Revolute(axis) => {
+                        let w = axis.direction().into_inner();
+                        (w.cross(&(tip - axis.point().coords)) / self.length, w)
+                    }
+                    Screw::Prismatic(direction) => (direction.into_inner(), Vector3::zeros()),
+                };
+                columns.extend(self.rows(&v, &w, &aim));
+            }
+            before *= screw.exp(value);
+        }
+        DMatrix::from_vec(self.chain.task().freedoms(), self.unknown.len(), columns)
+    }
+
+    /// What the task sees of a twist of the tip.
+    fn rows(&self, v: &Vector3<f64>, w: &Vector3<f64>, aim: &Vector3<f64>) -> Vec<f64> {
+        let across = || {
+            let [first, second] = across(aim);
+            let turned = w.cross(aim);
+            vec![turned.dot(&first), turned.dot(&second)]
+        };
+        match self.chain.task() {
+            Task::Position => v.as_slice().to_vec(),
+            Task::PlanarPosition { plane } => plane.coordinates().map(|axis| v[axis]).to_vec(),
+            Task::PlanarPose { plane } => {
+                [plane.coordinates().map(|axis| v[axis]).to_vec(), vec![w[plane.normal()]]].concat()
+            }
+            Task::Pose => [v.as_slice(), w.as_slice()].concat(),
+            Task::Ray => [v.as_slice().to_vec(), across()].concat(),
+            Task::Direction => across(),
+            Task::Rotation => w.as_slice().to_vec(),
+        }
+    }
+
+    /// The smallest singular value of the Jacobian.
+    pub fn sigma(&self, q: &[f64]) -> f64 {
+        smallest_singular_value(self.jacobian(q))
+    }
+
+    /// The largest difference of two joint vectors: radians, or shares of the reach.
+    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let one = |&joint: &usize| self.difference(joint, a[joint], b[joint]).abs() / self.unit(joint);
+        self.unknown.iter().map(one).fold(0.0, f64::max)
+    }
+
+    /// One radian, or the reach.
+    pub fn unit(&self, joint: usize) -> f64 {
+        if self.turns(joint) { 1.0 } else { self.length }
+    }
+
+    /// `a - b`, of angles the way round that is shorter.
+    pub fn difference(&self, joint: usize, a: f64, b: f64) -> f64 {
+        if self.turns(joint) { angle::difference(a, b) } else { a - b }
+    }
+
+    /// Whether `b` is the same answer as `a`: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), and then
+    /// a path must lead from one to the other that reaches the target all the way.
+    pub fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        let (distance, sigma) = (self.distance(a, b), self.sigma(a));
+        if sigma > ORDINARY {
+            return distance <= 1e-9;
+        }
+        distance <= (1e-13 / sigma).max(1e-7) && self.is_joined(target, a, b)
+    }
+
+    /// `q` with every angle in (-pi, pi].
+    pub fn wrapped(&self, q: &[f64]) -> Vec<f64> {
+        let wrap = |(joint, q): (usize, &f64)| if self.turns(joint) { angle::wrap(*q) } else { *q };
+        q.iter().enumerate().map(wrap).collect()
+    }
+
+    /// Whether `q` has a finite value for each joint, angles in (-pi, pi].
+    pub fn is_well_formed(&self, q: &[f64]) -> bool {
+        let allowed = |(joint, q): (usize, &f64)| q.is_finite() && (!self.turns(joint) || (-PI < *q && *q <= PI));
+        q.len() == self.chain.joints().len() && q.iter().enumerate().all(allowed)
+    }
+
+    /// An answer with the values of all joints, the given ones taken from the target, in the chain's numbering.
+    pub fn completed(&self, target: &[f64], answer: Solution) -> Solution {
+        if answer.q.len() != self.unknown.len() || self.given.is_empty() {
+            return answer;
+        }
+        let mut q = vec![0.0; self.chain.joints().len()];
+        let values = &target[target.len() - self.given.len()..];
+        self.given.iter().zip(values).for_each(|(&joint, &value)| q[joint] = value);
+        self.unknown.iter().zip(&answer.q).for_each(|(&joint, &value)| q[joint] = value);
+        let free = answer.free.iter().map(|&place| self.unknown[place]).collect();
+        Solution { q, free, ..answer }
+    }
+}
+
+/// Two unit vectors that make a right-handed frame with the unit vector `u`.
+fn across(u: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let first = u.cross(&Vector3::ith(u.iamin(), 1.0)).normalize();
+    [first, u.cross(&first)]
+}

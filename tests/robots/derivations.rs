@@ -1,0 +1,60 @@
+//! The descriptions in `derivations/`: each is read, says where its figures come from, and is the robot of its name.
+
+use std::path::PathBuf;
+
+use groebot::derive::InputFile;
+use groebot::kinematics::{Chain, LengthUnit, Task};
+use groebot::robots;
+
+/// Every folder's name and chain, but for the two that state equations or millimetres of the NAO chapter.
+fn described() -> Vec<(String, Chain)> {
+    let folders = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/derivations")).unwrap();
+    let mut folders: Vec<PathBuf> = folders.map(|folder| folder.unwrap().path()).collect();
+    folders.sort();
+    let chain = |folder: &PathBuf| InputFile::read(folder).unwrap().chain(&Default::default()).unwrap();
+    let name = |folder: &PathBuf| folder.file_name().unwrap().to_str().unwrap().to_owned();
+    let described = folders.iter().filter(|folder| name(folder) != "nao_leg_sagittal");
+    described.filter_map(|folder| Some((name(folder), chain(folder)?))).collect()
+}
+
+#[test]
+fn every_folder_is_described() {
+    let described = described();
+    assert!(described.len() >= 28, "{}", described.len());
+    for (name, chain) in described {
+        assert_eq!(chain.length_unit(), LengthUnit::Metre, "{name}");
+        assert!(chain.parts().source.is_some() && chain.parts().description.is_some(), "{name}");
+        let most = chain.task().freedoms() + chain.given().len();
+        assert!(chain.joints().len() <= most, "{name}: give the values of some joints");
+        assert_eq!(chain.name(), name);
+    }
+}
+
+#[test]
+fn a_folder_with_the_name_of_a_robot_has_its_mechanism() {
+    let mut met = 0;
+    for (name, chain) in described() {
+        let Some(robot) = robots::by_name(&name) else { continue };
+        assert_eq!((chain.joints(), chain.tip()), (robot.joints(), robot.tip()), "{name}");
+        met += 1;
+    }
+    assert_eq!(met, robots::ALL.len());
+}
+
+#[test]
+fn tasks_are_as_promised() {
+    for (name, chain) in described() {
+        let (task, given): (Task, &[usize]) = match name.as_str() {
+            "nao_left_arm" | "nao_right_arm" => (Task::Ray, &[]),
+            "nao_left_arm_position" | "nao_right_arm_position" => (Task::Position, &[2]),
+            "nao_head" => (Task::Direction, &[]),
+            "wrist_rotation" => (Task::Rotation, &[]),
+            "polar" | "rrp" | "rh0_arm" => (Task::Position, &[]),
+            "iiwa14" => (Task::Pose, &[2]),
+            "planar_4r" => (chain.task(), &[0]),
+            _ if chain.task().plane().is_some() => (chain.task(), &[]),
+            _ => (Task::Pose, &[]),
+        };
+        assert_eq!((chain.task(), chain.given()), (task, given.to_vec()), "{name}");
+    }
+}

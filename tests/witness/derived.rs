@@ -1,0 +1,119 @@
+//! The chains of `derivations/`, derived from their descriptions and checked by all witnesses.
+//!
+//! `cargo test --release -- --ignored the_counts_of_the_chains --nocapture` prints the rows of
+//! `benches/record/DATE-derive-chains.csv`.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use groebot::derive::lift::Derived;
+use groebot::derive::{Ends, InputFile};
+use groebot::kinematics::Chain;
+use groebot::witness::chain::Check;
+use groebot::witness::{Options, Report};
+use groebot::{Result, Watch};
+
+/// Folders whose descriptions take other ways: systems of equations and planar formulas as their source prints them.
+const BY_SYSTEM: [&str; 2] = ["nao_arm_planar", "nao_leg_sagittal"];
+
+/// All chains that are committed, by the names of their folders.
+fn chains() -> Vec<(String, Chain)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations");
+    let mut folders: Vec<PathBuf> = std::fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).collect();
+    folders.sort();
+    let name = |folder: &PathBuf| folder.file_name().unwrap().to_str().unwrap().to_owned();
+    let chain = |folder: &PathBuf| InputFile::read(folder).unwrap().chain(&Ends::default()).unwrap();
+    let named = folders.iter().filter(|folder| !BY_SYSTEM.contains(&name(folder).as_str()));
+    named.filter_map(|folder| Some((name(folder), chain(folder)?))).collect()
+}
+
+fn check(chain: &Chain, derived: &Derived, options: &Options) -> Result<Report> {
+    Check::run(chain, &derived.program, Some(derived.plan.dimension), options, &Watch::none())
+}
+
+fn told(report: &Report, most: usize) -> String {
+    let lines = report.failures().take(most).map(|row| format!("{row}; from {:?}\n", row.joints));
+    lines.collect()
+}
+
+#[test]
+fn every_chain_passes_some_of_its_checks() {
+    let mut failed = Vec::new();
+    for (name, chain) in chains() {
+        let start = Instant::now();
+        let derived = match Derived::of_chain(&chain, &Watch::none()) {
+            Ok(derived) => derived,
+            Err(error) => {
+                println!("{name}: {error}");
+                failed.push(name);
+                continue;
+            }
+        };
+        let taken = start.elapsed();
+        let report = check(&chain, &derived, &Options { targets: 60, oracle: 1, exact: 6, seed: 6 }).unwrap();
+        println!(
+            "{name}: {} solutions, {taken:.2?}; {}\n{}",
+            derived.plan.dimension,
+            report.summary(),
+            told(&report, 6)
+        );
+        if report.failures().count() > 0 {
+            failed.push(name);
+        }
+    }
+    assert!(failed.is_empty(), "{failed:?}");
+}
+
+/// How many targets have so many answers: `4:10 8:990`.
+fn histogram(report: &Report) -> String {
+    let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+    report.rows.iter().for_each(|row| *counts.entry(row.solutions).or_default() += 1);
+    counts.iter().map(|(answers, rows)| format!("{answers}:{rows}")).collect::<Vec<_>>().join(" ")
+}
+
+/// The counts of design.md section 5: 100,000 targets of all kinds, and 1,000 exact counts, for each chain.
+#[test]
+#[ignore = "an hour: cargo test --release -- --ignored the_counts_of_the_chains --nocapture"]
+fn the_counts_of_the_chains() {
+    println!(
+        "chain,solutions,run,class,targets,failed,counted_exactly,by_screws,residual_p50,residual_p99,residual_p99.9,residual_max,joints_max,answers,seconds"
+    );
+    let mut failed = Vec::new();
+    for (name, chain) in chains() {
+        let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+        // A third of the targets are random, and the first of them are counted.
+        for (run, targets, exact) in [("poses", 100_000, 0), ("counts", 2_860, 1_000)] {
+            let start = Instant::now();
+            let report = check(&chain, &derived, &Options { targets, oracle: 0, exact, seed: 9 }).unwrap();
+            let seconds = start.elapsed().as_secs_f64();
+            print_classes(&name, run, derived.plan.dimension, &report, seconds);
+            if report.failures().count() > 0 {
+                println!(
+                    "# {name}\n{}",
+                    told(&report, 10).lines().map(|line| format!("# {line}\n")).collect::<String>()
+                );
+                failed.push(name.clone());
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{failed:?}");
+}
+
+fn print_classes(name: &str, run: &str, dimension: usize, report: &Report, seconds: f64) {
+    let summary = report.summary();
+    for class in report.accuracy().classes {
+        let shown = |value: Option<f64>| value.map(|value| format!("{value:.1e}")).unwrap_or_default();
+        let residuals = [0.5, 0.99, 0.999, 1.0].map(|share| shown(class.residual(share))).join(",");
+        let joints = shown(class.distance(1.0));
+        println!(
+            "{name},{dimension},{run},{},{},{},{},{},{residuals},{joints},{},{seconds:.0}",
+            class.name,
+            class.rows,
+            class.failed,
+            summary.exact,
+            summary.screw,
+            histogram(report)
+        );
+    }
+}
