@@ -17,6 +17,7 @@ mod derive;
 mod ends;
 mod files;
 mod fk;
+mod forms;
 mod ik;
 mod info;
 mod plan;

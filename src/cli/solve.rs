@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use super::answers::{Angles, Answer, csv_header, csv_rows, json, text};
+use super::forms::Forms;
 use super::targets::{self, Row};
 use super::{Outcome, console};
 use crate::document::read_text;
@@ -19,7 +20,8 @@ const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target -60,-150 --json
   groebot solve derivations/nao_leg_sagittal < targets.csv > answers.csv
 
-Targets are numbers in the order and units of the derivation's inputs. A CSV may start with a line of their names, which then says
+Targets are numbers in the order and units of the derivation's inputs; a rotation may be given as a quaternion x, y, z, w (of length
+one, within 1e-6) instead of its nine elements by rows: a pose is 12 numbers or 7. A CSV may start with a line of their names, which then says
 the order of its columns. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
 solutions (JSON), or a row with 0 solutions (CSV).";
 
@@ -64,11 +66,8 @@ fn read_program(path: &Path) -> Result<Program> {
     Program::from_json(&read_text(&file, PROGRAM_LIMIT)?).map_err(|error| error.in_file(&file))
 }
 
-fn input_names(program: &Program) -> Vec<&str> {
-    program.inputs.iter().map(|input| input.name.as_str()).collect()
-}
-
-fn answer<'a>(program: &'a Program, target: Vec<f64>, angles: Angles) -> Result<Answer<'a>> {
+fn answer<'a>(program: &'a Program, forms: &Forms, numbers: Vec<f64>, angles: Angles) -> Result<Answer<'a>> {
+    let target = forms.inputs(numbers)?;
     let solutions = program.solve(&angles.to_radians(program, &target))?;
     Ok(Answer { program, target, solutions, angles })
 }
@@ -76,9 +75,13 @@ fn answer<'a>(program: &'a Program, target: Vec<f64>, angles: Angles) -> Result<
 /// Targets from the command line: a page of text, or JSON.
 fn listed(program: &Program, given: &[String], angles: Angles, as_json: bool) -> Outcome {
     let mut page = String::new();
+    let forms = Forms::new(program);
     for (index, target) in given.iter().enumerate() {
-        let answer = targets::parse(&input_names(program), target)
-            .and_then(|numbers| answer(program, numbers, angles))
+        let count = target.split(',').count();
+        let lists = forms.names();
+        let names = lists.iter().find(|names| names.len() == count).unwrap_or(&lists[0]);
+        let answer = targets::parse(names, target)
+            .and_then(|numbers| answer(program, &forms, numbers, angles))
             .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;
         if as_json {
             page += &json(&answer, given.len() == 1);
@@ -94,7 +97,8 @@ fn listed(program: &Program, given: &[String], angles: Angles, as_json: bool) ->
 fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
-    let mut rows = targets::Reader::new(input_names(program), io::stdin().lock());
+    let forms = Forms::new(program);
+    let mut rows = targets::Reader::of_forms(forms.names(), io::stdin().lock());
     if !as_json {
         write(&csv_header(program))?;
     }
@@ -103,7 +107,8 @@ fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
         let solved = match rows.next() {
             None => break Ok(()),
             Some(row) => row.and_then(|Row { line, target }| {
-                answer(program, target, angles).map_err(|error| error.at_line(line).in_file(Path::new(targets::STDIN)))
+                answer(program, &forms, target, angles)
+                    .map_err(|error| error.at_line(line).in_file(Path::new(targets::STDIN)))
             }),
         };
         match solved {

@@ -53,17 +53,23 @@ pub struct Row {
 
 /// The rows of a CSV: one a line, empty lines left out.
 pub struct Reader<'a, R> {
-    names: Vec<&'a str>,
+    /// The names of each form that a row may have.
+    forms: Vec<Vec<&'a str>>,
     lines: Enumerate<Lines<R>>,
-    /// Once the first row is read: which column each name is in, when the row has names.
-    columns: Option<Vec<usize>>,
+    /// Once the first row is read: the form of its names and which column each is in, when the row has names.
+    columns: Option<(usize, Vec<usize>)>,
     is_first: bool,
 }
 
 impl<'a, R: BufRead> Reader<'a, R> {
     /// Reads values of `names` from `input`.
     pub fn new(names: Vec<&'a str>, input: R) -> Self {
-        Reader { names, lines: input.lines().enumerate(), columns: None, is_first: true }
+        Reader::of_forms(vec![names], input)
+    }
+
+    /// Reads values of any of these lists of names from `input`.
+    pub fn of_forms(forms: Vec<Vec<&'a str>>, input: R) -> Self {
+        Reader { forms, lines: input.lines().enumerate(), columns: None, is_first: true }
     }
 
     /// The next target; a first row of names is taken note of.
@@ -91,12 +97,24 @@ impl<'a, R: BufRead> Reader<'a, R> {
     fn row(&mut self, record: &StringRecord) -> Result<Option<Vec<f64>>> {
         let is_first = std::mem::replace(&mut self.is_first, false);
         if is_first && record.iter().all(|cell| cell.parse::<f64>().is_err()) {
-            self.columns = Some(columns(&self.names, record)?);
+            self.columns = Some(self.named(record)?);
             return Ok(None);
         }
-        let Some(columns) = &self.columns else { return numbers(&self.names, record.iter()).map(Some) };
+        let Some((form, columns)) = &self.columns else {
+            let form = self.forms.iter().find(|names| names.len() == record.len()).unwrap_or(&self.forms[0]);
+            return numbers(form, record.iter()).map(Some);
+        };
         let cells = columns.iter().map(|&column| record.get(column).unwrap_or(""));
-        numbers(&self.names, cells).map(Some)
+        numbers(&self.forms[*form], cells).map(Some)
+    }
+
+    /// The first form whose names a row has, and their columns.
+    fn named(&self, record: &StringRecord) -> Result<(usize, Vec<usize>)> {
+        let found = |(form, names): (usize, &Vec<&str>)| columns(names, record).ok().map(|columns| (form, columns));
+        match self.forms.iter().enumerate().find_map(found) {
+            Some(found) => Ok(found),
+            None => columns(&self.forms[0], record).map(|columns| (0, columns)),
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 pub mod c99;
 pub mod rust;
 
+mod blocks;
 mod body;
 mod demand;
 mod names;

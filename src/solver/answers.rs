@@ -39,14 +39,29 @@ impl<'a> Answers<'a> {
         for (slot, joint) in q.iter_mut().zip(&self.program.joints) {
             *slot = joint_value(joint.value, unknowns);
         }
+        if path.free != NONE_FREE {
+            return self.propose_member(path, q);
+        }
         let mut fit = refine::measure(self.program, &q, &mut self.frame);
-        if path.free == NONE_FREE {
-            refine::polish(self.program, &mut q, &mut fit, &NONE_FREE, &mut self.frame);
-            self.around(path, &q, &fit);
-        } else if !fit.accepted && fit.relative <= ADRIFT {
+        refine::polish(self.program, &mut q, &mut fit, &NONE_FREE, &mut self.frame);
+        self.around(path, &q, &fit);
+        self.keep(path, &q, &fit);
+    }
+
+    /// Keeps a member of a family. It is not moved along it; and an isolated answer may stand where it was looked for.
+    fn propose_member(&mut self, path: &Path, mut q: Joints) {
+        let free = self.free_joints(path);
+        let settles = |a: &Answer| a.is_exact() && a.solution.branch == path.branch && a.solution.free == free;
+        if self.list.iter().any(settles) {
+            return;
+        }
+        let mut fit = refine::measure(self.program, &q, &mut self.frame);
+        if !fit.accepted && fit.relative <= ADRIFT {
             refine::polish(self.program, &mut q, &mut fit, &path.free, &mut self.frame);
         }
-        self.keep(path, &q, &fit);
+        if fit.accepted && self.lies_on_family(&q[..self.program.joints.len()], &free, fit.relative) {
+            self.keep(path, &q, &fit);
+        }
     }
 
     /// Where a candidate stands at a singular configuration and misses the equations by little, it is a double root that rounding
@@ -69,10 +84,15 @@ impl<'a> Answers<'a> {
         if !fit.accepted {
             return;
         }
-        let joints = 0..self.program.joints.len();
-        let free: Vec<usize> = joints.clone().filter(|&joint| path.free[joint]).collect();
+        let free = self.free_joints(path);
         let branch = self.free_branch(path, &free);
-        let solution = Solution { q: q[joints].to_vec(), residual: fit.residual, branch, free, chosen: false };
+        let solution = Solution {
+            q: q[..self.program.joints.len()].to_vec(),
+            residual: fit.residual,
+            branch,
+            free,
+            chosen: false,
+        };
         let mut answer = Answer { solution, relative: fit.relative };
         let equal: Vec<usize> = (0..self.list.len()).filter(|&other| self.is_one(other, &answer)).collect();
         if equal.iter().any(|&other| self.list[other].holds_against(&answer)) {
@@ -83,6 +103,10 @@ impl<'a> Answers<'a> {
         }
         equal.into_iter().rev().for_each(|other| drop(self.list.remove(other)));
         self.push(answer);
+    }
+
+    fn free_joints(&self, path: &Path) -> Vec<usize> {
+        (0..self.program.joints.len()).filter(|&joint| path.free[joint]).collect()
     }
 
     /// The branch number of an answer on `path`: a second root of a double one takes the next number that is not taken.
@@ -119,17 +143,18 @@ impl<'a> Answers<'a> {
                 a.solution.free == b.solution.free
                     && (a.solution.branch == b.solution.branch || self.leads_to(other, &b.solution))
             }
-            (true, false) => b.is_exact() && self.lies_on_family(&a.solution.q.clone(), &b.solution.free),
-            (false, true) => a.is_exact() && self.lies_on_family(&b.solution.q, &a.solution.free.clone()),
+            (true, false) => b.is_exact() && self.lies_on_family(&a.solution.q.clone(), &b.solution.free, ROUNDING),
+            (false, true) => a.is_exact() && self.lies_on_family(&b.solution.q, &a.solution.free.clone(), ROUNDING),
         }
     }
 
-    /// Whether the equations hold within rounding too where the joints `free` are a little elsewhere and the others follow.
-    fn lies_on_family(&mut self, q: &[f64], free: &[usize]) -> bool {
+    /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are a little elsewhere and the others
+    /// follow.
+    fn lies_on_family(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
         let mut start = [0.0; MAX_JOINTS];
         start[..q.len()].copy_from_slice(q);
         free.iter().for_each(|&joint| start[joint] = self.displaced(q[joint], joint, ASIDE));
-        self.follow(&mut start, free).relative <= ROUNDING
+        self.follow(&mut start, free).relative <= bound.max(ROUNDING)
     }
 
     /// Whether the family of the answer with this index has `member`, another with the same free joints: as these move there in

@@ -20,6 +20,7 @@ impl<'a> Frame<'a> {
         Frame { parameters, magnitude, unknowns: vec![0.0; unknowns], registers: vec![0.0; registers], base: 0 }
     }
 
+    #[inline]
     pub fn value(&self, operand: Operand) -> f64 {
         match operand {
             Operand::Constant(value) => value,

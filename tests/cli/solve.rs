@@ -6,6 +6,7 @@ use std::io::{BufRead, BufReader, Write};
 use serde_json::Value;
 
 use super::{Ran, groebot, leg, run_on, succeed};
+use crate::codegen::samples::wrist;
 
 /// Forward kinematics of the NAO leg, written down here from its drawing: thigh 100 mm, tibia 102.9 mm.
 fn ankle(q: &[f64]) -> [f64; 2] {
@@ -152,4 +153,53 @@ fn a_reader_that_goes_away_is_no_error() {
     let output = child.wait_with_output().unwrap();
     feeder.join().unwrap();
     assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap()), (Some(0), String::new()));
+}
+
+/// A gantry with a wrist, written by hand; its folder.
+fn gantry() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("5_program.json"), wrist::carried().to_json()).unwrap();
+    folder
+}
+
+/// A quarter turn about z carries x to y: q1 + q3 is a quarter turn, the sliding joints are the position.
+#[test]
+fn a_pose_is_twelve_numbers_or_seven() {
+    let folder = gantry();
+    let path = folder.path().to_str().unwrap();
+    let half = 0.5_f64.sqrt();
+    let seven = format!("0.1,0.2,0.3,0,0,{half},{half}");
+    let text = succeed(&["solve", path, "--json", "--target", &seven]);
+    let answer: Value = serde_json::from_str(&text).unwrap();
+    let solutions = answer["solutions"].as_array().unwrap();
+    assert_eq!((solutions.len(), solutions[0]["free"][0].as_str()), (1, Some("q1")), "{text}");
+    let q = numbers(&solutions[0]["q"]);
+    assert_eq!(q[..3], [0.1, 0.2, 0.3]);
+    assert!((q[3] + q[5] - PI / 2.0).abs() < 1e-12 && q[4].abs() < 1e-12, "{q:?}");
+    let twelve = "0.1,0.2,0.3,0,-1,0,1,0,0,0,0,1";
+    let other: Value = serde_json::from_str(&succeed(&["solve", path, "--json", "--target", twelve])).unwrap();
+    assert!((numbers(&other["solutions"][0]["q"])[5] - q[5]).abs() < 1e-12);
+    let shown = succeed(&["solve", path, "--target", twelve]);
+    assert!(shown.contains("q1 is free"), "{shown}");
+}
+
+#[test]
+fn quaternions_in_csv_and_what_is_none() {
+    let folder = gantry();
+    let path = folder.path().to_str().unwrap();
+    let named = run_on(&["solve", path], b"qw,qx,qy,qz,pz,py,px\n0,1,0,0,3,2,1\n");
+    let plain = run_on(&["solve", path], b"1,2,3,1,0,0,0\n1,2,3,1,0,0,0,-1,0,0,0,-1\n");
+    assert_eq!((named.code, plain.code), (0, 0), "{}{}", named.err, plain.err);
+    let rows: Vec<&str> = plain.out.lines().collect();
+    assert_eq!(named.out.lines().collect::<Vec<_>>(), rows[..2], "{}", plain.out);
+    assert_eq!(rows[1].split_once(',').unwrap().1, rows[2].split_once(',').unwrap().1);
+    for (input, words) in [
+        ("1,2,3,1,0,0,1\n", "line 1: the quaternion `qx` to `qw` has length 1.414"),
+        ("1,2,3,4\n", "line 1: 4 numbers given; give 12"),
+        ("1,2,3,1,0,0,x\n", "line 1: cell 7 (`qw`) is `x`"),
+        ("1,2,3,1,0,0,0,-1,0,0,0,1\n", "line 1: `r11` to `r33` are no rotation matrix: the determinant is negative"),
+    ] {
+        let ran = run_on(&["solve", path], input.as_bytes());
+        assert!(ran.code == 1 && ran.err.contains(words), "{}", ran.err);
+    }
 }

@@ -125,3 +125,17 @@ fn a_wrist_with_pivots_in_every_language_equals_the_evaluator() {
         assert!(report.is_none_or(|report| report.answers > 2000 && report.families > 600));
     }
 }
+
+#[test]
+fn a_gantry_with_a_wrist_in_every_language_equals_the_evaluator() {
+    let mut between = random();
+    let mut targets = odd(12);
+    for k in 0..400 {
+        let mut angle = || between(-3.2, 3.2);
+        let middle = [angle(), 0.0, PI, 1e-8 * angle()][k % 4];
+        let rotation = wrist::rotation([angle(), middle, angle()]);
+        targets.push([angle(), angle(), angle()].into_iter().chain(rotation).collect());
+    }
+    let report = compare(&wrist::carried(), &targets);
+    assert!(report.is_none_or(|report| report.answers > 550 && report.families > 150));
+}

@@ -69,6 +69,17 @@ fn a_straight_wrist_is_one_family() {
     }
 }
 
+/// Next to the pole the sample `pan = 0` happens to be an answer: an isolated one, not a member of a family.
+#[test]
+fn an_isolated_answer_at_a_sample_is_no_family() {
+    for small in [1e-4, 1e-8, 1e-10] {
+        let answers = pan_tilt::program().solve(&pan_tilt::direction(0.0, FRAC_PI_2 - small)).unwrap();
+        assert_eq!(answers.len(), 2, "{answers:?}");
+        assert!(answers.iter().all(|answer| answer.free.is_empty()), "{answers:?}");
+        assert!(answers.iter().any(|answer| close(answer.q[0], 0.0, 1e-15)), "{answers:?}");
+    }
+}
+
 #[test]
 fn close_to_a_straight_wrist_the_two_answers_are_isolated() {
     let program = wrist::program(false);

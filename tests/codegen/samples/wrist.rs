@@ -28,6 +28,37 @@ pub fn rotation(q: [f64; 3]) -> [f64; 9] {
     ]
 }
 
+/// A gantry that carries the wrist: `px, py, pz` and then the rotation, sliding joints first.
+pub fn carried() -> Program {
+    let mut program = program(false);
+    let names = ["px", "py", "pz"];
+    program.name = "gantry".into();
+    program.inputs.splice(0..0, names.map(|name| input(name, Unit::Metre)));
+    program.conditions = vec![Condition::Rotation(3)];
+    for (index, parameter) in program.parameters.iter_mut().enumerate() {
+        parameter.rule = Rule::Input(3 + index);
+    }
+    program.parameters.extend((0..3).map(|i| rule(names[i], Rule::Input(i))));
+    program.unknowns.extend(["x", "y", "z"].map(String::from));
+    program.joints.splice(0..0, (0..3).map(|i| length(["x", "y", "z"][i], 6 + i)));
+    let place = (0..3).map(|i| Step::Set { unknown: 6 + i, value: parameter(9 + i) }).collect();
+    program.blocks.push(Block::numbered("slides", vec![], vec![chart("generic", place)]));
+    let free = &mut program.blocks[1].charts[1].free;
+    *free = vec![free[0] + 3];
+    let checks = &mut program.checks;
+    let mut code = Code::after(checks.code.len());
+    for row in &mut checks.jacobian {
+        row.splice(0..0, [constant(0.0); 3]);
+    }
+    for i in 0..3 {
+        checks.residuals.push(code.sub(unknown(6 + i), parameter(9 + i)));
+        checks.scales.push(Operand::Magnitude);
+        checks.jacobian.push((0..6).map(|j| constant(f64::from(u8::from(i == j)))).collect());
+    }
+    checks.code.extend(code.take());
+    program
+}
+
 /// The element in a row and column, counted from 1.
 fn r(row: usize, column: usize) -> Operand {
     parameter(3 * (row - 1) + column - 1)
