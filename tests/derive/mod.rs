@@ -3,7 +3,6 @@
 mod certificate;
 mod chains;
 mod closure;
-mod lift;
 mod ends;
 mod families;
 mod lift;
