@@ -185,7 +185,7 @@ pub struct Block {
 /// The equations and their derivatives by the joints, to measure and polish each answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checks {
-    /// Code over parameters and unknowns, from register 0.
+    /// Code over parameters and unknowns, from register 0. Where the derivatives' code comes last, it runs only for Newton steps.
     pub code: Vec<Instruction>,
     /// The equations' values, zero at a solution, circle relations left out.
     pub residuals: Vec<Operand>,

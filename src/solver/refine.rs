@@ -1,7 +1,8 @@
 //! Measuring an answer by the original equations, and polishing it by Newton steps in the joints.
 
 use super::frame::Frame;
-use super::program::{JointValue, Program};
+use super::instruction::Operand;
+use super::program::{Checks, JointValue, Program};
 use super::{ACCEPT, DAMPINGS, MAX_JOINTS, POLISH_STEPS, POLISHED};
 
 /// Joint values; places behind the program's joints are zero.
@@ -33,10 +34,16 @@ pub(super) fn unknowns_of(program: &Program, q: &[f64], unknowns: &mut [f64]) {
     }
 }
 
-/// Evaluates the equations at `q`; the frame then holds the code's registers.
+/// How many instructions of the checks the equations' values and sizes need; the others are for the derivatives.
+fn measured(checks: &Checks) -> usize {
+    let end = |operand: &Operand| if let Operand::Register(index) = operand { index + 1 } else { 0 };
+    checks.residuals.iter().chain(&checks.scales).map(end).max().unwrap_or(0)
+}
+
+/// Evaluates the equations at `q`; the frame then holds their registers.
 pub(super) fn measure(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> Fit {
     unknowns_of(program, q, &mut frame.unknowns);
-    frame.run(&program.checks.code);
+    frame.run(&program.checks.code[..measured(&program.checks)]);
     let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: true };
     for (residual, scale) in program.checks.residuals.iter().zip(&program.checks.scales) {
         let (value, scale) = (frame.value(*residual).abs(), frame.value(*scale));
@@ -116,8 +123,9 @@ type Square = [[f64; MAX_JOINTS + 1]; MAX_JOINTS];
 
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`, or `J^-1 f` for a square Jacobian, `d = 0` and no joint held, at the
 /// joints that were measured last; `None` when it is singular.
-fn newton_step(program: &Program, damping: f64, held: &[bool; MAX_JOINTS], frame: &Frame<'_>) -> Option<Joints> {
+fn newton_step(program: &Program, damping: f64, held: &[bool; MAX_JOINTS], frame: &mut Frame<'_>) -> Option<Joints> {
     let (checks, joints) = (&program.checks, program.joints.len());
+    frame.run(&checks.code[measured(checks)..]);
     let mut system: Square = [[0.0; MAX_JOINTS + 1]; MAX_JOINTS];
     if damping == 0.0 && checks.residuals.len() == joints && *held == NONE_FREE {
         for (line, (row, residual)) in system.iter_mut().zip(checks.jacobian.iter().zip(&checks.residuals)) {

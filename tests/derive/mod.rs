@@ -3,6 +3,7 @@
 mod certificate;
 mod chains;
 mod closure;
+mod lift;
 mod ends;
 mod families;
 mod lift;

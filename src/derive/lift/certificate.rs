@@ -57,7 +57,12 @@ pub fn write(derived: &Derived) -> Result<String> {
         name: derived.chain.name().to_owned(),
         plan: derived.plan.clone(),
         templates: derived.templates.iter().map(proof).collect::<Result<_>>()?,
-        eliminations: derived.steps.iter().filter_map(|step| step.elimination.as_ref()).map(Elimination::stored).collect(),
+        eliminations: derived
+            .steps
+            .iter()
+            .filter_map(|step| step.elimination.as_ref())
+            .map(Elimination::stored)
+            .collect(),
         half_angles: derived.half_angles.as_ref().map(HalfAngles::stored),
     };
     let text = serde_json::to_string_pretty(&record).expect("a record holds nothing that JSON cannot say");
@@ -169,7 +174,8 @@ fn prove_step(
         None => shape(mechanism, step)?,
     };
     // What is left of an elimination may have a form of higher degree than it has solutions.
-    let fits = if elimination.is_some() { step.degree <= shape.form.degree() } else { step.degree == shape.form.degree() };
+    let fits =
+        if elimination.is_some() { step.degree <= shape.form.degree() } else { step.degree == shape.form.degree() };
     if !fits {
         let text = format!("its equations give {} solutions, {} are claimed", shape.form.degree(), step.degree);
         return Err(refused(text));

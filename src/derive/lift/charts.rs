@@ -194,12 +194,24 @@ impl<'a> Builder<'a> {
     }
 
     /// The coefficients of `f` in unknown `v` of c, s, t, which holds no unknown but `v` and t.
-    fn coefficients(&mut self, ring: &PolynomialRing<Rationals>, f: &ParameterPoly, v: usize, t: Operand) -> Vec<Operand> {
+    fn coefficients(
+        &mut self,
+        ring: &PolynomialRing<Rationals>,
+        f: &ParameterPoly,
+        v: usize,
+        t: Operand,
+    ) -> Vec<Operand> {
         let zero = Operand::Constant(0.0);
         self.parts(ring, f, v, [zero, zero, t])
     }
 
-    fn with_sine(&mut self, ring: &PolynomialRing<Rationals>, f: &ParameterPoly, sine: Operand, t: Operand) -> Vec<Operand> {
+    fn with_sine(
+        &mut self,
+        ring: &PolynomialRing<Rationals>,
+        f: &ParameterPoly,
+        sine: Operand,
+        t: Operand,
+    ) -> Vec<Operand> {
         self.parts(ring, f, 0, [Operand::Constant(0.0), sine, t])
     }
 

@@ -1,19 +1,19 @@
 //! Joints eliminated from a step's relations ([`Elimination`]): what is left is one polynomial in the step's own joint.
 //!
-//! Coefficients that are no numbers become symbols, proportional ones the same. The symbols are the smallest variables of an
+//! Coefficients that are no numbers become symbols, but for sums of multiples of symbols. These are the smallest variables of an
 //! elimination order, so that the Groebner basis over Q needs no division by them, and its element in the step's joint alone is a
 //! combination of the relations with polynomial cofactors, whatever the symbols are.
 
 use std::collections::BTreeMap;
 
-use num_traits::One;
+use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 
 use super::shape::{Symbolic, TargetPoly};
 use super::squares::by_squares;
 use crate::derive::closure::{Factor, Mechanism};
 use crate::derive::planner::PlanStep;
-use crate::groebner::{Options, Strategy, basis};
+use crate::groebner::{Options, Strategy, basis, divide};
 use crate::number::{BigRational, Rationals, Ring, Style};
 use crate::poly::{Block, Order, Polynomial, PolynomialRing, parse};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -24,6 +24,9 @@ const MOST_TERMS: usize = 20_000;
 type Poly = Polynomial<BigRational>;
 /// A coefficient: by the unknowns of known joints, polynomials in the target.
 type Coefficient = BTreeMap<Vec<Factor>, TargetPoly>;
+
+/// A product of unknowns with its coefficient, a sum of multiples of symbols, or of one.
+type Entry = (Vec<Factor>, Vec<(BigRational, Option<usize>)>);
 
 /// Where a symbol's value stands: the coefficient of a product of unknowns in one of the relations.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,13 +97,21 @@ impl Elimination {
             Some(found) => found,
             None => squares([g, f]).map(|(member, [second, first, circle])| (member, [first, second, circle]))?,
         };
-        let most = if mechanism.joints()[step.joint].is_revolute() { 2 } else { 4 };
-        if !self.is_own(&member) || self.degree(&member) > most {
-            return None;
-        }
         let mut cofactors = vec![first, second, circle];
         cofactors.resize(self.generators.len(), self.ring.zero());
-        Some((member, cofactors))
+        let member = match mechanism.joints()[step.joint].is_revolute() {
+            true => self.without_square(&member, cofactors.last_mut()?)?,
+            false => member,
+        };
+        let most = if mechanism.joints()[step.joint].is_revolute() { 2 } else { 4 };
+        (self.is_own(&member) && self.degree(&member) <= most).then_some((member, cofactors))
+    }
+
+    /// The remainder by the joint's own circle, the last generator: the square of the cosine goes.
+    fn without_square(&self, f: &Poly, cofactor: &mut Poly) -> Option<Poly> {
+        let division = divide(&self.ring, f, std::slice::from_ref(self.generators.last()?)).ok()?;
+        *cofactor = self.ring.sub(cofactor, division.quotients.first()?);
+        Some(division.remainder)
     }
 
     /// Proves a stored elimination anew.
@@ -137,12 +148,14 @@ impl Elimination {
         Ok(self)
     }
 
-    /// Whether a polynomial holds unknowns of the step's joint and no other, and is not its circle.
+    /// Whether a polynomial holds unknowns of the step's joint and no other, the cosine in the first power, and is not its circle.
     fn is_own(&self, f: &Poly) -> bool {
         let [away, own] = self.sizes;
         let foreign = (0..away).any(|v| self.ring.degree_in(f, v) > 0);
-        let circle = self.generators.last().is_some_and(|circle| own == 2 && self.ring.monic(circle) == self.ring.monic(f));
-        !foreign && !circle && self.degree(f) > 0
+        let circle =
+            self.generators.last().is_some_and(|circle| own == 2 && self.ring.monic(circle) == self.ring.monic(f));
+        let reduced = own == 1 || self.ring.degree_in(f, away) <= 1;
+        !foreign && !circle && reduced && self.degree(f) > 0
     }
 
     /// The total degree in the joint's unknowns.
@@ -171,7 +184,7 @@ struct Setting<'a> {
     /// The joints that go, then the step's own.
     joints: Vec<usize>,
     /// By relation: the coefficients as a multiple of a symbol or a number.
-    relations: Vec<Vec<(Vec<Factor>, BigRational, Option<usize>)>>,
+    relations: Vec<Vec<Entry>>,
     symbols: Vec<(SymbolPlace, Coefficient)>,
 }
 
@@ -189,34 +202,28 @@ impl<'a> Setting<'a> {
                 let copied = |list: Vec<&Factor>| list.into_iter().copied().collect::<Vec<Factor>>();
                 parts.entry(copied(own)).or_default().insert(copied(rest), value.clone());
             }
-            let entries = parts.into_iter().map(|(factors, c)| setting.entry(&symbolic, relation, factors, c)).collect();
+            let entries =
+                parts.into_iter().map(|(factors, c)| setting.entry(&symbolic, relation, factors, c)).collect();
             setting.relations.push(entries);
         }
         Ok(setting)
     }
 
-    /// A coefficient as a number, or a multiple of a symbol.
-    fn entry(
-        &mut self,
-        symbolic: &Symbolic,
-        relation: usize,
-        factors: Vec<Factor>,
-        coefficient: Coefficient,
-    ) -> (Vec<Factor>, BigRational, Option<usize>) {
-        let number = match coefficient.iter().next() {
-            Some((product, value)) if coefficient.len() == 1 && product.is_empty() => symbolic.ring.as_constant(value),
-            _ => None,
+    /// A coefficient by numbers and the symbols so far, or as a new symbol.
+    fn entry(&mut self, symbolic: &Symbolic, relation: usize, factors: Vec<Factor>, coefficient: Coefficient) -> Entry {
+        let one = Coefficient::from([(Vec::new(), symbolic.ring.one())]);
+        let basis = [&one].into_iter().chain(self.symbols.iter().map(|(_, known)| known));
+        let row = |coefficient: &Coefficient| -> BTreeMap<(Vec<Factor>, Vec<u32>), BigRational> {
+            let terms = coefficient.iter().flat_map(|(product, f)| f.terms().iter().map(move |term| (product, term)));
+            let place = |monomial| symbolic.ring.layout().exponents(monomial);
+            terms.map(|(product, term)| ((product.clone(), place(&term.monomial)), term.coefficient.clone())).collect()
         };
-        if let Some(number) = number {
-            return (factors, number, None);
-        }
-        for (index, (_, known)) in self.symbols.iter().enumerate() {
-            if let Some(ratio) = ratio(symbolic, &coefficient, known) {
-                return (factors, ratio, Some(index));
-            }
+        if let Some(numbers) = combination(&row(&coefficient), &basis.map(row).collect::<Vec<_>>()) {
+            let parts = numbers.into_iter().enumerate().map(|(index, number)| (number, index.checked_sub(1)));
+            return (factors, parts.filter(|(number, _)| !number.is_zero()).collect());
         }
         self.symbols.push((SymbolPlace { relation, factors: factors.clone() }, coefficient));
-        (factors, BigRational::one(), Some(self.symbols.len() - 1))
+        (factors, vec![(BigRational::one(), Some(self.symbols.len() - 1))])
     }
 
     /// The ring and the generators; the member is still zero.
@@ -236,8 +243,12 @@ impl<'a> Setting<'a> {
         let mut generators = Vec::new();
         for entries in &self.relations {
             let mut sum = ring.zero();
-            for (product, number, symbol) in entries {
-                let mut term = ring.constant(number.clone());
+            for (product, parts) in entries {
+                let mut term = ring.zero();
+                for (number, symbol) in parts {
+                    let value = symbol.map_or_else(|| ring.one(), |symbol| ring.variable(factors.len() + symbol));
+                    term = ring.add(&term, &ring.scale(&value, number));
+                }
                 for factor in product {
                     let power = match factor {
                         Factor::LengthSquared(joint) => place(&Factor::Length(*joint)).map(|v| (v, 2)),
@@ -246,15 +257,13 @@ impl<'a> Setting<'a> {
                     let (v, exponent) = power.ok_or_else(|| Error::new(ErrorKind::UnknownName, "no such unknown"))?;
                     term = ring.mul(&term, &ring.pow(&ring.variable(v), exponent));
                 }
-                if let Some(symbol) = symbol {
-                    term = ring.mul(&term, &ring.variable(factors.len() + symbol));
-                }
                 sum = ring.add(&sum, &term);
             }
             generators.push(sum);
         }
         for joint in self.joints.iter().filter(|joint| self.mechanism.joints()[**joint].is_revolute()) {
-            let square = |factor: Factor| place(&factor).map(|v| ring.pow(&ring.variable(v), 2)).unwrap_or_else(|| ring.zero());
+            let square =
+                |factor: Factor| place(&factor).map(|v| ring.pow(&ring.variable(v), 2)).unwrap_or_else(|| ring.zero());
             let sine = ring.scale(&square(Factor::Sine(*joint)), &self.mechanism.joints()[*joint].square);
             generators.push(ring.sub(&ring.add(&square(Factor::Cosine(*joint)), &sine), &ring.one()));
         }
@@ -264,10 +273,43 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// The number that `a` is a multiple of `b` by.
-fn ratio(symbolic: &Symbolic, a: &Coefficient, b: &Coefficient) -> Option<BigRational> {
-    let (product, value) = b.iter().next()?;
-    let ratio = &a.get(product)?.leading()?.coefficient / &value.leading()?.coefficient;
-    let same = |(product, value): (&Vec<Factor>, &TargetPoly)| a.get(product) == Some(&symbolic.ring.scale(value, &ratio));
-    (a.len() == b.len() && b.iter().all(same)).then_some(ratio)
+/// The numbers with which `rows`, which are independent, add up to `target`.
+fn combination<K: Ord + Clone>(
+    target: &BTreeMap<K, BigRational>,
+    rows: &[BTreeMap<K, BigRational>],
+) -> Option<Vec<BigRational>> {
+    // Each row, with what it is made of, is reduced by those before; then the target is.
+    let unit =
+        |index: usize| (0..rows.len()).map(|k| BigRational::from_integer(i32::from(k == index).into())).collect();
+    let mut echelon: Vec<(K, BTreeMap<K, BigRational>, Vec<BigRational>)> = Vec::new();
+    let reduce = |row: &mut BTreeMap<K, BigRational>, made: &mut Vec<BigRational>, echelon: &[(K, _, Vec<_>)]| {
+        for (pivot, own, parts) in echelon {
+            let Some(factor) = row
+                .get(pivot)
+                .map(|value| value / &BTreeMap::get(own, pivot).cloned().unwrap_or_else(BigRational::one))
+            else {
+                continue;
+            };
+            subtract(row, own, &factor);
+            made.iter_mut().zip(parts).for_each(|(sum, part)| *sum -= &factor * part);
+        }
+    };
+    for (index, row) in rows.iter().enumerate() {
+        let (mut row, mut made): (_, Vec<BigRational>) = (row.clone(), unit(index));
+        reduce(&mut row, &mut made, &echelon);
+        let pivot = row.keys().next()?.clone();
+        echelon.push((pivot, row, made));
+    }
+    let (mut rest, mut made) = (target.clone(), vec![BigRational::zero(); rows.len()]);
+    reduce(&mut rest, &mut made, &echelon);
+    rest.is_empty().then(|| made.into_iter().map(|number| -number).collect())
+}
+
+/// `row - factor own`, zeros left out.
+fn subtract<K: Ord + Clone>(row: &mut BTreeMap<K, BigRational>, own: &BTreeMap<K, BigRational>, factor: &BigRational) {
+    for (key, value) in own {
+        let entry = row.entry(key.clone()).or_insert_with(BigRational::zero);
+        *entry -= factor * value;
+    }
+    row.retain(|_, value| !value.is_zero());
 }

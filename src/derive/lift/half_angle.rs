@@ -99,9 +99,11 @@ impl HalfAngle {
         let claim = Claim { generators: &self.generators, basis: &self.basis, cofactors: &self.cofactors };
         verify(&self.ring, &claim, &Watch::none())?;
         let degrees = [self.stair(2)?, self.stair(1)?, self.stair(0)?];
-        let good = [4, 1, 1].iter().zip(degrees).enumerate().all(|(at, (degree, f))| {
-            self.ring.degree_in(f, 2 - at) == *degree
-        });
+        let good = [4, 1, 1]
+            .iter()
+            .zip(degrees)
+            .enumerate()
+            .all(|(at, (degree, f))| self.ring.degree_in(f, 2 - at) == *degree);
         if good { Ok(self) } else { Err(Error::new(ErrorKind::Certificate, "a half angle's basis has no quartic")) }
     }
 

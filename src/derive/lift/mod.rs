@@ -90,11 +90,7 @@ impl Derived {
         Derived::assemble(chain, mechanism, Parts { plan, steps, templates, half_angles })
     }
 
-    fn assemble(
-        chain: &Chain,
-        mechanism: &Mechanism,
-        parts: Parts,
-    ) -> Result<Self> {
+    fn assemble(chain: &Chain, mechanism: &Mechanism, parts: Parts) -> Result<Self> {
         let program = program::compile(chain, mechanism, &parts)?;
         let Parts { plan, steps, templates, half_angles } = parts;
         Ok(Derived { chain: chain.clone(), plan, steps, templates, half_angles, program })

@@ -28,11 +28,7 @@ const DEPENDENT: f64 = 1e-6;
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for what a program cannot hold.
-pub(super) fn compile(
-    chain: &Chain,
-    mechanism: &Mechanism,
-    parts: &Parts,
-) -> Result<Program> {
+pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts) -> Result<Program> {
     let templates = parts.templates.as_slice();
     let mut layout = Layout::new(mechanism, chain.length_unit());
     let reach = reach(chain);
@@ -122,7 +118,9 @@ impl Context<'_> {
         let joint = self.step.joint;
         let screw = &self.mechanism.joints()[joint];
         let auxiliary = match self.step.shape.form {
-            Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic => Some(layout.unknown(&format!("w{}", screw.symbol))),
+            Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic => {
+                Some(layout.unknown(&format!("w{}", screw.symbol)))
+            }
             Form::Turn | Form::Linear | Form::Lengths => None,
         };
         let mut assembler = Assembler::default();
@@ -202,7 +200,8 @@ impl Context<'_> {
         if let Some(elimination) = &self.step.elimination {
             return self.left(elimination, equations, sizes, root, assembler);
         }
-        let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors) {
+        let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors)
+        {
             None => Operand::Constant(0.0),
             Some(value) => assembler.mul(Operand::Constant(factor), value.operand()),
         };
@@ -257,9 +256,7 @@ impl Context<'_> {
         match self.step.shape.form {
             Form::Angle => vec![take(&[1, 0], 1.0), take(&[0, 1], sine), take(&[0, 0], 1.0)],
             Form::Linear => vec![take(&[1], sine), take(&[0], 1.0)],
-            Form::Lengths => {
-                (0..5).rev().map(|k: i32| take(&[k as u32], sine.powi(k))).collect()
-            }
+            Form::Lengths => (0..5).rev().map(|k: i32| take(&[k as u32], sine.powi(k))).collect(),
             Form::Quadratic => vec![take(&[2], sine * sine), take(&[1], 0.5 * sine), take(&[0], 1.0)],
             _ => vec![
                 take(&[1, 1], sine),

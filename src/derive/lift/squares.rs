@@ -54,7 +54,12 @@ fn linear(ring: &PolynomialRing<Rationals>, f: &Poly) -> Option<Linear> {
 }
 
 /// The numbers with `q2 + m q1 = k p1` and `p2 + m p1 = -k q1 / n`.
-fn turn(ring: &PolynomialRing<Rationals>, a: &Linear, b: &Linear, n: &BigRational) -> Option<(BigRational, BigRational)> {
+fn turn(
+    ring: &PolynomialRing<Rationals>,
+    a: &Linear,
+    b: &Linear,
+    n: &BigRational,
+) -> Option<(BigRational, BigRational)> {
     let minus = -n.recip();
     let rows = [(&a.p, &a.q, &b.q), (&ring.scale(&a.q, &minus), &a.p, &b.p)]
         .into_iter()
@@ -71,12 +76,16 @@ fn turn(ring: &PolynomialRing<Rationals>, a: &Linear, b: &Linear, n: &BigRationa
 
 /// For each monomial, the equation `k x - m y = right` as `[x, -y, right]`.
 fn rows(ring: &PolynomialRing<Rationals>, [x, y, right]: [&Poly; 3]) -> Vec<[BigRational; 3]> {
-    let mut monomials: Vec<_> = [x, y, right].iter().flat_map(|f| f.terms()).map(|term| term.monomial.clone()).collect();
+    let mut monomials: Vec<_> =
+        [x, y, right].iter().flat_map(|f| f.terms()).map(|term| term.monomial.clone()).collect();
     monomials.sort_by(|a, b| ring.layout().compare(a, b));
     monomials.dedup();
     let coefficient = |f: &Poly, monomial: &crate::poly::Monomial| {
         let term = f.terms().iter().find(|term| term.monomial == *monomial);
         term.map_or_else(BigRational::zero, |term| term.coefficient.clone())
     };
-    monomials.iter().map(|monomial| [coefficient(x, monomial), -coefficient(y, monomial), coefficient(right, monomial)]).collect()
+    monomials
+        .iter()
+        .map(|monomial| [coefficient(x, monomial), -coefficient(y, monomial), coefficient(right, monomial)])
+        .collect()
 }

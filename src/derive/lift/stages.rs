@@ -7,13 +7,13 @@ use num_traits::One;
 use super::shape::{Symbolic, TargetPoly};
 use super::template::{Form, Template};
 use super::{Derived, Elimination, Lifted, certificate};
+use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, Multilinear};
 use crate::derive::describe;
 use crate::derive::stages::{MARK, PAGE, STAGES};
 use crate::derive::tree::{Node, Outcome};
 use crate::derive::triangular::presented;
 use crate::number::{Ring, Style};
-use crate::Result;
 
 /// The most terms of an equation that are written out.
 const MOST_TERMS: usize = 120;
@@ -44,7 +44,8 @@ impl Derived {
         text += &notation(mechanism);
         let mut symbolic = Symbolic::new(mechanism)?;
         for (index, step) in self.steps.iter().enumerate() {
-            let _ = writeln!(text, "\n{} for {}", heading(index, mechanism, step), joint_unknowns(mechanism, step.joint));
+            let _ =
+                writeln!(text, "\n{} for {}", heading(index, mechanism, step), joint_unknowns(mechanism, step.joint));
             for (number, relation) in step.relations.iter().enumerate() {
                 let _ = writeln!(text, "({}.{})  {relation}", index + 1, number + 1);
                 let _ = writeln!(text, "       {}", relation.meaning(mechanism));
@@ -187,7 +188,9 @@ fn why(form: Form) -> &'static str {
         Form::Angle => "one linear equation in cosine and sine, a chord of the circle with two ends",
         Form::Turn => "two equations that turn a known vector to a known place, one angle",
         Form::Pair => "two independent linear equations in cosine and sine, one angle",
-        Form::Quartic => "an equation of degree two in cosine and sine, by the tangent of half the angle up to four angles",
+        Form::Quartic => {
+            "an equation of degree two in cosine and sine, by the tangent of half the angle up to four angles"
+        }
         Form::Lengths => "an equation of degree four at most, up to four lengths",
         Form::Linear => "a linear equation, one length",
         Form::Quadratic => "a quadratic equation, two lengths",
@@ -197,10 +200,14 @@ fn why(form: Form) -> &'static str {
 /// What happens where the generic formulas break down.
 fn singular(form: Form) -> &'static str {
     match form {
-        Form::Angle => "where A = B = 0 no angle solves it, or with C = 0 each does: the joint is free. Where A^2 + B^2 = C^2 both ends meet.",
+        Form::Angle => {
+            "where A = B = 0 no angle solves it, or with C = 0 each does: the joint is free. Where A^2 + B^2 = C^2 both ends meet."
+        }
         Form::Turn => "where A = B = 0 no angle solves it, or with X = Y = 0 each does: the joint is free.",
         Form::Pair => "where A F = B E each equation is solved alone, and what solves both is kept.",
-        Form::Quartic => "where all coefficients vanish the joint is free. Where the quartic has a double root two answers meet.",
+        Form::Quartic => {
+            "where all coefficients vanish the joint is free. Where the quartic has a double root two answers meet."
+        }
         Form::Lengths => "where the polynomial has a double root two answers meet.",
         Form::Linear => "never, where A is a number.",
         Form::Quadratic => "where B^2 = A C both roots meet.",
@@ -236,8 +243,11 @@ fn notation(mechanism: &Mechanism) -> String {
 
 /// `c1, s1`; `s1'` is the sine divided by the length of the axis vector where that is not one.
 fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> String {
-    let factors: &[Factor] =
-        if mechanism.joints()[joint].is_revolute() { &[Factor::Cosine(joint), Factor::Sine(joint)] } else { &[Factor::Length(joint)] };
+    let factors: &[Factor] = if mechanism.joints()[joint].is_revolute() {
+        &[Factor::Cosine(joint), Factor::Sine(joint)]
+    } else {
+        &[Factor::Length(joint)]
+    };
     let screw = &mechanism.joints()[joint];
     let mut text = factors.iter().map(|factor| name(mechanism, *factor)).collect::<Vec<_>>().join(", ");
     if !screw.square.is_one() {
@@ -327,12 +337,14 @@ fn left(index: usize, mechanism: &Mechanism, step: &Lifted, elimination: &Elimin
         [] => "1".to_owned(),
         list => list.iter().map(|factor| name(mechanism, *factor)).collect::<Vec<_>>().join(" "),
     };
-    let mut lines = vec![format!("the other joints are eliminated from ({0}.1) to ({0}.{1}):", index + 1, step.relations.len())];
+    let mut lines =
+        vec![format!("the other joints are eliminated from ({0}.1) to ({0}.{1}):", index + 1, step.relations.len())];
     for (number, place) in elimination.symbols.iter().enumerate() {
         let (what, relation) = (product(&place.factors), place.relation + 1);
         lines.push(format!("S{number} = the coefficient of {what} in ({}.{relation})", index + 1));
     }
-    let own = elimination.ring.variables()[elimination.sizes[0]..elimination.sizes[0] + elimination.sizes[1]].join(", ");
+    let own =
+        elimination.ring.variables()[elimination.sizes[0]..elimination.sizes[0] + elimination.sizes[1]].join(", ");
     let text = elimination.ring.format(&elimination.member, Style::Decimal);
     lines.push(format!("with {own} for {}:", joint_unknowns(mechanism, step.joint)));
     lines.push(format!("{text} = 0"));

@@ -21,6 +21,8 @@ const CANDIDATES: usize = 4;
 /// So many relations are looked at for independent ones.
 const LOOKED_AT: usize = 24;
 
+/// The effort of a joint that no sum of squares eliminates.
+const HARD: usize = 15;
 /// The effort of linear relations among coefficients.
 const LINEAR: usize = 20;
 
@@ -46,7 +48,7 @@ pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Wa
         for (at, &degree) in degrees.iter().enumerate().filter(|(_, degree)| is_allowed(degree)) {
             let away: Vec<usize> = places.iter().copied().filter(|&place| place != places[at]).collect();
             let hard = away.iter().filter(|&&joint| !turns_as_one(sights, &some, joint)).count();
-            let effort = 10 * places.len() + symbols + 5 * hard;
+            let effort = 10 * places.len() + symbols + HARD * hard;
             if best[at].as_ref().is_none_or(|(step, least)| (degree, effort) < (step.degree, *least)) {
                 let relations = some.iter().map(|(index, _)| sights.relations[*index].clone()).collect();
                 let way = Way::Eliminated { relations, away };
@@ -63,24 +65,26 @@ fn covers(some: &[Seen], joints: u32) -> bool {
     factors.fold(0, |set, factor| set | 1 << factor.joint()) == joints
 }
 
-/// Whether the relations are combinations of coordinates of one vector that `joint` turns: the sum of their squares then is free of
-/// the joint, which eliminates it (Pieper 1968). That is so when the rows (A, B) of A c + B s' stay among themselves under a
-/// quarter turn, (A, B) -> (B, -n A).
+/// Whether the relations are combinations, with numbers, of coordinates of one vector that `joint` turns: the sum of their squares
+/// then is free of the joint, which eliminates it (Pieper 1968). That is so when the rows (A, B) of A c + B s' stay among themselves
+/// under a quarter turn, (A, B) -> (B, -n A), at all targets alike.
 fn turns_as_one(sights: &Sights<'_>, some: &[Seen], joint: usize) -> bool {
     let (field, n) = (sights.field(), sights.squares[joint]);
     let mut rows = Echelon::new(field);
     let mut turned = Vec::new();
     for (_, sight) in some {
-        let mut row = Vec::new();
-        let mut turn = Vec::new();
+        let (mut row, mut turn) = (Vec::new(), Vec::new());
         for (product, sample) in sight.iter() {
             let rest: Vec<Factor> = product.list().iter().copied().filter(|factor| factor.joint() != joint).collect();
-            if product.list().contains(&Factor::Cosine(joint)) {
-                row.push(((false, rest.clone()), sample[0]));
-                turn.push(((true, rest), field.neg(&field.mul(&n, &sample[0]))));
-            } else if product.list().contains(&Factor::Sine(joint)) {
-                row.push(((true, rest.clone()), sample[0]));
-                turn.push(((false, rest), sample[0]));
+            let (cosine, sine) = (Factor::Cosine(joint), Factor::Sine(joint));
+            for (k, &value) in sample.iter().enumerate() {
+                if product.list().contains(&cosine) {
+                    row.push(((false, rest.clone(), k), value));
+                    turn.push(((true, rest.clone(), k), field.neg(&field.mul(&n, &value))));
+                } else if product.list().contains(&sine) {
+                    row.push(((true, rest.clone(), k), value));
+                    turn.push(((false, rest.clone(), k), value));
+                }
             }
         }
         rows.insert(row);

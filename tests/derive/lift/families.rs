@@ -5,6 +5,8 @@ use std::time::Instant;
 use groebot::derive::lift::{Derived, Form};
 use groebot::kinematics::screw::{ScrewSolver, Target};
 use groebot::kinematics::{Chain, Plane, Task};
+use groebot::number::BigRational;
+use groebot::robots;
 
 use super::{Random, derive, distance, miss};
 use crate::derive::random_chains::{Shared, chain, planar_chain, reversed};
@@ -78,7 +80,10 @@ fn a_general_arm_needs_half_angles() {
     let text = groebot::derive::lift::certificate::write(&derived).unwrap();
     assert_eq!(groebot::derive::lift::certificate::prove(&derived.chain, &text).unwrap(), derived);
     println!("certificate {} bytes", text.len());
-    let forged = text.replace("\"eliminations\": [\n    {\n      \"member\": \"", "\"eliminations\": [\n    {\n      \"member\": \"x2 + ");
+    let forged = text.replace(
+        "\"eliminations\": [\n    {\n      \"member\": \"",
+        "\"eliminations\": [\n    {\n      \"member\": \"x2 + ",
+    );
     assert_ne!(forged, text);
     let error = groebot::derive::lift::certificate::prove(&derived.chain, &forged).unwrap_err();
     assert!(error.message().contains("cofactors of an elimination"), "{error}");
@@ -89,11 +94,14 @@ fn other_tasks() {
     family("rotation", "RRR", &[], Task::Rotation);
     family("direction", "RR", &[], Task::Direction);
     family("polar", "RRP", &[Shared::Point(0, 1)], Task::Position);
-    family("ray", "RRRRR", &[Shared::Point(0, 2)], Task::Ray);
+    let along = [1, 0, 0].map(|entry| BigRational::from_integer(entry.into()));
+    check("ray", &robots::nao_left_arm().with_task(Task::Ray, along, Vec::new()).unwrap());
     let plane = Plane::Xy;
-    for (kinds, task) in
-        [("RR", Task::PlanarPosition { plane }), ("RRR", Task::PlanarPose { plane }), ("PRR", Task::PlanarPose { plane })]
-    {
+    for (kinds, task) in [
+        ("RR", Task::PlanarPosition { plane }),
+        ("RRR", Task::PlanarPose { plane }),
+        ("PRR", Task::PlanarPose { plane }),
+    ] {
         for seed in 0..SEEDS {
             check(kinds, &planar_chain(kinds, task, seed));
         }
