@@ -19,7 +19,8 @@ const EXAMPLES: &str = "Examples:
   groebot ik robot.urdf --base base_link --tip tool0 --q 0,-90,90,0,0,0 --degrees
 
 Positions are in the length unit of the description, in its base frame. A rotation is Rz(yaw) Ry(pitch) Rx(roll), as in a URDF. The
-task of a chain may ask for less: x,y,z for a position; two coordinates in a plane, or those and the angle about its normal.
+task of a chain may ask for less: x,y,z for a position, and a direction behind them for a ray; a direction alone, or angles or a
+quaternion alone; two coordinates in a plane, or those and the angle about its normal. Values of given joints stand last.
 A target out of reach is no error: the answer is \"no solution\".";
 
 /// Finds all joint values for a target by screw theory, each checked by forward kinematics
@@ -52,7 +53,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut page = String::new();
     for (text, target) in given.chain(reached) {
         let context = |error: Error| error.with_context(format!("`{}`", targets::shown(text)));
-        let answers = target.and_then(|target| solver.solve(&target)).map_err(context)?;
+        let answers = target.and_then(|(target, given)| solver.solve_given(&target, &given)).map_err(context)?;
         page +=
             &if arguments.json { json(&solver, text, &answers, degrees) } else { table_of(&solver, text, &answers) };
     }
@@ -74,9 +75,26 @@ fn numbers(text: &str) -> Result<Vec<f64>> {
     })
 }
 
-/// The target that `text` names, in the form of the chain's task.
-fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Target> {
+/// A target, and the values of the given joints.
+type Aim = (Target, Vec<f64>);
+
+/// The target that `text` names, in the form of the chain's task, then the values of the given joints.
+fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
     let values = numbers(text)?;
+    let count = chain.given().len();
+    let Some(own) = values.len().checked_sub(count) else {
+        let names = chain.parts().given.join(", ");
+        let text = format!("{} numbers are given; the values of {count} joints stand last: {names}", values.len());
+        return Err(Error::new(ErrorKind::BadValue, text));
+    };
+    let turns = chain.given().into_iter().map(|joint| chain.joints()[joint].kind == JointKind::Revolute);
+    let inside = |(value, turns): (&f64, bool)| if degrees && turns { value.to_radians() } else { *value };
+    let given = values[own..].iter().zip(turns).map(inside).collect();
+    Ok((asked(chain, &values[..own], degrees)?, given))
+}
+
+/// The target of `values`.
+fn asked(chain: &Chain, values: &[f64], degrees: bool) -> Result<Target> {
     let radians = |value: f64| if degrees { value.to_radians() } else { value };
     let wanted = match chain.task() {
         Task::Pose => "a pose has 6 numbers (x, y, z, roll, pitch, yaw) or 7 (x, y, z, qx, qy, qz, qw)",
@@ -89,7 +107,7 @@ fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Target> {
     };
     let euler = |[r, p, y]: [f64; 3]| UnitQuaternion::from_euler_angles(radians(r), radians(p), radians(y));
     let unit = |vector: Vector3<f64>| vector.try_normalize(0.0).unwrap_or(vector);
-    Ok(match (chain.task(), values[..].len(), &values[..]) {
+    Ok(match (chain.task(), values.len(), values) {
         (Task::Pose, 6, &[x, y, z, roll, pitch, yaw]) => {
             Target::Pose(Pose::from_parts(Translation3::new(x, y, z), euler([roll, pitch, yaw])))
         }
@@ -115,11 +133,12 @@ fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Target> {
 }
 
 /// What the joint values of `text` reach.
-fn reached(chain: &Chain, text: &str, degrees: bool) -> Result<Target> {
+fn reached(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
     let turns = |i: usize| chain.joints().get(i).is_some_and(|joint| joint.kind == JointKind::Revolute);
     let inside = |(i, value): (usize, f64)| if degrees && turns(i) { value.to_radians() } else { value };
     let q: Vec<f64> = numbers(text)?.into_iter().enumerate().map(inside).collect();
-    Target::reached(chain, &q)
+    let target = Target::reached(chain, &q)?;
+    Ok((target, chain.given().into_iter().map(|joint| q[joint]).collect()))
 }
 
 fn table_of(solver: &ScrewSolver, given: &str, answers: &[Solution]) -> String {
