@@ -6,7 +6,6 @@ mod closure;
 mod lift;
 mod ends;
 mod families;
-mod lift;
 mod planner;
 mod random_chains;
 mod renamed;
