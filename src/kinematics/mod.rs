@@ -1,5 +1,6 @@
-//! Kinematics of serial chains: the validated exact model [`Chain`], its file format ([`chain_toml`]), forward
-//! kinematics ([`fk`]), the screw solver ([`screw`]) and a numeric inverse ([`oracle`]).
+//! Kinematics of serial chains: the validated exact model [`Chain`] and what is asked of it ([`Task`]), its file formats
+//! ([`chain_toml`], [`dh_toml`], [`urdf`]), forward kinematics ([`fk`]), how axes lie ([`geometry`]) or almost lie ([`snap`]), the
+//! screw solver ([`screw`]) and a numeric inverse ([`oracle`]).
 
 pub mod chain;
 pub mod chain_toml;
@@ -17,16 +18,18 @@ mod placement;
 pub mod screw;
 pub mod snap;
 mod surd;
+mod task;
 pub mod tree;
 pub mod urdf;
 mod validate;
 
 pub use chain::{
-    Chain, ChainParts, Choice, ExactMatrix, ExactVector, Joint, JointKind, LengthUnit, Plane, Root, Task, Tip, along_z,
+    Chain, ChainParts, Choice, ExactMatrix, ExactVector, Joint, JointKind, LengthUnit, Root, Tip, along_z,
 };
 pub use dh::{DhConvention, DhRow, DhTable};
 pub use exact_rotation::{ExactRotation, Turn};
 pub use geometry::Geometry;
 pub use placement::Placement;
 pub use snap::SnapReport;
+pub use task::{Plane, Task};
 pub use tree::Tree;

@@ -3,7 +3,8 @@
 
 use num_traits::{One, Signed, Zero};
 
-use super::chain::{ChainParts, ExactMatrix, ExactVector, Joint, JointKind, Plane, Tip, show};
+use super::chain::{ChainParts, ExactMatrix, ExactVector, Joint, JointKind, Tip, show};
+use super::task::Plane;
 use crate::document::{one_among, shown};
 use crate::number::{BigInt, BigRational};
 use crate::{Error, ErrorKind};

@@ -29,14 +29,18 @@ const PATIENCE: usize = 4;
 /// Linear forms that are tried.
 const FORMS: u64 = 3;
 
-/// The polynomials of one target with integer coefficients: exponents of a term, and its coefficient.
-type System = Vec<Vec<(Vec<u32>, BigInt)>>;
+/// The exponents of a monomial, one an unknown.
+type Exponents = Vec<u32>;
+/// A polynomial with integer coefficients.
+type Integral = Vec<(Exponents, BigInt)>;
+/// The polynomials of one target.
+type System = Vec<Integral>;
 
 /// A basis modulo a prime with the way to it.
 struct Learned {
     trace: Trace,
     /// The terms of each generator, greatest first.
-    terms: Vec<Vec<Vec<u32>>>,
+    terms: Vec<Vec<Exponents>>,
     /// The monomials of each basis polynomial.
     supports: Vec<Vec<Monomial>>,
     /// The dimension of the quotient ring.
@@ -130,10 +134,10 @@ impl Counter {
     }
 
     /// The primitive multiple of an equation.
-    fn integral(&self, form: &Form) -> Vec<(Vec<u32>, BigInt)> {
+    fn integral(&self, form: &Form) -> Integral {
         let denominator = form.terms().fold(BigInt::one(), |lcm, (_, c)| lcm.lcm(c.denom()));
-        let exponents = |set: u32| (0..self.names.len()).map(|v| set >> v & 1).collect::<Vec<u32>>();
-        let mut terms: Vec<(Vec<u32>, BigInt)> =
+        let exponents = |set: u32| (0..self.names.len()).map(|v| set >> v & 1).collect::<Exponents>();
+        let mut terms: Integral =
             form.terms().map(|(set, c)| (exponents(set), c.numer() * (&denominator / c.denom()))).collect();
         let content = terms.iter().fold(BigInt::zero(), |gcd, (_, c)| gcd.gcd(c));
         terms.iter_mut().for_each(|(_, c)| *c /= &content);
@@ -141,7 +145,7 @@ impl Counter {
     }
 
     /// `c^2 + n s^2 = 1`, where `c` has number `first`.
-    fn circle(&self, first: usize, square: &BigRational) -> Vec<(Vec<u32>, BigInt)> {
+    fn circle(&self, first: usize, square: &BigRational) -> Integral {
         let power = |v: Option<usize>| (0..self.names.len()).map(|w| if v == Some(w) { 2 } else { 0 }).collect();
         let (n, d) = (square.numer().clone(), square.denom().clone());
         vec![(power(Some(first)), d.clone()), (power(Some(first + 1)), n), (power(None), -d)]
@@ -288,14 +292,14 @@ fn no_primes() -> Error {
 }
 
 /// The coefficients of the learned terms; `None` when a polynomial has others.
-fn lanes(system: &System, terms: &[Vec<Vec<u32>>]) -> Option<Vec<Vec<BigInt>>> {
+fn lanes(system: &System, terms: &[Vec<Exponents>]) -> Option<Vec<Vec<BigInt>>> {
     if system.len() != terms.len() {
         return None;
     }
-    let row = |(polynomial, terms): (&Vec<(Vec<u32>, BigInt)>, &Vec<Vec<u32>>)| {
+    let row = |(polynomial, terms): (&Integral, &Vec<Exponents>)| {
         let known = polynomial.iter().all(|(exponents, _)| terms.contains(exponents));
-        let find = |wanted: &Vec<u32>| polynomial.iter().find(|(exponents, _)| exponents == wanted);
-        let value = |wanted: &Vec<u32>| find(wanted).map_or_else(BigInt::zero, |(_, c)| c.clone());
+        let find = |wanted: &Exponents| polynomial.iter().find(|(exponents, _)| exponents == wanted);
+        let value = |wanted: &Exponents| find(wanted).map_or_else(BigInt::zero, |(_, c)| c.clone());
         known.then(|| terms.iter().map(value).collect())
     };
     system.iter().zip(terms).map(row).collect()

@@ -116,7 +116,7 @@ impl ExactChain {
     /// The equations `E_k^-1 .. E_1^-1 (reached) = E_(k+1) .. E_n (zero)` of all objects, both cuts next to the middle.
     pub fn equations(&self, reached: &Reached, values: &[Value]) -> Vec<Form> {
         let n = self.joints();
-        let cuts = if n % 2 == 0 { vec![n / 2] } else { vec![n / 2, n / 2 + 1] };
+        let cuts = if n.is_multiple_of(2) { vec![n / 2] } else { vec![n / 2, n / 2 + 1] };
         cuts.into_iter().flat_map(|cut| self.cut(cut, reached, values)).filter(|f| !f.is_zero()).collect()
     }
 

@@ -220,7 +220,7 @@ impl<'a> Targets<'a> {
         let distance = 10.0_f64.powi(-(k as i32));
         let q = (0..DRAWS).find_map(|_| {
             let Singularity { mut q, way } = self.singular()?;
-            let side = if self.done % 2 == 0 { 1.0 } else { -1.0 };
+            let side = if self.done.is_multiple_of(2) { 1.0 } else { -1.0 };
             q[way] += side * distance * self.model.unit(way);
             // It may be singular for another reason still.
             (self.model.sigma(&q) >= 1e-3 * distance).then_some(q)
@@ -245,7 +245,7 @@ impl<'a> Targets<'a> {
         self.done += 1;
         let outward = null_vector(self.model.jacobian(&found.q).transpose())?;
         let k = [3, 6, 9, 12][self.done % 4];
-        let side = if self.done / 4 % 2 == 0 { 1.0 } else { -1.0 };
+        let side = if (self.done / 4).is_multiple_of(2) { 1.0 } else { -1.0 };
         let shift = outward * side * 10.0_f64.powi(-k);
         let mut inputs = self.shifted(&found.q, shift.as_slice())?;
         inputs.extend(self.model.given.iter().map(|&joint| found.q[joint]));
