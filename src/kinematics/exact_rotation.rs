@@ -115,7 +115,7 @@ fn is_step(steps: &BigRational) -> bool {
 }
 
 /// Whether `given` is within 1e-15 of `exact`, or is its rounded or truncated decimal with enough decimals.
-fn is_decimal_of(given: &BigRational, exact: &BigRational) -> bool {
+pub(super) fn is_decimal_of(given: &BigRational, exact: &BigRational) -> bool {
     if (given - exact).abs() * integer(1_000_000_000_000_000) <= integer(1) {
         return true;
     }

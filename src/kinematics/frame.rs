@@ -1,7 +1,7 @@
 //! Where a chain of placements leads, exactly, multiples of 45 and 30 degrees included. Main type: [`Frame`].
 
 use super::exact_rotation::over_common;
-use super::surd::{SurdVector, directed, surds};
+use super::surd::{SurdVector, directed, recognised, surds};
 use super::{ExactRotation, ExactVector, Placement, Tip};
 use crate::number::{BigInt, BigRational};
 use num_integer::Integer;
@@ -41,10 +41,11 @@ impl Frame {
         Frame { rotation, origin }
     }
 
-    /// The direction `axis` of this frame in the base frame, in coprime integers when it is rational, else each entry within
+    /// The direction `axis` of this frame in the base frame (0.866025 stands for sqrt 3 / 2 in a unit vector), in coprime integers when it is rational, else each entry within
     /// 2^-80 of the greatest.
     pub fn direction(&self, axis: &ExactVector) -> ExactVector {
-        let direction = directed(&self.rotation.turned(&surds(axis)));
+        let axis = recognised(axis).unwrap_or_else(|| surds(axis));
+        let direction = directed(&self.rotation.turned(&axis));
         match direction.each_ref().map(|entry| entry.rational().cloned()) {
             [Some(x), Some(y), Some(z)] if !self.rotation.is_long() => primitive(&[x, y, z]),
             _ => direction.each_ref().map(|entry| entry.nearby()),

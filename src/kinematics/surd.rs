@@ -6,6 +6,7 @@ use num_integer::Integer;
 use num_traits::{One, ToPrimitive, Zero};
 
 use super::ExactVector;
+use super::exact_rotation::is_decimal_of;
 use crate::number::BigRational;
 
 /// An irrational number, and one with a long denominator, becomes the nearest multiple of 2^-80.
@@ -136,6 +137,20 @@ pub type SurdVector = [Surd; 3];
 /// The same vector.
 pub fn surds(vector: &ExactVector) -> SurdVector {
     vector.each_ref().map(Surd::from)
+}
+
+/// The unit vector of which `axis` is the decimal, to four places at least, when its entries are 0, 1/2, sqrt 2 / 2, sqrt 3 / 2 or 1
+/// up to sign and its direction is not rational.
+pub fn recognised(axis: &ExactVector) -> Option<SurdVector> {
+    let half = Surd::from(&BigRational::new(1.into(), 2.into()));
+    let known = [Surd::of(0, 0, 0), Surd::of(1, 0, 0), Surd::of(0, 1, 0), Surd::of(0, 0, 1), Surd::of(2, 0, 0)];
+    let known: Vec<Surd> = known.iter().flat_map(|twice| [twice.mul(&half), twice.mul(&half).neg()]).collect();
+    let read = |entry: &BigRational| known.iter().find(|surd| is_decimal_of(entry, &surd.value())).cloned();
+    let [x, y, z] = axis.each_ref().map(read);
+    let unit = [x?, y?, z?];
+    let square = unit.iter().fold(Surd::default(), |sum, entry| sum.add(&entry.mul(entry)));
+    let is_rational = directed(&unit).iter().all(|entry| entry.rational().is_some());
+    (!is_rational && square == Surd::of(1, 0, 0)).then_some(unit)
 }
 
 /// The direction of a vector that is not zero: its entries over the greatest one's magnitude.

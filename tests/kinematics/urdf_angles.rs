@@ -65,6 +65,22 @@ fn a_wrist_at_60_degrees_keeps_its_relations() {
     assert!((geometry.neighbours[0].angle - 60f64.to_radians()).abs() < 1e-15);
 }
 
+/// An axis at 30 degrees by its decimals, and one by an angle of its frame: parallel, exactly.
+#[test]
+fn an_axis_of_decimals_is_the_unit_vector() {
+    let text = "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>
+<joint name='one' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0.866025 0 0.5'/></joint>
+<joint name='two' type='continuous'><parent link='b'/><child link='c'/><origin xyz='0 1 0' rpy='0 -0.523599 0'/><axis xyz='1 0 0'/></joint>
+<joint name='three' type='continuous'><parent link='c'/><child link='d'/><origin rpy='0 0.5236 0'/><axis xyz='0.866 0 0.5'/></joint></robot>";
+    let chain = Tree::from_urdf(text).unwrap().chain(None, None).unwrap();
+    let directions: Vec<_> = chain.joints().iter().map(|joint| joint.direction().into_inner()).collect();
+    assert_eq!(Geometry::of(&chain).parallel.first(), Some(&(0..2)));
+    assert_eq!(chain.joints()[0].axis, chain.joints()[1].axis);
+    assert!((directions[0] - nalgebra::Vector3::new(0.75f64.sqrt(), 0.0, 0.5)).norm() < 1e-15);
+    // Three places are too few.
+    assert!((directions[2] - directions[0]).norm() > 1e-6);
+}
+
 /// A decimal angle, general or one of the known ones.
 fn angle() -> impl Strategy<Value = String> {
     let known = ["0", "0.785398", "-0.7853982", "0.5236", "1.0472", "-2.0944", "1.5708", "3.14159", "2.35619"];

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use num_traits::ToPrimitive;
 
+use super::surd::recognised;
 use super::tree::{Mimic, Tree, TreeJoint, TreeJointKind, TreeLink};
 use super::{ExactRotation, ExactVector, Placement, Turn};
 use crate::document::{one_among, read_text, shown};
@@ -90,15 +91,22 @@ fn read_named_joint(element: &Element, name: &str, is_recent: bool) -> Result<Tr
             || element.error(ErrorKind::MissingKey, &format!("has no <{part} link=\"...\"/>; it is required"));
         Ok(element.child(part)?.ok_or_else(missing)?.required("link")?.to_owned())
     };
-    let (origin, notes) =
+    let (origin, mut notes) =
         element.child("origin")?.map_or_else(|| Ok((Placement::identity(), Vec::new())), read_origin)?;
+    let axis = read_axis(element.child("axis")?)?;
+    if recognised(&axis).is_some() {
+        notes.push(
+            "its axis is taken as the unit vector with 1/2, sqrt 2 / 2 or sqrt 3 / 2 that it is the decimal of"
+                .to_owned(),
+        );
+    }
     Ok(TreeJoint {
         name: name.to_owned(),
         kind,
         parent: link("parent")?,
         child: link("child")?,
         origin,
-        axis: read_axis(element.child("axis")?)?,
+        axis,
         limits: read_limits(element, kind, is_recent)?,
         mimic: element.child("mimic")?.map(read_mimic).transpose()?,
         notes,
