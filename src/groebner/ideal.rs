@@ -1,7 +1,7 @@
 //! Questions to an ideal, answered by a Groebner basis: membership, elimination, dimension, quotient.
 
 use super::{Basis, Options, Settings, basis, f4_with, modular, normal_form};
-use crate::number::{Field, PrimeElement, Rationals, Zp};
+use crate::number::{Field, PrimeElement, Rationals, Ring, Zp};
 use crate::poly::{Monomial, Order, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -193,13 +193,16 @@ fn modulo_prime<F: Field>(
     back(ring, &found, |&n| Ok(ring.field().from_integer(&n.into())))
 }
 
+/// A ring and generators in it.
+type Generated<G> = (PolynomialRing<G>, Vec<Polynomial<<G as Ring>::Element>>);
+
 /// The same ideal in the ring over a field that the engines know.
 fn over<F: Field, G: Field>(
     ring: &PolynomialRing<F>,
     field: G,
     generators: &[Polynomial<F::Element>],
     number: impl Fn(&F::Element) -> Result<G::Element>,
-) -> Result<(PolynomialRing<G>, Vec<Polynomial<G::Element>>)> {
+) -> Result<Generated<G>> {
     let plain = PolynomialRing::new(field, ring.variables(), ring.layout().order().clone())?;
     let plain = plain.with_width(ring.layout().width());
     let moved = generators.iter().map(|f| ring.map_into(f, &plain, &number)).collect::<Result<_>>()?;

@@ -11,6 +11,7 @@ mod limbs;
 mod primes;
 mod rational;
 mod reconstruct;
+pub(crate) mod word;
 mod zp;
 
 pub use chinese::Chinese;

@@ -1,7 +1,5 @@
 //! Real solutions of systems: numbers of real solutions from elsewhere, planted solutions, exact signs.
 
-mod manipulator;
-
 use std::cmp::Ordering;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;

@@ -3,6 +3,8 @@
 //! A sum is kept below the square of the modulus: a product is subtracted, and the square is added when the difference is
 //! negative. Reduction to a residue is Barrett's (P. Barrett, CRYPTO 1986), on 32-bit factors that vector units have.
 
+use crate::number::word::inverse_modulo;
+
 /// What a row's coefficients are: the same in all lanes, or one a lane.
 pub(super) trait Coefficient<const N: usize>: Copy {
     /// The coefficient in this lane.
@@ -95,15 +97,7 @@ impl<const N: usize> Moduli<N> {
 
     /// `1 / a` modulo the lane's prime, for `a` not 0, by Euclid's algorithm.
     pub fn inverse(&self, lane: usize, a: u32) -> u32 {
-        let p = i64::from(self.p[lane]);
-        let (mut r, mut s) = ((p, i64::from(a)), (0i64, 1i64));
-        while r.1 != 0 {
-            let q = r.0 / r.1;
-            r = (r.1, r.0 - q * r.1);
-            s = (s.1, s.0 - q * s.1);
-        }
-        debug_assert_eq!(r.0, 1, "a nonzero residue has an inverse");
-        s.0.rem_euclid(p) as u32
+        inverse_modulo(u64::from(a), u64::from(self.p[lane])) as u32
     }
 
     /// Subtracts `factor` times a sparse row from `sums`.

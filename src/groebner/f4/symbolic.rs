@@ -1,5 +1,7 @@
 //! Symbolic preprocessing: which multiples of which elements a round's matrix holds, and in which columns.
 
+use std::cmp::Reverse;
+
 use super::packing::{Key, product, quotient};
 use super::running::{Pair, Running, overflow};
 use super::table::Table;
@@ -179,8 +181,8 @@ impl<'a, const W: usize> Builder<'a, W> {
         let (mut order, mut free): (Vec<_>, Vec<_>) = (0..self.monomials.len() as u32)
             .map(|place| (packing.rank(self.table.key(self.monomials[place as usize])), place))
             .partition(|&(_, place)| self.roles[place as usize] != Role::Free);
-        order.sort_unstable_by(|a, b| b.0.cmp(&a.0));
-        free.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+        order.sort_unstable_by_key(|(rank, _)| Reverse(*rank));
+        free.sort_unstable_by_key(|(rank, _)| Reverse(*rank));
         order.append(&mut free);
         let mut column = vec![0; order.len()];
         let mut upper_order = Vec::with_capacity(self.upper.len());

@@ -2,56 +2,48 @@
 //!
 //! A polynomial is its coefficients, constant term first, without trailing zeros.
 
+use crate::number::word::Prime;
 use crate::{Result, Watch};
 
 /// Arithmetic modulo `p`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Residues {
-    p: u64,
+    prime: Prime,
 }
 
 impl Residues {
     /// Arithmetic modulo the prime `p < 2^31`.
     pub(super) fn new(p: u32) -> Self {
-        debug_assert!(p < 1 << 31);
-        Residues { p: u64::from(p) }
+        Residues { prime: Prime::new(p) }
     }
 
     pub(super) fn prime(&self) -> u32 {
-        self.p as u32
+        self.prime.p as u32
     }
 
     pub(super) fn from_i64(&self, n: i64) -> u32 {
-        n.rem_euclid(self.p as i64) as u32
+        n.rem_euclid(self.prime.p as i64) as u32
     }
 
     pub(super) fn add(&self, a: u32, b: u32) -> u32 {
-        ((u64::from(a) + u64::from(b)) % self.p) as u32
+        self.prime.add(u64::from(a), u64::from(b)) as u32
     }
 
     pub(super) fn neg(&self, a: u32) -> u32 {
-        if a == 0 { 0 } else { self.p as u32 - a }
+        self.prime.neg(u64::from(a)) as u32
     }
 
     pub(super) fn sub(&self, a: u32, b: u32) -> u32 {
-        self.add(a, self.neg(b))
+        self.prime.sub(u64::from(a), u64::from(b)) as u32
     }
 
     pub(super) fn mul(&self, a: u32, b: u32) -> u32 {
-        (u64::from(a) * u64::from(b) % self.p) as u32
+        self.prime.mul(u64::from(a), u64::from(b)) as u32
     }
 
-    /// The inverse of a nonzero residue, by Fermat's theorem.
+    /// The inverse of a nonzero residue.
     pub(super) fn inverse(&self, a: u32) -> u32 {
-        let (mut result, mut square, mut n) = (1, a, self.p - 2);
-        while n > 0 {
-            if n & 1 == 1 {
-                result = self.mul(result, square);
-            }
-            square = self.mul(square, square);
-            n >>= 1;
-        }
-        result
+        self.prime.inverse(u64::from(a)) as u32
     }
 
     /// The inner product; the halves of the products are summed apart, so nothing overflows.
@@ -62,20 +54,20 @@ impl Residues {
             low += product & 0xffff_ffff;
             high += product >> 32;
         }
-        let shift = (1u64 << 32) % self.p;
-        ((high % self.p * shift + low % self.p) % self.p) as u32
+        let shift = self.prime.reduce(1 << 32);
+        self.prime.reduce(self.prime.reduce(high) * shift + self.prime.reduce(low)) as u32
     }
 
     /// `target += factor row`, with Shoup's precomputed quotient.
     pub(super) fn add_scaled(&self, target: &mut [u32], factor: u32, row: &[u32]) {
         let factor = u64::from(factor);
-        let quotient = (factor << 32) / self.p;
+        let quotient = (factor << 32) / self.prime.p;
         for (sum, &entry) in target.iter_mut().zip(row) {
             let entry = u64::from(entry);
-            let product = factor * entry - ((quotient * entry) >> 32) * self.p;
+            let product = factor * entry - ((quotient * entry) >> 32) * self.prime.p;
             let mut value = u64::from(*sum) + product;
-            value = value.min(value.wrapping_sub(self.p));
-            *sum = value.min(value.wrapping_sub(self.p)) as u32;
+            value = value.min(value.wrapping_sub(self.prime.p));
+            *sum = value.min(value.wrapping_sub(self.prime.p)) as u32;
         }
     }
 
@@ -158,7 +150,7 @@ impl Residues {
     }
 
     pub(super) fn derivative(&self, a: &[u32]) -> Vec<u32> {
-        trim(a.iter().enumerate().skip(1).map(|(i, &c)| self.mul((i as u64 % self.p) as u32, c)).collect())
+        trim(a.iter().enumerate().skip(1).map(|(i, &c)| self.mul(self.prime.reduce(i as u64) as u32, c)).collect())
     }
 
     /// The monic minimal polynomial of a linearly recurrent sequence (Berlekamp and Massey).

@@ -1,5 +1,7 @@
 //! Finite fields whose elements are the machine words `0..q`.
 
+use crate::number::word::inverse_modulo;
+
 /// A finite field of `q` elements, as a value; its elements are the words `0..q`, with 0 and 1 as themselves.
 pub trait WordField: Clone {
     /// The number of elements.
@@ -70,13 +72,7 @@ impl WordField for Prime {
         rest
     }
     fn inverse(&self, a: u64) -> Option<u64> {
-        let (mut r, mut s) = ((self.p as i64, a as i64), (0i64, 1i64));
-        while r.1 != 0 {
-            let quotient = r.0 / r.1;
-            r = (r.1, r.0 - quotient * r.1);
-            s = (s.1, s.0 - quotient * s.1);
-        }
-        (a != 0).then(|| if s.0 < 0 { (s.0 + self.p as i64) as u64 } else { s.0 as u64 })
+        (a != 0).then(|| inverse_modulo(a, self.p))
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! Four products fit a 64-bit word. Each such sum is split into its halves, which are added up apart: `hi * 2^32 + lo`.
 
+use crate::number::word::Prime;
+
 /// Numbers of residues in a padded row are multiples of this.
 pub(super) const LANES: usize = 32;
 
@@ -156,7 +158,7 @@ kernel! {
 /// Arithmetic modulo a prime below 2^31 with sums of products put off.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Modulus {
-    p: u64,
+    prime: Prime,
     montgomery: Montgomery,
     pub level: Level,
 }
@@ -167,21 +169,25 @@ impl Modulus {
 
     /// `None` when `p` is too large.
     pub fn new(p: u64) -> Option<Self> {
-        (p < Self::LIMIT).then(|| Modulus { p, montgomery: Montgomery::new(p), level: Level::detect() })
+        (p < Self::LIMIT).then(|| Modulus {
+            prime: Prime::new(p as u32),
+            montgomery: Montgomery::new(p),
+            level: Level::detect(),
+        })
     }
 
     /// The residue of `hi * 2^32 + lo` for `lo < 2^63`.
     pub fn reduce(self, lo: u64, hi: u64) -> u32 {
-        ((((hi % self.p) << 32) + lo % self.p) % self.p) as u32
+        self.prime.reduce((self.prime.reduce(hi) << 32) + self.prime.reduce(lo)) as u32
     }
 
     /// The residue of a word.
     pub fn residue(self, word: u64) -> u32 {
-        (word % self.p) as u32
+        self.prime.reduce(word) as u32
     }
 
     pub fn neg(self, a: u32) -> u32 {
-        if a == 0 { 0 } else { (self.p - u64::from(a)) as u32 }
+        self.prime.neg(u64::from(a)) as u32
     }
 
     pub fn mul(self, a: u32, b: u32) -> u32 {
@@ -193,17 +199,9 @@ impl Modulus {
         self.residue(u64::from(a) + u64::from(b) * u64::from(c))
     }
 
-    /// The inverse of a residue that is not zero, by Fermat's theorem.
+    /// The inverse of a residue that is not zero.
     pub fn inverse(self, a: u32) -> u32 {
-        let (mut result, mut square, mut n) = (1, a, self.p - 2);
-        while n > 0 {
-            if n & 1 == 1 {
-                result = self.mul(result, square);
-            }
-            square = self.mul(square, square);
-            n >>= 1;
-        }
-        result
+        self.prime.inverse(u64::from(a)) as u32
     }
 
     /// The sum of `a[i] b[i]` over padded rows.
@@ -262,7 +260,7 @@ impl Sums {
 
     /// All residues.
     pub fn residues(&self) -> Vec<u32> {
-        if self.modulus.p == 2 {
+        if self.modulus.prime.p == 2 {
             return self.lo.iter().map(|lo| (lo & 1) as u32).collect();
         }
         let mut residues = vec![0; self.lo.len()];
