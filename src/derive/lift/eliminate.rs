@@ -19,7 +19,7 @@ use crate::poly::{Block, Order, Polynomial, PolynomialRing, parse};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The most terms of an elimination's basis.
-const MOST_TERMS: usize = 20_000;
+const MOST_TERMS: usize = 200_000;
 
 type Poly = Polynomial<BigRational>;
 /// A coefficient: by the unknowns of known joints, polynomials in the target.

@@ -3,6 +3,7 @@
 use groebot::Watch;
 use groebot::derive::lift::{Form, Template};
 use groebot::derive::tree::Outcome;
+use groebot::number::{Ring, Style};
 
 fn template(form: Form) -> Template {
     Template::derive(form, &Watch::none()).unwrap()
@@ -45,5 +46,3 @@ fn a_joint_is_free_where_all_symbols_vanish() {
         assert_eq!(free, [0], "{form:?}: all symbols are zero on the one stratum");
     }
 }
-
-use groebot::number::{Ring, Style};
