@@ -4,16 +4,18 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use super::Outcome;
-use super::chain_check;
 use super::console::{self, Paint};
-use super::ends::EndArguments;
+use super::ends::{EndArguments, SnapArgument};
 use super::files::{assemble_files, destination};
 use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
 use crate::derive::{Proved, Source};
 use crate::files::write_folder_atomically;
-use crate::witness::{self, Check, Options};
+use crate::witness::{self, Check, Options, chain};
 use crate::{Error, ErrorKind, Result, Watch};
+
+/// How much is checked of a chain.
+const CHAIN: Options = Options { targets: 240, oracle: 2, exact: 20, seed: 1 };
 
 const EXAMPLES: &str = "Examples:
   groebot derive derivations/nao_leg_sagittal          files beside its 0_chain.toml
@@ -31,6 +33,8 @@ pub struct Arguments {
     input: PathBuf,
     #[command(flatten)]
     ends: EndArguments,
+    #[command(flatten)]
+    snap: SnapArgument,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -50,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let session =
         Session::start(Limits { time: arguments.time, terms: arguments.terms, memory: None, quiet: arguments.quiet })?;
     let mut clock = Clock::start();
-    let source = Source::read_between(&arguments.input, &arguments.ends.ends())?;
+    let source = Source::read_between(&arguments.input, &arguments.snap.ends(&arguments.ends))?;
     let folder = destination(&source, &arguments.input, arguments.out.as_deref())?;
     clock.lap("read");
     let derivation = derive(&source, &session.watch)?;
@@ -75,11 +79,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// The numeric checks of a derivation.
 ///
 /// # Errors
-/// As [`Check::run`].
+/// As [`Check::run`] and [`chain::Check::run`].
 pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness::Report> {
     match proved {
         Proved::Equations(derivation) => Check::run(source, &derivation.program, &Options::default(), watch),
-        Proved::Chain(derived) => chain_check::check(derived, watch),
+        Proved::Chain(derived) => {
+            let most = Some(derived.plan.dimension);
+            chain::Check::run(derived.measured(), &derived.program, most, &CHAIN, watch)
+        }
     }
 }
 

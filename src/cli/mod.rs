@@ -9,7 +9,6 @@ mod basis;
 mod basis_answer;
 mod basis_certificate;
 mod basis_cover;
-mod chain_check;
 mod chain_report;
 mod check;
 mod console;

@@ -2,6 +2,7 @@
 
 use super::lift::{self, Derived};
 use super::{Derivation, Source, certificate};
+use crate::kinematics::Chain;
 use crate::solver::Program;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -21,7 +22,7 @@ impl Proved {
     /// As [`Derivation::new`] and [`Derived::of_chain`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
         match source.chain_by_steps() {
-            Some(chain) => Derived::of_chain(chain, watch).map(|derived| Proved::Chain(Box::new(derived))),
+            Some(chain) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch)),
             None => {
                 let derivation = Derivation::new(equations(source)?.clone(), watch)?;
                 Ok(Proved::Equations(Box::new(derivation)))
@@ -35,12 +36,21 @@ impl Proved {
     /// As [`certificate::prove`] and [`lift::certificate::prove`].
     pub fn again(source: &Source, text: &str) -> Result<Self> {
         match source.chain_by_steps() {
-            Some(chain) => lift::certificate::prove(chain, text).map(|derived| Proved::Chain(Box::new(derived))),
+            Some(chain) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
             None => {
                 let derivation = certificate::prove(equations(source)?, text)?;
                 Ok(Proved::Equations(Box::new(derivation)))
             }
         }
+    }
+
+    /// The derivation of `chain`, or of the ideal one that `source` asks for instead, its answers polished on `chain`.
+    fn chain(source: &Source, chain: &Chain, derive: impl Fn(&Chain) -> Result<Derived>) -> Result<Self> {
+        let derived = match source.ends.ideal(chain)? {
+            Some((ideal, report)) => derive(&ideal)?.polished_on(chain, report)?,
+            None => derive(chain)?,
+        };
+        Ok(Proved::Chain(Box::new(derived)))
     }
 
     /// The solver.

@@ -23,6 +23,7 @@ pub use template::{Form, Template};
 use super::closure::{Mechanism, Relation};
 use super::planner::{self, Plan, PlanStep};
 use crate::kinematics::Chain;
+use crate::kinematics::snap::SnapReport;
 use crate::solver::Program;
 use crate::{Result, Watch};
 
@@ -50,8 +51,10 @@ struct Parts {
 /// The derivation of a chain's solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derived {
-    /// The chain.
+    /// The chain whose loop is solved.
     pub chain: Chain,
+    /// The chain that answers are polished and measured on, where `chain` is its ideal, and how they differ.
+    pub truth: Option<(Chain, SnapReport)>,
     /// In which order its joints are found.
     pub plan: Plan,
     /// The steps.
@@ -75,6 +78,22 @@ impl Derived {
         Derived::of_plan(chain, &mechanism, plan, watch)
     }
 
+    /// This solver, of an ideal chain, for the chain `truth` that was meant by it: `report` of [`Chain::snapped`] tells how they
+    /// differ. Every answer of the closed form is polished by Newton's method on `truth`, and measured there.
+    ///
+    /// # Errors
+    /// As [`Mechanism::new`].
+    pub fn polished_on(mut self, truth: &Chain, report: SnapReport) -> Result<Self> {
+        self.program.checks = program::checks_on(truth)?;
+        self.truth = Some((truth.clone(), report));
+        Ok(self)
+    }
+
+    /// The chain that answers are measured on.
+    pub fn measured(&self) -> &Chain {
+        self.truth.as_ref().map_or(&self.chain, |(truth, _)| truth)
+    }
+
     /// Lifts and proves `plan`, one of `mechanism`, which is that of `chain`.
     ///
     /// # Errors
@@ -93,6 +112,6 @@ impl Derived {
     fn assemble(chain: &Chain, mechanism: &Mechanism, parts: Parts) -> Result<Self> {
         let program = program::compile(chain, mechanism, &parts)?;
         let Parts { plan, steps, templates, half_angles } = parts;
-        Ok(Derived { chain: chain.clone(), plan, steps, templates, half_angles, program })
+        Ok(Derived { chain: chain.clone(), truth: None, plan, steps, templates, half_angles, program })
     }
 }

@@ -15,7 +15,7 @@ use crate::derive::assemble::{Assembler, FlatTerm};
 use crate::derive::closure::{Assignment, Factor, Mechanism, Multilinear, Relation, evaluate};
 use crate::kinematics::{Chain, LengthUnit};
 use crate::number::BigRational;
-use crate::solver::{Block, Chart, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
+use crate::solver::{Block, Chart, Checks, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
 use crate::{Error, ErrorKind, Result};
 
 /// A free angle is put at eight places round the circle, none of them one that a solution is likely to have by itself.
@@ -55,6 +55,15 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts) -> Re
     };
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;
     Ok(program)
+}
+
+/// The checks of a program by `chain`, which has the joints and the task of the chain that the program solves.
+///
+/// # Errors
+/// As [`Mechanism::new`].
+pub(super) fn checks_on(chain: &Chain) -> Result<Checks> {
+    let mechanism = Mechanism::new(chain)?;
+    Ok(checks(&mechanism, &Layout::new(&mechanism, chain.length_unit()), reach(chain)))
 }
 
 /// The size of the chain's positions; one when it is a point.

@@ -158,6 +158,15 @@ impl Derived {
             inputs.join(", "),
             joints.join(", ")
         );
+        if let Some((_, report)) = &self.truth {
+            let _ = writeln!(
+                text,
+                "The closed form is that of the ideal robot within {:e} rad and m. Each answer is polished by Newton's method on the robot \
+                 as described, and measured on it. What was made ideal:\n\n{}\n",
+                report.tolerance,
+                report.to_string().lines().map(|line| format!("* {line}\n")).collect::<String>()
+            );
+        }
         let _ = writeln!(text, "Up to {} solutions. The joints are found one at a time:\n", self.plan.dimension);
         for (index, step) in self.steps.iter().enumerate() {
             let form = step.shape.form;

@@ -10,7 +10,7 @@ impl Derived {
     /// # Errors
     /// As [`crate::kinematics::Chain::forward`].
     pub fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
-        let chain = &self.chain;
+        let chain = self.measured();
         let base_from_tip = chain.forward(q)?;
         let position = base_from_tip.translation.vector;
         let rotation = base_from_tip.rotation.to_rotation_matrix();
