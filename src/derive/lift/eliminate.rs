@@ -19,7 +19,7 @@ use crate::poly::{Block, Order, Polynomial, PolynomialRing, parse};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The most terms of an elimination's basis.
-const MOST_TERMS: usize = 200_000;
+const MOST_TERMS: usize = 20_000;
 
 type Poly = Polynomial<BigRational>;
 /// A coefficient: by the unknowns of known joints, polynomials in the target.
@@ -74,8 +74,14 @@ impl Elimination {
             return elimination.proved();
         }
         let options = Options { strategy: Strategy::Sugar, cofactors: true };
-        let watch = &watch.clone().with_terms(MOST_TERMS);
-        let found = basis(&elimination.ring, &elimination.generators, &options, watch)?;
+        let limited = watch.clone().with_terms(MOST_TERMS);
+        let found = match basis(&elimination.ring, &elimination.generators, &options, &limited) {
+            Err(error) if error.kind() == ErrorKind::Budget && watch.check().is_ok() => {
+                let text = format!("the elimination of other joints takes more than {MOST_TERMS} terms");
+                return Err(Error::new(ErrorKind::Unsupported, text));
+            }
+            found => found?,
+        };
         let degree = |f: &Poly| elimination.degree(f);
         let own = found.polynomials.iter().zip(&found.cofactors).filter(|(f, _)| elimination.is_own(f));
         let (member, cofactors) = own.min_by_key(|(f, _)| (degree(f), f.terms().len())).ok_or_else(|| {
