@@ -21,7 +21,7 @@ pub use arithmetic::{Arithmetic, Exact, Factor, Factors, Modular, Multilinear};
 pub use assignment::{Assignment, JointValue, Target, Turn};
 pub use evaluate::{Image, Vector, carry, evaluate, evaluate_side};
 pub(crate) use explain::show;
-pub(super) use feature::{common_point_of as common_point, leaves};
+pub(super) use feature::common_point_of as common_point;
 pub use mechanism::{Mechanism, ScrewJoint};
 pub use prove::prove;
 pub use relation::{Letter, Measure, Object, Relation, Word};

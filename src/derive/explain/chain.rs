@@ -51,7 +51,9 @@ fn task(task: Task) -> &'static str {
         Task::Pose => "the pose of the tip, its position and by rows its rotation",
         Task::Position => "the position of the tip",
         Task::PlanarPosition { .. } => "the position of the tip in a plane",
-        Task::PlanarPose { .. } => "the position of the tip in a plane and its angle, counted from the zero configuration",
+        Task::PlanarPose { .. } => {
+            "the position of the tip in a plane and its angle, counted from the zero configuration"
+        }
         Task::Ray => "the position of the tip and a direction for it to point in",
         Task::Direction => "a direction for the tip to point in",
         Task::Rotation => "the rotation of the tip, by rows",
@@ -92,8 +94,8 @@ fn chain(page: &mut Document, derived: &Derived, mechanism: &Mechanism) {
 fn closure(page: &mut Document) {
     page.section(Line::of("The loop, and what cancels in it"));
     page.say(
-        "Let $Ei$ be the motion of joint $i$ and $G$ the motion that takes the tip from its place at zero to the target. The chain \
-         reaches the target when",
+        "Let $Ei$ be the motion of joint $i$ and $G$ the motion that takes the tip from its place at zero to the target ($G = T*M^-1$ with the \
+         target $T$ and the tip's place $M$ at zero). The chain reaches the target when",
     );
     page.equation("0.1", "E1 ... En = G");
     page.say(
@@ -135,9 +137,11 @@ fn branches(page: &mut Document, derived: &Derived) {
          turned or not: here they are simply the first and the second root. An answer's branch number is made of these choices, \
          those of the first step first, as a number is of its digits; each step has a base of its own:",
     );
-    let mut rows = vec![["block", "base", "digits"].map(Line::of).to_vec()];
+    let mut rows = vec![["choice", "joint", "base", "values"].map(Line::of).to_vec()];
     for block in derived.program.blocks.iter().filter(|block| block.branches() > 1) {
+        let choice = format!("b{}", rows.len());
         rows.push(vec![
+            Line::default().formula(&choice),
             Line::default().name(&block.label),
             Line::of(&block.branches().to_string()),
             Line::of(&digits(block)),
@@ -146,8 +150,7 @@ fn branches(page: &mut Document, derived: &Derived) {
     if rows.len() > 1 {
         page.table(rows);
         let bases: Vec<&Block> = derived.program.blocks.iter().filter(|block| block.branches() > 1).collect();
-        let (first, rest) = (0, bases.iter().enumerate().skip(1));
-        let sum = rest.fold(format!("b{}", first + 1), |sum, (index, block)| {
+        let sum = bases.iter().enumerate().skip(1).fold("b1".to_owned(), |sum, (index, block)| {
             let sum = if index > 1 { format!("({sum})") } else { sum };
             format!("{sum}*{} + b{}", block.branches(), index + 1)
         });

@@ -56,7 +56,9 @@ pub fn roots(form: Form) -> &'static str {
              branches of this step. The angle opposite to the direction from which it is counted would be lost, so there are five \
              directions, each with its basis, and the one with the greatest leading coefficient is taken."
         }
-        Form::Lengths => "The polynomial has up to four real roots: in ascending order they are the branches of this step.",
+        Form::Lengths => {
+            "The polynomial has up to four real roots: in ascending order they are the branches of this step."
+        }
         Form::Quadratic => {
             "With $w = A*d + B$ the two roots are $w = +- sqrt(B^2 - A*C)$: the smaller one is the first branch of this step, the \
              greater one the second. Where $B^2 < A*C$ the target is out of reach on this branch."
@@ -116,7 +118,9 @@ fn form(page: &mut Document, template: &Template) -> Result<()> {
     }
     let order = template.system.order.join(" > ");
     page.paragraph(
-        Line::of("In the lexicographic order ").formula(&order).and(", denominators cleared, their reduced Groebner basis is"),
+        Line::of("In the lexicographic order ")
+            .formula(&order)
+            .and(", denominators cleared, their reduced Groebner basis is"),
     );
     if let Some(solved) = template.tree.solved() {
         strata::stairs(solved).into_iter().for_each(|stair| page.display(stair));
@@ -128,7 +132,9 @@ fn form(page: &mut Document, template: &Template) -> Result<()> {
 
 fn half_angles(page: &mut Document, halves: &HalfAngles) {
     let Some(half) = halves.0.first() else { return };
-    page.paragraph(Line::of("The form ").name(Form::Quartic.name()).and(". Its equations are, for the direction zero,"));
+    page.paragraph(
+        Line::of("The form ").name(Form::Quartic.name()).and(". Its equations are, for the direction zero,"),
+    );
     for (index, f) in half.generators.iter().enumerate() {
         page.display(format!("f{} = {} = 0", index + 1, half.ring.format(f, Style::Text)));
     }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::document::Line;
-use crate::derive::closure::{Measure, Mechanism, Object, Relation, ScrewJoint, common_point, leaves, parallel, show};
+use crate::derive::closure::{Measure, Mechanism, Object, Relation, ScrewJoint, common_point, parallel, show};
 
 /// Which neighbouring axes meet or are parallel.
 pub fn common(mechanism: &Mechanism) -> Vec<Line> {
@@ -12,7 +12,9 @@ pub fn common(mechanism: &Mechanism) -> Vec<Line> {
     let mut lines = Vec::new();
     for range in longest(joints, |row| common_point(row).is_some() && !aligned(row)) {
         let point = common_point(&joints[range.clone()]).map(|point| show(&point)).unwrap_or_default();
-        lines.push(Line::of(&format!("The axes of {} meet in the point ", numbers(range.clone()))).formula(&point).and("."));
+        lines.push(
+            Line::of(&format!("The axes of {} meet in the point ", numbers(range.clone()))).formula(&point).and("."),
+        );
     }
     for range in longest(joints, |row| row.iter().all(ScrewJoint::is_revolute) && aligned(row)) {
         let along = show(&joints[range.start].axis);
@@ -35,21 +37,17 @@ fn longest(joints: &[ScrewJoint], test: impl Fn(&[ScrewJoint]) -> bool) -> Vec<R
 
 /// Why joints do not occur in `relation`: one line for each of its objects.
 pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
-    let occurring = relation.joints();
-    let line = |object: &Object| {
-        let idle: Vec<usize> = (0..mechanism.joints().len())
-            .filter(|place| !occurring.contains(place))
-            .filter(|&place| leaves(&mechanism.joints()[place], object, relation.measure))
-            .collect();
+    let line = |object: &Object, idle: &[usize]| {
         let what = Line::of("The ").and(noun(object, relation.measure)).and(" ").formula(&vector(object));
         if idle.is_empty() {
             return what.and(" was chosen freely: no joint stands where the loop is cut.");
         }
         let verb = if idle.len() == 1 { " leaves" } else { " leave" };
         let who = numbers(idle.iter().copied());
-        what.and(&format!(": {who}{verb} it in place, for {}.", reason(mechanism, &idle, object, relation.measure)))
+        what.and(&format!(": {who}{verb} it in place, for {}.", reason(mechanism, idle, object, relation.measure)))
     };
-    vec![line(&relation.fixed), line(&relation.moved)]
+    let [run, tail] = relation.cancelled(mechanism);
+    vec![line(&relation.fixed, &run), line(&relation.moved, &tail)]
 }
 
 /// What a relation says.
@@ -65,9 +63,15 @@ pub fn conserved(measure: Measure) -> &'static str {
 /// Where a single equation says nothing about its joint.
 pub fn degenerate(measure: Measure) -> &'static str {
     match measure {
-        Measure::Angle => "one of the two directions has come to lie along the joint's axis, so that turning about it changes no angle",
-        Measure::Offset => "the normal has come to lie along the joint's axis, or the point on it, so that turning moves nothing that the equation sees",
-        Measure::Distance => "one of the two points has come to lie on the joint's axis, so that turning about it changes no distance",
+        Measure::Angle => {
+            "one of the two directions has come to lie along the joint's axis, so that turning about it changes no angle"
+        }
+        Measure::Offset => {
+            "the normal has come to lie along the joint's axis, or the point on it, so that turning moves nothing that the equation sees"
+        }
+        Measure::Distance => {
+            "one of the two points has come to lie on the joint's axis, so that turning about it changes no distance"
+        }
         Measure::Moment => "turning about the axis does not change the moment of the two lines",
     }
 }

@@ -13,7 +13,10 @@ impl Document {
             "\\documentclass[11pt,a4paper]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n\
              \\usepackage{amsmath}\n\\emergencystretch=3em\n\n",
         );
-        text += &format!("\\title{{{}}}\n\\author{{}}\n\\date{{}}\n\n\\begin{{document}}\n\\maketitle\n", escaped(&self.title));
+        text += &format!(
+            "\\title{{{}}}\n\\author{{}}\n\\date{{}}\n\n\\begin{{document}}\n\\maketitle\n",
+            escaped(&self.title)
+        );
         self.parts.iter().map(part).for_each(|part| text += &format!("\n{part}\n"));
         text + "\n\\end{document}\n"
     }
@@ -41,17 +44,20 @@ fn equation(number: &str, formula: &str) -> String {
     };
     match number {
         "" => format!("\\begin{{equation*}}\n{body}\n\\end{{equation*}}"),
-        _ => format!("\\begin{{equation}}\\tag{{{number}}}\n{body}\n\\end{{equation}}"),
+        _ => format!("\\begin{{equation}}\\tag{{{}}}\n{body}\n\\end{{equation}}", escaped(number)),
     }
 }
 
-/// The first column as wide as its text, the others sharing what is left evenly enough.
+/// Under a rule below the head.
 fn table(rows: &[Vec<Line>]) -> String {
     let columns = "l".repeat(rows.first().map_or(0, Vec::len));
     let row = |cells: &Vec<Line>| cells.iter().map(line).collect::<Vec<_>>().join(" & ") + " \\\\\n";
     let mut rows: Vec<String> = rows.iter().map(row).collect();
     rows.insert(rows.len().min(1), "\\hline\n".to_owned());
-    format!("\\begin{{center}}\n\\small\n\\begin{{tabular}}{{{columns}}}\n{}\\end{{tabular}}\n\\end{{center}}", rows.concat())
+    format!(
+        "\\begin{{center}}\n\\small\n\\begin{{tabular}}{{{columns}}}\n{}\\end{{tabular}}\n\\end{{center}}",
+        rows.concat()
+    )
 }
 
 fn line(line: &Line) -> String {
@@ -98,7 +104,9 @@ fn token(rest: &str, c: char) -> (usize, String) {
     if let Some(inner) = rest.strip_prefix("sqrt(").and_then(enclosed) {
         return ("sqrt()".len() + inner.len(), format!("\\sqrt{{{}}}", typeset(inner)));
     }
-    for (plain, latex) in [(" . ", " \\cdot "), ("...", "\\cdots "), ("+-", "\\pm "), ("<=", "\\leq "), ("!=", "\\neq ")] {
+    for (plain, latex) in
+        [(" . ", " \\cdot "), ("...", "\\cdots "), ("+-", "\\pm "), ("<=", "\\leq "), ("!=", "\\neq ")]
+    {
         if rest.starts_with(plain) {
             return (plain.len(), latex.to_owned());
         }
@@ -142,6 +150,8 @@ fn name(name: &str) -> String {
         "cphi" => "c_{\\varphi}".to_owned(),
         "sphi" => "s_{\\varphi}".to_owned(),
         "atan2" | "cos" | "sin" | "moment" | "branch" => format!("\\operatorname{{{name}}}"),
+        "Ei" | "En" => format!("E_{{{}}}", &name[1..]),
+        "terms" => "\\ \\text{terms}".to_owned(),
         "px" | "py" | "pz" | "dx" | "dy" | "dz" => format!("{}_{{{}}}", &name[..1], &name[1..]),
         _ => latex_name(name),
     }

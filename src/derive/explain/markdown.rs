@@ -20,9 +20,7 @@ fn part(part: &Part) -> String {
         Part::Section(text) => format!("## {}", line(text)),
         Part::Paragraph(text) => line(text),
         Part::Equation { number, formula } => equation(number, formula),
-        Part::Items(items) => {
-            items.iter().map(|item| format!("* {}", line(item))).collect::<Vec<_>>().join("\n")
-        }
+        Part::Items(items) => items.iter().map(|item| format!("* {}", line(item))).collect::<Vec<_>>().join("\n"),
         Part::Table(rows) => table(rows),
     }
 }

@@ -1,15 +1,18 @@
 //! One step of a chain's report: its relations, what cancels in them, the equation in its joint, and its roots.
 
-use num_traits::{One, ToPrimitive};
+use num_traits::One;
 
-use super::algebra::{Sorted, product, renamed};
+use super::algebra::{Sorted, product, renamed, signs};
 use super::document::{Document, Line};
-use super::{forms, geometry};
+use super::{forms, geometry, strata};
 use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, ScrewJoint};
 use crate::derive::lift::{Derived, Elimination, Form, Lifted, name};
 use crate::derive::planner::Way;
 use crate::number::{BigRational, Ring, Style};
+
+/// The longest combination that is written out, in characters.
+const LONGEST: usize = 1500;
 
 /// Adds the section of step `index`.
 pub fn explain(page: &mut Document, derived: &Derived, mechanism: &Mechanism, index: usize) -> Result<()> {
@@ -153,7 +156,11 @@ impl Writer<'_> {
 
     /// `/sqrt(n)^power`; nothing where the axis has length one.
     fn over(&self, power: usize) -> String {
-        if self.joint().square.is_one() { String::new() } else { format!("/sqrt({})", self.joint().square).repeat(power) }
+        if self.joint().square.is_one() {
+            String::new()
+        } else {
+            format!("/sqrt({})", self.joint().square).repeat(power)
+        }
     }
 
     /// The unknowns of a form by the names of this joint's.
@@ -176,10 +183,9 @@ impl Writer<'_> {
         let lines = elimination.symbols.iter().enumerate().map(|(number, place)| {
             let (what, relation) = (product(self.mechanism, &place.factors), place.relation + 1);
             let what = if what.is_empty() { "1" } else { &what };
-            Line::of(&format!("$S{number}$ is the coefficient of ")).formula(what).and(&format!(
-                " in ({}.{relation}) when it is sorted by the unknown joints.",
-                self.index + 1
-            ))
+            Line::of(&format!("$S{number}$ is the coefficient of "))
+                .formula(what)
+                .and(&format!(" in ({}.{relation}) when it is sorted by the unknown joints.", self.index + 1))
         });
         let lines = lines.collect();
         self.page.items(lines);
@@ -190,13 +196,14 @@ impl Writer<'_> {
         }
         self.page.say("The member of their ideal that holds this joint alone:");
         let number = self.equation(format!("{} = 0", text(&elimination.member)));
-        self.page.say("It is this combination of them, multiplied out exactly, so every solution of the loop fulfils it:");
+        self.page
+            .say("It is this combination of them, multiplied out exactly, so every solution of the loop fulfils it:");
         let terms = elimination.cofactors.iter().enumerate().filter(|(_, f)| !f.is_zero());
-        let sum = super::algebra::signs(terms.map(|(number, f)| format!("({})*f{}", text(f), number + 1)));
-        self.page.display(match sum.len() {
-            0..=1500 => sum,
-            _ => "[long cofactors: certificate.json]".to_owned(),
-        });
+        let sum = signs(terms.map(|(number, f)| format!("{}*f{}", strata::factor(&text(f)), number + 1)));
+        match sum.len() {
+            0..=LONGEST => self.page.display(sum),
+            _ => self.page.say("The cofactors are long; they stand in certificate.json."),
+        }
         let form = self.step.shape.form;
         let own = self.own_names();
         self.page.say(&format!("Sorted by the unknowns of this joint, ({number}) is"));
@@ -223,25 +230,50 @@ impl Writer<'_> {
     fn triangular(&mut self) -> Result<()> {
         let (form, own) = (self.step.shape.form, self.own_names());
         let stairs = forms::triangular(self.derived, form)?;
-        self.page.paragraph(Line::of("The Groebner basis of the form ").name(form.name()).and(
-            ", proved below for symbols that may be anything, is triangular: one unknown after the other.",
-        ));
+        self.page.paragraph(
+            Line::of("The Groebner basis of the form ")
+                .name(form.name())
+                .and(", proved below for symbols that may be anything, is triangular: one unknown after the other."),
+        );
         for stair in stairs {
             self.equation(renamed(&stair, &own));
         }
-        let text = renamed_prose(forms::roots(form), &own);
-        self.page.say(&text);
+        match self.told() {
+            Some(before) => self.page.say(&format!(
+                "Its roots, and what happens where two of them meet or symbols vanish, are those told in step {}.",
+                before + 1
+            )),
+            None => {
+                self.page.say(&renamed_prose(forms::roots(form), &own));
+                self.page.say(&format!("Singular: {}", renamed_prose(forms::singular(form), &own)));
+            }
+        }
         Ok(())
     }
 
+    /// The step before that has told all about this form.
+    fn told(&self) -> Option<usize> {
+        self.derived.steps[..self.index].iter().position(|step| step.shape.form == self.step.shape.form)
+    }
+
+    /// What it means in the mechanism that the joint's symbols vanish.
     fn singular(&mut self) {
         let form = self.step.shape.form;
-        let own = self.own_names();
-        let text = renamed_prose(forms::singular(form), &own);
-        self.page.say(&format!("Singular: {text}"));
-        if form == Form::Angle && self.step.elimination.is_none() && self.joint().square.to_f64().is_some() {
-            let measure = self.step.relations[0].measure;
-            self.page.say(&format!("In the mechanism $A = B = 0$ means that {}.", geometry::degenerate(measure)));
+        if self.step.elimination.is_some() || !matches!(form, Form::Angle | Form::Turn) {
+            return;
+        }
+        let is_number = |value: &String| value[4..].parse().is_ok_and(|number: f64| number != 0.0);
+        match self.values().iter().take(2).find(|value| is_number(value)) {
+            Some(value) => {
+                let text = format!(
+                    "Here ${value}$ is a number, so this step is never singular in this way: the joint is never free."
+                );
+                self.page.say(&text);
+            }
+            None => {
+                let meaning = geometry::degenerate(self.step.relations[0].measure);
+                self.page.say(&format!("In the mechanism $A = B = 0$ means that {meaning}."));
+            }
         }
     }
 }

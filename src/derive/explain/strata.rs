@@ -29,9 +29,9 @@ pub fn proof(page: &mut Document, setting: &Setting, certified: &Certified) -> R
         let terms = with.map(|(number, cofactor)| match ring.format(cofactor, Style::Text).as_str() {
             "1" => format!("f{}", number + 1),
             "-1" => format!("-f{}", number + 1),
-            text => format!("({text})*f{}", number + 1),
+            text => format!("{}*f{}", factor(text), number + 1),
         });
-        let text = format!("g{} = {} = {}", index + 1, ring.format(g, Style::Text), signs(terms));
+        let text = tidy(&format!("g{} = {} = {}", index + 1, ring.format(g, Style::Text), signs(terms)));
         if text.len() > LONGEST { left_out += 1 } else { page.display(text) }
     }
     if left_out > 0 {
@@ -40,10 +40,39 @@ pub fn proof(page: &mut Document, setting: &Setting, certified: &Certified) -> R
     let proof = certified.proof;
     page.say(&format!(
         "So all of them lie in the ideal of the equations ({} combinations were multiplied out), and the equations lie in theirs \
-         ({} remainders are zero). They are a Groebner basis by Buchberger's criterion: each of the {} S-polynomials reduces to zero.",
+         ({} remainders are zero). They are a Groebner basis by Buchberger's criterion: every S-polynomial reduces to zero (pairs: {}).",
         proof.cofactor_rows, proof.generators, proof.pairs
     ));
     Ok(())
+}
+
+/// `text` as a factor: in parentheses where it is a sum.
+pub fn factor(text: &str) -> String {
+    let mut depth = 0;
+    let sum = text.char_indices().any(|(at, c)| {
+        match c {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            _ => {}
+        }
+        depth == 0 && at > 0 && matches!(c, '+' | '-') && text[..at].ends_with(' ')
+    });
+    if sum { format!("({text})") } else { text.to_owned() }
+}
+
+/// `text` without parentheses around a single name.
+fn tidy(text: &str) -> String {
+    let (mut rest, mut result) = (text, String::new());
+    while let Some(at) = rest.find('(') {
+        let (before, inner) = (&rest[..at], &rest[at + 1..]);
+        let end = inner.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(inner.len());
+        let single = end > 0 && inner[end..].starts_with(')') && !before.ends_with(char::is_alphabetic);
+        let (name, length) = if single { (&inner[..end], end + 1) } else { ("(", 0) };
+        result += before;
+        result += name;
+        rest = &inner[length..];
+    }
+    result + rest
 }
 
 /// Adds what happens where a denominator vanishes. `free` names the joints of a family.

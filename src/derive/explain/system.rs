@@ -101,14 +101,20 @@ fn tree(page: &mut Document, derivation: &Derivation, (index, title): (usize, &s
 
 fn basis(page: &mut Document, (index, title): (usize, &str), solved: &Solved) {
     let order = solved.certified.order.join(" > ");
-    page.paragraph(Line::of("In the lexicographic order ").formula(&order).and(&format!(" ({title}), denominators cleared:")));
+    page.paragraph(
+        Line::of("In the lexicographic order ").formula(&order).and(&format!(" ({title}), denominators cleared:")),
+    );
     for (number, stair) in strata::stairs(solved).into_iter().enumerate() {
         page.equation(&format!("{}.{}", index + 1, number + 1), stair);
     }
     let degrees = solved.triangular.stairs.iter().zip(solved.triangular.degrees());
     let ways = degrees.map(|(stair, degree)| {
         let unknown = &solved.triangular.ring.variables()[stair.unknown];
-        let count = if degree == 1 { "one value, for its polynomial is linear".to_owned() } else { format!("up to {degree} real values, the roots of a polynomial of degree {degree}") };
+        let count = if degree == 1 {
+            "one value, for its polynomial is linear".to_owned()
+        } else {
+            format!("up to {degree} real values, the roots of a polynomial of degree {degree}")
+        };
         Line::default().formula(unknown).and(": ").and(&count).and(".")
     });
     page.items(ways.collect());
@@ -123,7 +129,8 @@ fn branches(page: &mut Document, derivation: &Derivation) {
     let mut rows = vec![["branches", "stratum"].map(Line::of).to_vec()];
     for chart in derivation.program.charts().filter(|chart| !chart.open) {
         let end = chart.first_branch + Program::branches(chart);
-        let stratum = if chart.label.contains('=') { Line::default().formula(&chart.label) } else { Line::of(&chart.label) };
+        let stratum =
+            if chart.label.contains('=') { Line::default().formula(&chart.label) } else { Line::of(&chart.label) };
         rows.push(vec![Line::of(&format!("{} to {}", chart.first_branch, end.saturating_sub(1))), stratum]);
     }
     page.table(rows);
@@ -137,8 +144,10 @@ fn closing(page: &mut Document) {
          ones. Where a joint is free the answer says so, and has it at zero.",
     );
     page.paragraph(
-        Line::of("All bases are proved; ").name("groebot check").and(" proves them again from ").name("certificate.json").and(
-            " without the engine.",
-        ),
+        Line::of("All bases are proved; ")
+            .name("groebot check")
+            .and(" proves them again from ")
+            .name("certificate.json")
+            .and(" without the engine."),
     );
 }
