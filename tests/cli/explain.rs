@@ -10,7 +10,7 @@ use super::{refused, root, succeed, text};
 fn a_stored_derivation_as_markdown_and_as_latex() {
     let leg = root("derivations/nao_leg_sagittal");
     let page = succeed(&["explain", text(&leg)]);
-    assert!(page.starts_with("# nao\\_leg\\_sagittal: ") && page.contains("(6.7.12)"), "{page}");
+    assert!(page.starts_with("# nao\\_leg\\_sagittal: ") && page.contains("(6.7.12)-(6.7.15)"), "{page}");
     let folder = tempdir().unwrap();
     let file = folder.path().join("leg.tex");
     assert_eq!(succeed(&["explain", text(&leg), "--latex", "-o", text(&file)]), "");

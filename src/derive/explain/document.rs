@@ -82,7 +82,19 @@ impl Line {
     }
 }
 
+impl Part {
+    /// Whether it is a formula that stands alone.
+    fn is_equation(&self) -> bool {
+        matches!(self, Part::Equation { .. })
+    }
+}
+
 impl Document {
+    /// The parts, formulas that follow one another together.
+    pub(super) fn groups(&self) -> impl Iterator<Item = &[Part]> {
+        self.parts.chunk_by(|a, b| a.is_equation() && b.is_equation())
+    }
+
     /// An empty report.
     pub fn new(title: &str) -> Self {
         Document { title: title.to_owned(), parts: Vec::new() }

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use super::document::Line;
-use crate::derive::closure::{Measure, Mechanism, Object, Relation, ScrewJoint, common_point, parallel, show};
+use crate::derive::closure::{Letter, Measure, Mechanism, Object, Relation, ScrewJoint, common_point, parallel, show};
+use crate::kinematics::Task;
 
 /// Which neighbouring axes meet or are parallel.
 pub fn common(mechanism: &Mechanism) -> Vec<Line> {
@@ -37,17 +38,23 @@ fn longest(joints: &[ScrewJoint], test: impl Fn(&[ScrewJoint]) -> bool) -> Vec<R
 
 /// Why joints do not occur in `relation`: one line for each of its objects.
 pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
-    let line = |object: &Object, idle: &[usize]| {
+    let line = |object: &Object, idle: &[usize], seen: bool| {
         let what = Line::of("The ").and(noun(object, relation.measure)).and(" ").formula(&vector(object));
         if idle.is_empty() {
-            return what.and(" was chosen freely: no joint stands where the loop is cut.");
+            return what.and(match seen {
+                true => " is all that the task sees of the tip there.",
+                false => " was chosen freely: no joint stands where the loop is cut.",
+            });
         }
         let verb = if idle.len() == 1 { " leaves" } else { " leave" };
         let who = numbers(idle.iter().copied());
         what.and(&format!(": {who}{verb} it in place, for {}.", reason(mechanism, idle, object, relation.measure)))
     };
     let [run, tail] = relation.cancelled(mechanism);
-    vec![line(&relation.fixed, &run), line(&relation.moved, &tail)]
+    // What the task does not see of the tip stands behind the last joint.
+    let partly = !matches!(mechanism.task(), Task::Pose | Task::PlanarPose { .. });
+    let at_tip = relation.right.0.last() == Some(&Letter::Target);
+    vec![line(&relation.fixed, &run, false), line(&relation.moved, &tail, partly && at_tip)]
 }
 
 /// What a relation says.

@@ -11,13 +11,13 @@ impl Document {
     pub fn to_latex(&self) -> String {
         let mut text = String::from(
             "\\documentclass[11pt,a4paper]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n\
-             \\usepackage{amsmath}\n\\emergencystretch=3em\n\n",
+             \\usepackage{amsmath}\n\\allowdisplaybreaks\n\\emergencystretch=3em\n\n",
         );
         text += &format!(
             "\\title{{{}}}\n\\author{{}}\n\\date{{}}\n\n\\begin{{document}}\n\\maketitle\n",
             escaped(&self.title)
         );
-        self.parts.iter().map(part).for_each(|part| text += &format!("\n{part}\n"));
+        self.groups().map(group).for_each(|group| text += &format!("\n{group}\n"));
         text + "\n\\end{document}\n"
     }
 }
@@ -35,16 +35,25 @@ fn part(part: &Part) -> String {
     }
 }
 
+/// One part, or formulas that follow one another.
+fn group(parts: &[Part]) -> String {
+    match parts {
+        [part @ (Part::Section(_) | Part::Paragraph(_) | Part::Items(_) | Part::Table(_))] => self::part(part),
+        [one] => format!("\\begin{{equation*}}\n{}\n\\end{{equation*}}", self::part(one)),
+        _ => {
+            let lines: Vec<String> = parts.iter().map(part).collect();
+            format!("\\begin{{gather*}}\n{}\n\\end{{gather*}}", lines.join(" \\\\\n"))
+        }
+    }
+}
+
 /// Tagged with its number, the lines of a long one under one another.
 fn equation(number: &str, formula: &str) -> String {
     let lines: Vec<String> = broken(formula, WIDTH, visible).into_iter().map(typeset).collect();
-    let body = match lines.as_slice() {
-        [one] => one.clone(),
-        _ => format!("\\begin{{split}}\n& {}\n\\end{{split}}", lines.join(" \\\\\n& \\quad ")),
-    };
-    match number {
-        "" => format!("\\begin{{equation*}}\n{body}\n\\end{{equation*}}"),
-        _ => format!("\\begin{{equation}}\\tag{{{}}}\n{body}\n\\end{{equation}}", escaped(number)),
+    let tag = if number.is_empty() { String::new() } else { format!(" \\tag{{{}}}", escaped(number)) };
+    match lines.as_slice() {
+        [one] => format!("{one}{tag}"),
+        _ => format!("\\begin{{split}}\n& {}\n\\end{{split}}{tag}", lines.join(" \\\\\n& \\quad ")),
     }
 }
 

@@ -8,9 +8,11 @@ const WIDTH: usize = 100;
 impl Document {
     /// The report as Markdown.
     pub fn to_markdown(&self) -> String {
-        let parts = self.parts.iter().map(part);
         let mut text = format!("# {}\n", escaped(&self.title));
-        parts.for_each(|part| text += &format!("\n{part}\n"));
+        for group in self.groups() {
+            let lines: Vec<String> = group.iter().map(part).collect();
+            text += &format!("\n{}\n", lines.join("\n"));
+        }
         text
     }
 }

@@ -26,12 +26,12 @@ pub fn proof(page: &mut Document, setting: &Setting, certified: &Certified) -> R
     page.say("Made monic, the polynomials of the basis are these combinations of the equations:");
     for (index, (g, row)) in certified.basis.iter().zip(&certified.cofactors).enumerate() {
         let with = row.iter().enumerate().filter(|(_, cofactor)| !cofactor.is_zero());
-        let terms = with.map(|(number, cofactor)| match ring.format(cofactor, Style::Text).as_str() {
+        let terms = with.map(|(number, cofactor)| match ring.format(cofactor, Style::Decimal).as_str() {
             "1" => format!("f{}", number + 1),
             "-1" => format!("-f{}", number + 1),
             text => format!("{}*f{}", factor(text), number + 1),
         });
-        let text = tidy(&format!("g{} = {} = {}", index + 1, ring.format(g, Style::Text), signs(terms)));
+        let text = tidy(&format!("g{} = {} = {}", index + 1, ring.format(g, Style::Decimal), signs(terms)));
         if text.len() > LONGEST { left_out += 1 } else { page.display(text) }
     }
     if left_out > 0 {

@@ -5,6 +5,8 @@ use super::strata;
 use crate::Result;
 use crate::derive::tree::{Node, Outcome, Solved};
 use crate::derive::{Derivation, JointKindUnknown, ParameterSource, System};
+use crate::number::{Ring, Style};
+use crate::poly::Order;
 use crate::solver::Program;
 
 /// The report of `derivation`.
@@ -15,7 +17,7 @@ pub fn document(derivation: &Derivation) -> Result<Document> {
     let system = &derivation.system;
     let mut page = Document::new(&format!("{}: its inverse kinematics, explained", system.name));
     introduce(&mut page, system);
-    equations(&mut page, system);
+    equations(&mut page, derivation)?;
     for (index, (title, node)) in derivation.trees().into_iter().enumerate() {
         tree(&mut page, derivation, (index, title), node)?;
     }
@@ -36,7 +38,8 @@ fn introduce(page: &mut Document, system: &System) {
     )));
 }
 
-fn equations(page: &mut Document, system: &System) {
+fn equations(page: &mut Document, derivation: &Derivation) -> Result<()> {
+    let system = &derivation.system;
     page.section(Line::of("The equations"));
     let mut items = Vec::new();
     for parameter in &system.parameters {
@@ -63,11 +66,15 @@ fn equations(page: &mut Document, system: &System) {
         items.push(line);
     }
     page.items(items);
-    for (index, equation) in system.equations.iter().enumerate() {
+    let setting = &derivation.requested.setting;
+    let ring = setting.ring(&system.order, Order::Lex)?;
+    for (index, (equation, f)) in system.equations.iter().zip(setting.generators(&ring)?).enumerate() {
         let label = equation.label.trim_matches(['(', ')']);
-        let number = if label.is_empty() { format!("f{}", index + 1) } else { label.to_owned() };
-        page.equation(&number, format!("f{} = {} = 0", index + 1, equation.expression));
+        let is_number = !label.is_empty() && label.chars().all(|c| c.is_ascii_digit() || c == '.');
+        let number = if is_number { label.to_owned() } else { format!("0.{}", index + 1) };
+        page.equation(&number, format!("f{} = {} = 0", index + 1, ring.format(&f, Style::Decimal)));
     }
+    Ok(())
 }
 
 fn tree(page: &mut Document, derivation: &Derivation, (index, title): (usize, &str), node: &Node) -> Result<()> {
