@@ -25,7 +25,11 @@ fn report(derived: &Derived) -> Document {
 
 /// The report of a system that is solved together.
 fn sagittal() -> Document {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations/nao_leg_sagittal");
+    of_folder("nao_leg_sagittal")
+}
+
+fn of_folder(name: &str) -> Document {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(name);
     let source = Source::read_between(&folder, &Ends::default()).unwrap();
     explain(&Proved::of(&source, &Watch::none()).unwrap()).unwrap()
 }
@@ -166,7 +170,7 @@ fn the_printed_cofactors_multiply_out() {
 fn a_system_is_told_with_its_source_s_numbers_and_its_strata() {
     let text = sagittal().to_markdown();
     for words in [
-        "(0.1)  f1 = 102.9*c3*s4",
+        "(0.1)  f1 = 102.9*c4*s3 + 102.9*c3*s4 + 100*s3 - px = 0",
         "`HipPitch`",
         "`KneePitch`",
         "c4 > c3 > s4 > s3",
@@ -183,7 +187,8 @@ fn latex_is_well_formed() {
     let mut page = Document::new(hostile);
     page.paragraph(Line::plain(hostile).name(hostile));
     page.items(vec![Line(vec![Span::Formula("a_1 + 5%*{x}".to_owned())])]);
-    let pages = chains().into_iter().map(|chain| report(&derived(&chain))).chain([sagittal(), page]);
+    let pages =
+        chains().into_iter().map(|chain| report(&derived(&chain))).chain([of_folder("puma560"), sagittal(), page]);
     for (number, page) in pages.enumerate() {
         let text = page.to_latex();
         assert_well_formed(&text);
