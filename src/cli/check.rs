@@ -56,8 +56,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
+/// Whether this is a folder with a stored certificate.
+pub fn is_derived(folder: &Path) -> bool {
+    folder.join(CERTIFICATE).is_file()
+}
+
 /// The derivation that the stored certificate proves.
-fn reprove(folder: &Path, source: &Source) -> Result<Proved> {
+///
+/// # Errors
+/// As [`Proved::again`], and when the certificate cannot be read.
+pub fn reprove(folder: &Path, source: &Source) -> Result<Proved> {
     let path = folder.join(CERTIFICATE);
     let text = read_text(&path, LIMIT)?;
     Proved::again(source, &text).map_err(|error| error.in_file(&path))

@@ -14,6 +14,7 @@ mod check;
 mod console;
 mod derive;
 mod ends;
+mod explain;
 mod files;
 mod fk;
 mod forms;
@@ -38,6 +39,7 @@ const EXAMPLES: &str = "Examples:
   groebot derive derivations/nao_leg_sagittal
   groebot solve derivations/nao_leg_sagittal --target 60,150
   groebot check derivations/nao_leg_sagittal
+  groebot explain derivations/nao_leg_sagittal
   groebot info derivations/nao_arm_planar
   groebot info robot.urdf --tip tool0
   groebot fk robot.urdf --tip tool0 --q 0,-90,90,0,0,0 --degrees
@@ -60,6 +62,7 @@ enum Command {
     Derive(derive::Arguments),
     Solve(solve::Arguments),
     Check(check::Arguments),
+    Explain(explain::Arguments),
     Info(info::Arguments),
     Plan(plan::Arguments),
     Ik(ik::Arguments),
@@ -97,6 +100,7 @@ pub fn run() -> ExitCode {
         Command::Derive(arguments) => derive::run(arguments),
         Command::Solve(arguments) => solve::run(arguments),
         Command::Check(arguments) => check::run(arguments),
+        Command::Explain(arguments) => explain::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),
         Command::Ik(arguments) => ik::run(arguments),

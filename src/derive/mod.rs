@@ -9,6 +9,7 @@ pub mod compile;
 mod constants;
 pub mod derivation;
 pub mod ends;
+pub mod explain;
 pub mod formulate;
 mod generic;
 mod grow;

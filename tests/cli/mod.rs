@@ -3,6 +3,7 @@
 mod basis;
 mod check;
 mod derive;
+mod explain;
 mod fk;
 mod ik;
 mod info;

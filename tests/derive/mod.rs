@@ -4,6 +4,7 @@ mod certificate;
 mod chains;
 mod closure;
 mod ends;
+mod explain;
 mod families;
 mod planner;
 mod random_chains;

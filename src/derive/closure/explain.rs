@@ -6,7 +6,7 @@ use num_traits::ToPrimitive;
 
 use super::feature::leaves;
 use super::mechanism::Mechanism;
-use super::relation::{Measure, Object, Relation, Word};
+use super::relation::{Letter, Measure, Object, Relation, Word};
 use crate::kinematics::ExactVector;
 use crate::number::{BigRational, Rationals, Ring, Style};
 
@@ -47,19 +47,14 @@ impl Relation {
 
     /// What it says, in words: which joints leave what in place.
     pub fn meaning(&self, mechanism: &Mechanism) -> String {
-        let count = mechanism.joints().len();
-        let idle = |object: &Object| -> Vec<usize> {
-            let stays = |place: &usize| leaves(&mechanism.joints()[*place], object, self.measure);
-            (0..count).filter(|place| !self.joints().contains(place)).filter(stays).collect()
-        };
+        let [run, tail] = self.cancelled(mechanism);
         let what = match self.measure {
             Measure::Angle => "angle between",
             Measure::Offset => "distance along the normal between",
             Measure::Distance => "distance between",
             Measure::Moment => "mutual moment of",
         };
-        let name = |object: &Object| {
-            let joints = idle(object);
+        let name = |object: &Object, joints: &[usize]| {
             let noun = match (self.measure, object) {
                 (Measure::Offset, Object::Direction(_) | Object::Line { .. }) => "plane normal to",
                 _ => object.noun(),
@@ -70,10 +65,27 @@ impl Relation {
             };
             match joints.is_empty() {
                 true => format!("the {noun} {text}"),
-                false => format!("the {noun} {text}, which {} in place", leave(&joints)),
+                false => format!("the {noun} {text}, which {} in place", leave(joints)),
             }
         };
-        format!("{what} {}, and {}", name(&self.fixed), name(&self.moved))
+        format!("{what} {}, and {}", name(&self.fixed, &run), name(&self.moved, &tail))
+    }
+
+    /// The joints that do not occur: those of the run, which leave the fixed object in place, and those of the tail, which leave the
+    /// moved one in place.
+    pub fn cancelled(&self, mechanism: &Mechanism) -> [Vec<usize>; 2] {
+        let stays = |place: &usize, object: &Object| leaves(&mechanism.joints()[*place], object, self.measure);
+        let places = |word: &[Letter]| word.iter().filter_map(|letter| letter.joint()).collect::<Vec<_>>();
+        let target = self.right.0.iter().position(|letter| letter.joint().is_none()).unwrap_or(self.right.0.len());
+        let (before, behind) = self.right.0.split_at(target);
+        let start = places(before).into_iter().max().map_or(0, |place| place + 1);
+        let end = places(behind).into_iter().min().unwrap_or(mechanism.joints().len());
+        let between = places(&self.left.0);
+        let first = between.iter().copied().min();
+        let cut = first.or_else(|| (start..end).find(|place| !stays(place, &self.fixed))).unwrap_or(end);
+        let resume = between.iter().copied().max().map_or(cut, |place| place + 1);
+        let row = |from: usize, to: usize, object: &Object| (from..to).filter(|place| stays(place, object)).collect();
+        [row(start, cut, &self.fixed), row(resume, end, &self.moved)]
     }
 }
 

@@ -25,3 +25,4 @@ pub(super) use feature::common_point_of as common_point;
 pub use mechanism::{Mechanism, ScrewJoint};
 pub use prove::prove;
 pub use relation::{Letter, Measure, Object, Relation, Word};
+pub(super) use vector::parallel;

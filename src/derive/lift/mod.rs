@@ -18,6 +18,8 @@ mod template;
 pub use eliminate::{Elimination, SymbolPlace};
 pub use half_angle::{HalfAngle, HalfAngles};
 pub use shape::Shape;
+pub(super) use shape::{Symbolic, TargetPoly};
+pub(super) use stages::{joint_unknowns, name};
 pub use template::{Form, Template};
 
 use super::closure::{Mechanism, Relation};

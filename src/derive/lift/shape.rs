@@ -15,7 +15,7 @@ use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result};
 
 /// A polynomial in the numbers of the target.
-pub(super) type TargetPoly = Polynomial<BigRational>;
+pub(in crate::derive) type TargetPoly = Polynomial<BigRational>;
 
 /// The shape of a step's equations.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub struct Shape {
 }
 
 /// Polynomials in the numbers of the target.
-pub(super) struct Symbolic {
+pub(in crate::derive) struct Symbolic {
     pub ring: PolynomialRing<Rationals>,
 }
 

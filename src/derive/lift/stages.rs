@@ -251,7 +251,7 @@ fn notation(mechanism: &Mechanism) -> String {
 }
 
 /// `c1, s1`; `s1'` is the sine divided by the length of the axis vector where that is not one.
-fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> String {
+pub(in crate::derive) fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> String {
     let factors: &[Factor] = if mechanism.joints()[joint].is_revolute() {
         &[Factor::Cosine(joint), Factor::Sine(joint)]
     } else {
@@ -266,7 +266,8 @@ fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> String {
     text
 }
 
-fn name(mechanism: &Mechanism, factor: Factor) -> String {
+/// The name of an unknown: `c1`, `s1'`, `d3'^2`.
+pub(in crate::derive) fn name(mechanism: &Mechanism, factor: Factor) -> String {
     let joint = &mechanism.joints()[factor.joint()];
     let prime = if joint.square.is_one() { "" } else { "'" };
     match factor {

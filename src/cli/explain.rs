@@ -1,0 +1,53 @@
+//! `groebot explain`: the derivation told to a student, as Markdown or as LaTeX.
+
+use std::path::{Path, PathBuf};
+
+use super::ends::EndArguments;
+use super::{Outcome, check, console};
+use crate::Watch;
+use crate::derive::explain::explain;
+use crate::derive::{Proved, Source};
+use crate::files::write_atomically;
+
+const EXAMPLES: &str = "Examples:
+  groebot explain derivations/puma
+  groebot explain derivations/puma --latex -o puma.tex && pdflatex puma.tex
+  groebot explain arm.toml                      derives it first";
+
+/// Explains a derivation: its equations, what cancels, bases, branches, singularities
+///
+/// A folder's stored proof is checked again, as by `groebot check`, and what it proves is told; a file is derived first.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// A folder that `groebot derive` wrote, or an input file
+    #[arg(value_name = "DERIVATION")]
+    input: PathBuf,
+    #[command(flatten)]
+    ends: EndArguments,
+    /// LaTeX, an article that needs amsmath only, instead of Markdown
+    #[arg(long)]
+    latex: bool,
+    /// The file to write to, instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Proves, explains, prints.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let source = Source::read_between(&arguments.input, &arguments.ends.ends())?;
+    let document = explain(&prove(&arguments.input, &source)?)?;
+    let text = if arguments.latex { document.to_latex() } else { document.to_markdown() };
+    match &arguments.output {
+        None => console::print(&text),
+        Some(path) => Ok(write_atomically(path, text.as_bytes())?),
+    }
+}
+
+/// From the stored proof where there is one.
+fn prove(input: &Path, source: &Source) -> crate::Result<Proved> {
+    match check::is_derived(input) {
+        true => check::reprove(input, source),
+        false => Proved::of(source, &Watch::none()).map_err(|error| error.in_file(&source.path)),
+    }
+}

@@ -1,0 +1,167 @@
+//! A [`Document`] as a LaTeX article that needs amsmath only.
+
+use super::document::{Document, Line, Part, Span, broken};
+use crate::poly::latex_name;
+
+/// The longest line of a formula that stands alone, in typeset characters.
+const WIDTH: usize = 62;
+
+impl Document {
+    /// The report as LaTeX: a whole article.
+    pub fn to_latex(&self) -> String {
+        let mut text = String::from(
+            "\\documentclass[11pt,a4paper]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n\
+             \\usepackage{amsmath}\n\\allowdisplaybreaks\n\\emergencystretch=3em\n\n",
+        );
+        text += &format!(
+            "\\title{{{}}}\n\\author{{}}\n\\date{{}}\n\n\\begin{{document}}\n\\maketitle\n",
+            escaped(&self.title)
+        );
+        self.groups().map(group).for_each(|group| text += &format!("\n{group}\n"));
+        text + "\n\\end{document}\n"
+    }
+}
+
+fn part(part: &Part) -> String {
+    match part {
+        Part::Section(text) => format!("\\section*{{{}}}", line(text)),
+        Part::Paragraph(text) => line(text),
+        Part::Equation { number, formula } => equation(number, formula),
+        Part::Items(items) => {
+            let items: Vec<String> = items.iter().map(|item| format!("\\item {}\n", line(item))).collect();
+            format!("\\begin{{itemize}}\n{}\\end{{itemize}}", items.concat())
+        }
+        Part::Table(rows) => table(rows),
+    }
+}
+
+/// One part, or formulas that follow one another.
+fn group(parts: &[Part]) -> String {
+    match parts {
+        [part @ (Part::Section(_) | Part::Paragraph(_) | Part::Items(_) | Part::Table(_))] => self::part(part),
+        [one] => format!("\\begin{{equation*}}\n{}\n\\end{{equation*}}", self::part(one)),
+        _ => {
+            let lines: Vec<String> = parts.iter().map(part).collect();
+            format!("\\begin{{gather*}}\n{}\n\\end{{gather*}}", lines.join(" \\\\\n"))
+        }
+    }
+}
+
+/// Tagged with its number, the lines of a long one under one another.
+fn equation(number: &str, formula: &str) -> String {
+    let lines: Vec<String> = broken(formula, WIDTH, visible).into_iter().map(typeset).collect();
+    let tag = if number.is_empty() { String::new() } else { format!(" \\tag{{{}}}", escaped(number)) };
+    match lines.as_slice() {
+        [one] => format!("{one}{tag}"),
+        _ => format!("\\begin{{split}}\n& {}\n\\end{{split}}{tag}", lines.join(" \\\\\n& \\quad ")),
+    }
+}
+
+/// Under a rule below the head.
+fn table(rows: &[Vec<Line>]) -> String {
+    let columns = "l".repeat(rows.first().map_or(0, Vec::len));
+    let row = |cells: &Vec<Line>| cells.iter().map(line).collect::<Vec<_>>().join(" & ") + " \\\\\n";
+    let mut rows: Vec<String> = rows.iter().map(row).collect();
+    rows.insert(rows.len().min(1), "\\hline\n".to_owned());
+    format!(
+        "\\begin{{center}}\n\\small\n\\begin{{tabular}}{{{columns}}}\n{}\\end{{tabular}}\n\\end{{center}}",
+        rows.concat()
+    )
+}
+
+fn line(line: &Line) -> String {
+    let span = |span: &Span| match span {
+        Span::Words(text) => escaped(text),
+        Span::Name(text) => format!("\\texttt{{{}}}", escaped(text)),
+        Span::Formula(text) => format!("${}$", typeset(text)),
+    };
+    line.0.iter().map(span).collect()
+}
+
+/// Text without LaTeX's special characters.
+fn escaped(text: &str) -> String {
+    let escape = |c: char| match c {
+        '\\' => "\\textbackslash{}".to_owned(),
+        '~' => "\\textasciitilde{}".to_owned(),
+        '^' => "\\textasciicircum{}".to_owned(),
+        '{' | '}' | '$' | '&' | '#' | '%' | '_' => format!("\\{c}"),
+        _ => c.to_string(),
+    };
+    text.chars().map(escape).collect()
+}
+
+/// About how many characters of a formula are seen.
+fn visible(formula: &str) -> usize {
+    formula.chars().filter(|c| !"*^{}".contains(*c)).count()
+}
+
+/// A formula in the notation of the stage files, as LaTeX mathematics.
+pub(super) fn typeset(formula: &str) -> String {
+    let mut rest = formula;
+    let mut text = String::new();
+    while let Some(c) = rest.chars().next() {
+        let (length, latex) = token(rest, c);
+        text += &latex;
+        rest = &rest[length..];
+    }
+    text
+}
+
+/// The length of the first token of a formula that is not empty, and its LaTeX.
+fn token(rest: &str, c: char) -> (usize, String) {
+    let run = |test: fn(char) -> bool| rest.find(|c| !test(c)).unwrap_or(rest.len());
+    if let Some(inner) = rest.strip_prefix("sqrt(").and_then(enclosed) {
+        return ("sqrt()".len() + inner.len(), format!("\\sqrt{{{}}}", typeset(inner)));
+    }
+    for (plain, latex) in
+        [(" . ", " \\cdot "), ("...", "\\cdots "), ("+-", "\\pm "), ("<=", "\\leq "), ("!=", "\\neq ")]
+    {
+        if rest.starts_with(plain) {
+            return (plain.len(), latex.to_owned());
+        }
+    }
+    match c {
+        'a'..='z' | 'A'..='Z' => {
+            let length = run(|c| c.is_ascii_alphanumeric() || c == '_');
+            (length, name(&rest[..length]))
+        }
+        '^' => {
+            let sign = usize::from(rest[1..].starts_with('-'));
+            let digits = rest[1 + sign..].find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len() - 1 - sign);
+            (1 + sign + digits, format!("^{{{}}}", &rest[1..1 + sign + digits]))
+        }
+        '*' => (1, "\\,".to_owned()),
+        '{' | '}' | '_' | '%' | '&' | '#' | '$' => (1, format!("\\{c}")),
+        '\\' => (1, "\\backslash ".to_owned()),
+        '~' => (1, "\\sim ".to_owned()),
+        _ => (c.len_utf8(), c.to_string()),
+    }
+}
+
+/// What stands before the parenthesis that closes.
+fn enclosed(text: &str) -> Option<&str> {
+    let mut depth = 1;
+    for (at, c) in text.char_indices() {
+        match c {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return Some(&text[..at]);
+        }
+    }
+    None
+}
+
+fn name(name: &str) -> String {
+    match name {
+        "cphi" => "c_{\\varphi}".to_owned(),
+        "sphi" => "s_{\\varphi}".to_owned(),
+        "atan2" | "cos" | "sin" | "moment" | "branch" => format!("\\operatorname{{{name}}}"),
+        "Ei" | "En" => format!("E_{{{}}}", &name[1..]),
+        "terms" => "\\ \\text{terms}".to_owned(),
+        "px" | "py" | "pz" | "dx" | "dy" | "dz" => format!("{}_{{{}}}", &name[..1], &name[1..]),
+        _ => latex_name(name),
+    }
+}
