@@ -183,31 +183,43 @@ impl Context<'_> {
         for relation in &self.step.relations {
             equations.push(evaluate(self.mechanism, relation, &assignment, &mut Emitter(assembler))?);
         }
-        let values = self.combine(&equations, false, assembler);
+        let values = self.combine(&equations, None, assembler);
         if values.first().is_some_and(is_number) && !matches!(self.step.shape.form, Form::Pair | Form::Quartic) {
             return Ok(values.into_iter().map(|value| Sized { value, size: Operand::Constant(1.0) }).collect());
         }
         let assignment = layout.sizes(self.mechanism, self.known, assembler)?;
-        let sizes = self.sizes(&assignment, assembler)?;
+        let sizes = self.sizes(&equations, &assignment, assembler)?;
         Ok(values.into_iter().zip(sizes).map(|(value, size)| Sized { value, size }).collect())
     }
 
-    fn sizes(&self, assignment: &Assignment<Emitted>, assembler: &mut Assembler) -> Result<Vec<Operand>> {
+    fn sizes(
+        &self,
+        values: &[Multilinear<Emitted>],
+        assignment: &Assignment<Emitted>,
+        assembler: &mut Assembler,
+    ) -> Result<Vec<Operand>> {
         let mut equations = Vec::new();
         for relation in &self.step.relations {
             let relation: &Relation = relation;
             equations.push(evaluate(self.mechanism, relation, assignment, &mut Sizes(assembler))?);
         }
-        Ok(self.combine(&equations, true, assembler).into_iter().map(|size| assembler.abs(size)).collect())
+        let sizes = self.combine(&equations, Some(values), assembler);
+        Ok(sizes.into_iter().map(|size| assembler.abs(size)).collect())
     }
 
-    /// The symbols from the equations' coefficients. With the true sine `s = sqrt(n) s'`.
-    fn combine(&self, equations: &[Multilinear<Emitted>], sizes: bool, assembler: &mut Assembler) -> Vec<Operand> {
+    /// The symbols from the equations' coefficients. With the true sine `s = sqrt(n) s'`. Where `equations` are sizes, `values` are
+    /// what they are the sizes of.
+    fn combine(
+        &self,
+        equations: &[Multilinear<Emitted>],
+        values: Option<&[Multilinear<Emitted>]>,
+        assembler: &mut Assembler,
+    ) -> Vec<Operand> {
         let joint = self.step.joint;
         let square = self.mechanism.joints()[joint].square.to_f64().unwrap_or(1.0);
         let root = square.sqrt();
         if let Some(elimination) = &self.step.elimination {
-            return self.left(elimination, equations, sizes, root, assembler);
+            return self.left(elimination, equations, values, root, assembler);
         }
         let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors)
         {
@@ -245,20 +257,28 @@ impl Context<'_> {
         &self,
         elimination: &Elimination,
         equations: &[Multilinear<Emitted>],
-        sizes: bool,
+        values: Option<&[Multilinear<Emitted>]>,
         root: f64,
         assembler: &mut Assembler,
     ) -> Vec<Operand> {
-        let value = |place: &SymbolPlace| {
-            equations[place.relation].coefficient(&place.factors).map_or(Operand::Constant(0.0), Emitted::operand)
+        let list = |equations: &[Multilinear<Emitted>]| -> Vec<Operand> {
+            let coefficient = |place: &SymbolPlace| equations[place.relation].coefficient(&place.factors);
+            let value = |place| coefficient(place).map_or(Operand::Constant(0.0), Emitted::operand);
+            elimination.symbols.iter().map(value).collect()
         };
-        let symbols: Vec<Operand> = elimination.symbols.iter().map(value).collect();
+        let mut symbols = list(equations);
+        if let Some(values) = values {
+            symbols = list(values).into_iter().map(|value| assembler.abs(value)).chain(symbols).collect();
+        }
         let parts = elimination.coefficients();
         let mut take = |exponents: &[u32], factor: f64| {
             let Some(terms) = parts.get(exponents) else { return Operand::Constant(0.0) };
-            let number = |q: &BigRational| if sizes { q.abs() } else { q.clone() };
-            let flat: Vec<FlatTerm> = terms.iter().map(|(q, powers)| FlatTerm::new(number(q), powers)).collect();
-            let sum = assembler.horner(&flat, &symbols);
+            let flat = |(q, powers): &(BigRational, Vec<u32>)| match values {
+                Some(_) => derivatives(q, powers),
+                None => vec![FlatTerm::new(q.clone(), powers)],
+            };
+            let terms: Vec<FlatTerm> = terms.iter().flat_map(flat).collect();
+            let sum = assembler.horner(&terms, &symbols);
             assembler.mul(Operand::Constant(factor), sum)
         };
         let sine = 1.0 / root;
@@ -276,6 +296,24 @@ impl Context<'_> {
             ],
         }
     }
+}
+
+/// The size of a term `q S^powers`, in the magnitudes of the symbols and, behind them, their sizes: where each symbol is off by a share
+/// of its size, the term is off by that share of this. It is no less than the term itself, and far less than the product of sizes
+/// where symbols are small.
+fn derivatives(q: &BigRational, powers: &[u32]) -> Vec<FlatTerm> {
+    if powers.iter().all(|&power| power == 0) {
+        return vec![FlatTerm::new(q.abs(), powers)];
+    }
+    let held = (0..powers.len()).filter(|&symbol| powers[symbol] > 0);
+    let by = |symbol: usize| {
+        let mut exponents = powers.to_vec();
+        exponents.resize(2 * powers.len(), 0);
+        exponents[symbol] -= 1;
+        exponents[powers.len() + symbol] = 1;
+        FlatTerm::new(q.abs() * BigRational::from_integer(powers[symbol].into()), &exponents)
+    };
+    held.map(by).collect()
 }
 
 /// The guard that two linear equations are nearly dependent, so that each is solved alone as well: answers are measured in the end.
