@@ -1,9 +1,10 @@
 //! The forms of a chain's report: equations with free symbols, their bases with proof, their roots and their strata.
 
+use super::algebra::signs;
 use super::document::{Document, Line};
 use super::strata;
 use crate::Result;
-use crate::derive::lift::{Derived, Form, HalfAngles, Template};
+use crate::derive::lift::{Derived, Form, HalfAngle, HalfAngles, Template};
 use crate::number::{Ring, Style};
 
 /// The equations of a form in its joint.
@@ -33,8 +34,23 @@ pub fn triangular(derived: &Derived, form: Form) -> Result<Vec<String>> {
 
 fn half_angle(halves: &HalfAngles) -> Result<Vec<String>> {
     let Some(half) = halves.0.first() else { return Ok(Vec::new()) };
-    let stairs = [2, 1, 0].into_iter().map(|unknown| half.stair(unknown));
-    stairs.map(|f| Ok(format!("{} = 0", half.ring.format(f?, Style::Text)))).collect()
+    [2, 1, 0].into_iter().map(|unknown| Ok(format!("{} = 0", sorted(half, unknown)?))).collect()
+}
+
+/// The polynomial that determines an unknown, sorted by its powers.
+fn sorted(half: &HalfAngle, unknown: usize) -> Result<String> {
+    let name = &half.ring.variables()[unknown];
+    let parts = half.ring.coefficients_in(half.stair(unknown)?, unknown);
+    let terms = parts.iter().enumerate().rev().filter(|(_, part)| !part.is_zero()).map(|(power, part)| {
+        let text = strata::factor(&half.ring.format(part, Style::Text));
+        match (power, text.as_str()) {
+            (0, _) => text,
+            (1, "1") => name.clone(),
+            (1, _) => format!("{text}*{name}"),
+            _ => format!("{text}*{name}^{power}"),
+        }
+    });
+    Ok(signs(terms))
 }
 
 /// Where the branches of a form come from.

@@ -177,8 +177,8 @@ impl Writer<'_> {
             _ => String::new(),
         };
         self.page.say(&format!(
-            "Still unknown in these equations is {away} as well; it is eliminated by a Groebner basis in an order with its unknowns \
-             first. What is known is written as symbols:"
+            "Still unknown in these equations is {away} as well; it is eliminated by a Groebner basis with its unknowns first or, where \
+             the equations turn a vector by it, by the sum of their squares. What is known is written as symbols:"
         ));
         let lines = elimination.symbols.iter().enumerate().map(|(number, place)| {
             let (what, relation) = (product(self.mechanism, &place.factors), place.relation + 1);
