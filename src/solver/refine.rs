@@ -95,6 +95,25 @@ fn improved(
     None
 }
 
+/// How much each joint matters to the equations at `q`: the greatest derivative as a share of its equation's scale, at most one; one
+/// for a length.
+pub(super) fn weights(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> Joints {
+    let checks = &program.checks;
+    unknowns_of(program, q, &mut frame.unknowns);
+    frame.run(&checks.code);
+    let mut weights: Joints = [0.0; MAX_JOINTS];
+    for (row, scale) in checks.jacobian.iter().zip(&checks.scales) {
+        let scale = frame.value(*scale).max(f64::MIN_POSITIVE);
+        for (weight, derivative) in weights.iter_mut().zip(row) {
+            *weight = weight.max(frame.value(*derivative).abs() / scale);
+        }
+    }
+    for (weight, joint) in weights.iter_mut().zip(&program.joints) {
+        *weight = if matches!(joint.value, JointValue::Plain(_)) { 1.0 } else { weight.min(1.0) };
+    }
+    weights
+}
+
 /// `q - step`, angles in (-pi, pi].
 fn moved(program: &Program, q: &Joints, step: &Joints) -> Joints {
     let mut moved = *q;

@@ -19,8 +19,8 @@ const CLOSE: f64 = 1e-5;
 /// A chart does not run where a denominator's symbols are below this share of their sizes: rounding has left nothing of them, and
 /// all values of the joint that they determine solve the equations equally well.
 const LOST: f64 = 1e-13;
-/// The same for the quartics of an angle, whose sizes are products of sizes and so far above what their terms really are.
-const FAINT: f64 = 1e-16;
+/// The same for the quartics of an angle, whose sizes are products of sizes and so a hundred times what their terms really are.
+const FAINT: f64 = 1e-18;
 
 /// The value of a symbol and the sum of its terms' magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
