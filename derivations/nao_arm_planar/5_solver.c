@@ -86,6 +86,7 @@ double nao_arm_planar_residual(const double *target, const double *q);
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
+#define APART 0.7
 #define SPLIT 0.001
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
@@ -327,74 +328,69 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Gaussian elimination with partial pivoting on an augmented matrix; false for a zero or non-finite pivot. */
-static bool solve_linear(double system[JOINTS][JOINTS + 1], double *solution)
+/* Adds a row to a triangle by plane rotations that leave nothing of it. */
+static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
 {
-    for (size_t column = 0; column < JOINTS; column++) {
-        size_t best = column;
-        for (size_t row = column + 1; row < JOINTS; row++) {
-            if (fabs(system[row][column]) > fabs(system[best][column])) {
-                best = row;
-            }
+    for (size_t pivot = 0; pivot < JOINTS; pivot++) {
+        double *top = triangle[pivot];
+        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
+        if (line[pivot] == 0.0 || length == 0.0) {
+            continue;
         }
-        for (size_t k = 0; k <= JOINTS; k++) {
-            const double entry = system[column][k];
-            system[column][k] = system[best][k];
-            system[best][k] = entry;
+        const double cosine = top[pivot] / length;
+        const double sine = line[pivot] / length;
+        for (size_t k = pivot; k <= JOINTS; k++) {
+            const double above = top[k];
+            const double entry = line[k];
+            top[k] = cosine * above + sine * entry;
+            line[k] = cosine * entry - sine * above;
         }
-        const double pivot = system[column][column];
+    }
+}
+
+/* The solution of a triangular system; false for a zero or non-finite pivot. */
+static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+{
+    for (size_t row = JOINTS; row-- > 0;) {
+        const double pivot = triangle[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        for (size_t row = column + 1; row < JOINTS; row++) {
-            const double factor = system[row][column] / pivot;
-            for (size_t k = column; k <= JOINTS; k++) {
-                system[row][k] -= factor * system[column][k];
-            }
-        }
-    }
-    for (size_t row = JOINTS; row-- > 0;) {
-        double sum = system[row][JOINTS];
+        double sum = triangle[row][JOINTS];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= system[row][k] * solution[k];
+            sum -= triangle[row][k] * solution[k];
         }
-        solution[row] = sum / system[row][row];
+        solution[row] = sum / pivot;
     }
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f, or J^-1 f without damping d; false when the matrix is singular. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
 static bool newton_step(const Parameters *p, const double *q, double damping, double *step)
 {
     const Jacobian j = jacobian(p, q);
     const Equations f = equations(p, q);
-    double system[JOINTS][JOINTS + 1] = {{0.0}};
-    if (damping == 0.0) {
-        for (size_t row = 0; row < JOINTS; row++) {
-            for (size_t column = 0; column < JOINTS; column++) {
-                system[row][column] = j.rows[row][column];
-            }
-            system[row][JOINTS] = f.value[row];
-        }
-        return solve_linear(system, step);
-    }
+    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
+    double squares[JOINTS] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double *left = j.rows[i];
-        for (size_t row = 0; row < JOINTS; row++) {
-            for (size_t column = 0; column < JOINTS; column++) {
-                system[row][column] += left[row] * left[column];
-            }
-            system[row][JOINTS] += left[row] * f.value[i];
+        double line[JOINTS + 1];
+        for (size_t column = 0; column < JOINTS; column++) {
+            line[column] = j.rows[i][column];
+            squares[column] += line[column] * line[column];
         }
+        line[JOINTS] = f.value[i];
+        turn_in(triangle, line);
     }
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, fabs(system[i][i]));
+        size = fmax(size, squares[i]);
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        system[i][i] += damping * size;
+        double line[JOINTS + 1] = {0.0};
+        line[i] = sqrt(damping * size);
+        turn_in(triangle, line);
     }
-    return solve_linear(system, step);
+    return substituted(triangle, step);
 }
 
 /* One step, taken if the relative residual falls. */
@@ -433,6 +429,21 @@ static void polish(const Parameters *p, double *q, Fit *fit)
             return;
         }
     }
+}
+
+/* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
+static void weights(const Parameters *p, const double *q, double *weight)
+{
+    const Jacobian j = jacobian(p, q);
+    const Equations f = equations(p, q);
+    for (size_t i = 0; i < JOINTS; i++) {
+        weight[i] = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+        }
+    }
+    weight[0] = fmin(weight[0], 1.0);
+    weight[1] = fmin(weight[1], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
@@ -599,10 +610,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
     Fit fit = measure(p, q);
     polish(p, q, &fit);
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
+        double weight[JOINTS];
+        weights(p, q, weight);
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(sqrt(fit.relative / (fit.accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
-            move(q, i / 2, 2.0 * sign * sqrt(fit.relative), start);
+            move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
             polish(p, start, &end);
             keep(p, answers, branch, last, start, &end, free);

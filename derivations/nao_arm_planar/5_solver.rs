@@ -113,6 +113,7 @@ const POLISH_STEPS: usize = 32;
 /// Shares of the squared Jacobian's size that are added where a plain step fails.
 const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 0.001];
 /// A candidate that misses the equations by this share of their size at most may be a double root.
+const APART: f64 = 0.7;
 const SPLIT: f64 = 0.001;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
@@ -243,9 +244,12 @@ impl Answers<'_> {
         end = polish(p, end);
         let miss = end.1.relative;
         if RESOLUTION <= miss && miss <= SPLIT {
+            let weights = weights(p, &end.0);
             for i in 0..JOINTS {
                 for sign in [-1.0, 1.0] {
-                    let start = moved(&end.0, i, 2.0 * sign * miss.sqrt());
+                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
+                    let way = f64::min((miss / weight).sqrt(), APART);
+                    let start = moved(&end.0, i, 2.0 * sign * way);
                     let start = (start, measure(p, &start));
                     let start = polish(p, start);
                     self.keep(p, branch, last, start, free);
@@ -451,6 +455,22 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), damping: f64) -> Op
     if next.1.relative < fit.relative { Some(next) } else { None }
 }
 
+/// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
+fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
+    let rows = jacobian(p, q);
+    let size = equations(p, q).size;
+    let mut weights = [0.0; JOINTS];
+    for (row, size) in rows.iter().zip(size) {
+        for i in 0..JOINTS {
+            weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
+        }
+    }
+    [
+        f64::min(weights[0], 1.0),
+        f64::min(weights[1], 1.0),
+    ]
+}
+
 /// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
 fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
     let ends = [
@@ -462,61 +482,59 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
     next
 }
 
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`, or `J^-1 f` without damping `d`; none when the matrix is singular.
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by plane rotations.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> Option<[f64; JOINTS]> {
     let rows = jacobian(p, q);
     let right = equations(p, q).value;
-    let mut system = [[0.0; JOINTS + 1]; JOINTS];
-    if damping == 0.0 {
-        for i in 0..JOINTS {
-            system[i][..JOINTS].copy_from_slice(&rows[i]);
-            system[i][JOINTS] = right[i];
-        }
-        return solve_linear(&mut system);
-    }
+    let mut triangle = [[0.0; JOINTS + 1]; JOINTS];
+    let mut squares = [0.0; JOINTS];
     for (row, right) in rows.iter().zip(right) {
+        let mut line = [0.0; JOINTS + 1];
         for i in 0..JOINTS {
-            for j in 0..JOINTS {
-                system[i][j] += row[i] * row[j];
-            }
-            system[i][JOINTS] += row[i] * right;
+            line[i] = row[i];
+            squares[i] += line[i] * line[i];
         }
+        line[JOINTS] = right;
+        turn_in(&mut triangle, line);
     }
-    let size = (0..JOINTS).fold(0.0, |size, i| f64::max(size, system[i][i].abs()));
+    let size = squares.iter().fold(0.0, |size, &square| f64::max(size, square));
     for i in 0..JOINTS {
-        system[i][i] += damping * size;
+        let mut line = [0.0; JOINTS + 1];
+        line[i] = (damping * size).sqrt();
+        turn_in(&mut triangle, line);
     }
-    solve_linear(&mut system)
+    substituted(&triangle)
 }
 
-/// Gaussian elimination with partial pivoting on an augmented matrix; none for a zero or non-finite pivot.
-fn solve_linear(system: &mut [[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> {
-    for column in 0..JOINTS {
-        let mut best = column;
-        for row in column + 1..JOINTS {
-            if system[row][column].abs() > system[best][column].abs() {
-                best = row;
-            }
+/// Adds a row to a triangle by plane rotations that leave nothing of it.
+fn turn_in(triangle: &mut [[f64; JOINTS + 1]; JOINTS], mut line: [f64; JOINTS + 1]) {
+    for (pivot, top) in triangle.iter_mut().enumerate() {
+        let length = (top[pivot] * top[pivot] + line[pivot] * line[pivot]).sqrt();
+        if line[pivot] == 0.0 || length == 0.0 {
+            continue;
         }
-        system.swap(column, best);
-        let top = system[column];
-        if top[column] == 0.0 || !top[column].is_finite() {
-            return None;
-        }
-        for row in column + 1..JOINTS {
-            let factor = system[row][column] / top[column];
-            for k in column..=JOINTS {
-                system[row][k] -= factor * top[k];
-            }
+        let (cosine, sine) = (top[pivot] / length, line[pivot] / length);
+        for k in pivot..=JOINTS {
+            let (above, entry) = (top[k], line[k]);
+            top[k] = cosine * above + sine * entry;
+            line[k] = cosine * entry - sine * above;
         }
     }
+}
+
+/// The solution of a triangular system; none for a zero or non-finite pivot.
+fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> {
     let mut solution = [0.0; JOINTS];
     for row in (0..JOINTS).rev() {
-        let mut sum = system[row][JOINTS];
-        for k in row + 1..JOINTS {
-            sum -= system[row][k] * solution[k];
+        let pivot = triangle[row][row];
+        if pivot == 0.0 || !pivot.is_finite() {
+            return None;
         }
-        solution[row] = sum / system[row][row];
+        let mut sum = triangle[row][JOINTS];
+        for k in row + 1..JOINTS {
+            sum -= triangle[row][k] * solution[k];
+        }
+        solution[row] = sum / pivot;
     }
     Some(solution)
 }

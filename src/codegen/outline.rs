@@ -8,7 +8,7 @@ use super::demand::{Demand, ParameterDemand};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use crate::solver::{
-    ACCEPT, ADRIFT, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, MERGE, NEAR, Operand, PIVOT,
+    ACCEPT, ADRIFT, APART, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, MERGE, NEAR, Operand, PIVOT,
     POLISH_STEPS, POLISHED, Program, ROUNDING, STAGES, Step, TINY, Unit,
 };
 
@@ -63,6 +63,7 @@ struct Tolerances {
     polished: String,
     adrift: String,
     aside: String,
+    apart: String,
     stages: usize,
     consistent: String,
 }
@@ -181,6 +182,7 @@ impl Tolerances {
             polished: number(POLISHED),
             adrift: number(ADRIFT),
             aside: number(ASIDE),
+            apart: number(APART),
             stages: STAGES,
             consistent: number(CONSISTENT),
         }

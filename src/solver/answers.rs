@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ASIDE, BLUR, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
+use super::{ADRIFT, APART, ASIDE, BLUR, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
 
 /// A solution with the largest share of an equation's value in its scale.
 struct Answer {
@@ -65,14 +65,18 @@ impl<'a> Answers<'a> {
     }
 
     /// Where a candidate stands at a singular configuration and misses the equations by little, it is a double root that rounding
-    /// made of two: starts again from points to either side of it, as far as the square root of the miss leads.
+    /// made of two: starts again from points to either side of it, as far as the square root of the miss leads. Where it misses by more
+    /// than an answer may, an angle that matters little, as of a point next to its axis, is moved farther.
     fn around(&mut self, path: &Path, q: &Joints, fit: &Fit) {
         if !(ROUNDING..=NEAR).contains(&fit.relative) {
             return;
         }
+        let weights = refine::weights(self.program, q, &mut self.frame);
         for (joint, sign) in (0..self.program.joints.len()).flat_map(|joint| [(joint, -1.0), (joint, 1.0)]) {
             let mut start = *q;
-            start[joint] = self.displaced(q[joint], joint, 2.0 * sign * fit.relative.sqrt());
+            let weight = if fit.accepted { 1.0 } else { weights[joint] };
+            let way = (fit.relative / weight).sqrt().min(APART);
+            start[joint] = self.displaced(q[joint], joint, 2.0 * sign * way);
             let mut fit = refine::measure(self.program, &start, &mut self.frame);
             refine::polish(self.program, &mut start, &mut fit, &NONE_FREE, &mut self.frame);
             self.keep(path, &start, &fit);

@@ -46,6 +46,9 @@ pub const POLISHED: f64 = 1e-15;
 pub const ADRIFT: f64 = 1e-7;
 /// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a family.
 pub const ASIDE: f64 = 0.1;
+/// Half of the farthest (rad) that an angle is moved in search of the two roots of a double one, where it hardly matters to the
+/// equations.
+pub const APART: f64 = 0.7;
 /// In how many stages a family is followed from one member to another.
 pub const STAGES: usize = 4;
 /// A target's rotation or unit vector may be this far from one.

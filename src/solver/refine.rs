@@ -95,6 +95,25 @@ fn improved(
     None
 }
 
+/// How much each joint matters to the equations at `q`: the greatest derivative as a share of its equation's scale, at most one; one
+/// for a length.
+pub(super) fn weights(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> Joints {
+    let checks = &program.checks;
+    unknowns_of(program, q, &mut frame.unknowns);
+    frame.run(&checks.code);
+    let mut weights: Joints = [0.0; MAX_JOINTS];
+    for (row, scale) in checks.jacobian.iter().zip(&checks.scales) {
+        let scale = frame.value(*scale).max(f64::MIN_POSITIVE);
+        for (weight, derivative) in weights.iter_mut().zip(row) {
+            *weight = weight.max(frame.value(*derivative).abs() / scale);
+        }
+    }
+    for (weight, joint) in weights.iter_mut().zip(&program.joints) {
+        *weight = if matches!(joint.value, JointValue::Plain(_)) { 1.0 } else { weight.min(1.0) };
+    }
+    weights
+}
+
 /// `q - step`, angles in (-pi, pi].
 fn moved(program: &Program, q: &Joints, step: &Joints) -> Joints {
     let mut moved = *q;
@@ -121,75 +140,61 @@ pub(super) fn wrap(angle: f64) -> f64 {
 
 type Square = [[f64; MAX_JOINTS + 1]; MAX_JOINTS];
 
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`, or `J^-1 f` for a square Jacobian, `d = 0` and no joint held, at the
-/// joints that were measured last; `None` when it is singular.
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f` at the joints that were measured last; `None` when it is singular. The rows
+/// of the Jacobian and of the damping are turned into a triangle (Givens 1958): a direction in which the equations hardly change is not
+/// lost, as it would be in `J^T J`.
 fn newton_step(program: &Program, damping: f64, held: &[bool; MAX_JOINTS], frame: &mut Frame<'_>) -> Option<Joints> {
     let (checks, joints) = (&program.checks, program.joints.len());
     frame.run(&checks.code[measured(checks)..]);
-    let mut system: Square = [[0.0; MAX_JOINTS + 1]; MAX_JOINTS];
-    if damping == 0.0 && checks.residuals.len() == joints && *held == NONE_FREE {
-        for (line, (row, residual)) in system.iter_mut().zip(checks.jacobian.iter().zip(&checks.residuals)) {
-            for (entry, derivative) in line.iter_mut().zip(row) {
-                *entry = frame.value(*derivative);
-            }
-            line[joints] = frame.value(*residual);
-        }
-    } else {
-        normal_equations(program, held, frame, &mut system);
-    }
-    let size = (0..joints).fold(0.0, |size: f64, i| size.max(system[i][i].abs()));
-    for i in 0..joints {
-        system[i][i] += if held[i] { 1.0 } else { damping * size };
-    }
-    solve_linear(&mut system, joints)
-}
-
-/// Adds `J^T J` and `J^T f`; rows and columns of held joints stay zero.
-fn normal_equations(program: &Program, held: &[bool; MAX_JOINTS], frame: &Frame<'_>, system: &mut Square) {
-    let joints = program.joints.len();
-    for (row, residual) in program.checks.jacobian.iter().zip(&program.checks.residuals) {
+    let mut triangle: Square = [[0.0; MAX_JOINTS + 1]; MAX_JOINTS];
+    let mut squares = [0.0; MAX_JOINTS];
+    for (row, residual) in checks.jacobian.iter().zip(&checks.residuals) {
         let mut line = [0.0; MAX_JOINTS + 1];
         for (joint, derivative) in row.iter().enumerate() {
             line[joint] = if held[joint] { 0.0 } else { frame.value(*derivative) };
+            squares[joint] += line[joint] * line[joint];
         }
         line[joints] = frame.value(*residual);
-        for (i, sums) in system.iter_mut().enumerate().take(joints) {
-            for (sum, entry) in sums.iter_mut().zip(&line).take(joints + 1) {
-                *sum += line[i] * entry;
-            }
+        turn_in(&mut triangle, line, joints);
+    }
+    let size = squares.iter().fold(0.0, |size: f64, square| size.max(*square));
+    for joint in 0..joints {
+        let mut line = [0.0; MAX_JOINTS + 1];
+        line[joint] = if held[joint] { 1.0 } else { (damping * size).sqrt() };
+        turn_in(&mut triangle, line, joints);
+    }
+    substituted(&triangle, joints)
+}
+
+/// Adds a row to a triangle by plane rotations that leave nothing of it.
+fn turn_in(triangle: &mut Square, mut line: [f64; MAX_JOINTS + 1], size: usize) {
+    for pivot in 0..size {
+        let length = (triangle[pivot][pivot] * triangle[pivot][pivot] + line[pivot] * line[pivot]).sqrt();
+        if line[pivot] == 0.0 || length == 0.0 {
+            continue;
+        }
+        let (cosine, sine) = (triangle[pivot][pivot] / length, line[pivot] / length);
+        for k in pivot..=size {
+            let (above, entry) = (triangle[pivot][k], line[k]);
+            triangle[pivot][k] = cosine * above + sine * entry;
+            line[k] = cosine * entry - sine * above;
         }
     }
 }
 
-/// Gaussian elimination with partial pivoting on an augmented matrix; `None` for a zero or non-finite pivot.
-fn solve_linear(system: &mut Square, size: usize) -> Option<[f64; MAX_JOINTS]> {
-    for column in 0..size {
-        let mut best = column;
-        for row in column + 1..size {
-            if system[row][column].abs() > system[best][column].abs() {
-                best = row;
-            }
-        }
-        system.swap(column, best);
-        let pivot = system[column][column];
+/// The solution of a triangular system; `None` for a zero or non-finite pivot.
+fn substituted(triangle: &Square, size: usize) -> Option<Joints> {
+    let mut solution = [0.0; MAX_JOINTS];
+    for row in (0..size).rev() {
+        let pivot = triangle[row][row];
         if pivot == 0.0 || !pivot.is_finite() {
             return None;
         }
-        for row in column + 1..size {
-            let factor = system[row][column] / pivot;
-            let top = system[column];
-            for (entry, above) in system[row][column..=size].iter_mut().zip(&top[column..=size]) {
-                *entry -= factor * above;
-            }
-        }
-    }
-    let mut solution = [0.0; MAX_JOINTS];
-    for row in (0..size).rev() {
-        let mut sum = system[row][size];
+        let mut sum = triangle[row][size];
         for k in row + 1..size {
-            sum -= system[row][k] * solution[k];
+            sum -= triangle[row][k] * solution[k];
         }
-        solution[row] = sum / system[row][row];
+        solution[row] = sum / pivot;
     }
     Some(solution)
 }

@@ -6,6 +6,7 @@ mod closure;
 mod ends;
 mod explain;
 mod families;
+mod lift;
 mod planner;
 mod random_chains;
 mod renamed;

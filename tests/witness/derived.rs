@@ -10,15 +10,17 @@ use std::time::Instant;
 use groebot::derive::lift::Derived;
 use groebot::derive::{Ends, InputFile};
 use groebot::kinematics::Chain;
-use groebot::witness::chain::Check;
-use groebot::witness::{Kind, Options, Report, Row};
+use groebot::solver::Solution;
+use groebot::witness::chain::{ByScrews, Check, Solver};
+use groebot::witness::{Kind, Options, Report};
 use groebot::{Result, Watch};
 
 /// Folders whose descriptions take other ways: planar formulas as their source prints them, and a robot whose rounded axes must be
 /// made exact first.
 const OTHER_WAYS: [&str; 3] = ["irb4600_rounded", "nao_arm_planar", "nao_leg_sagittal"];
 
-/// Chains whose solvers still lose answers at targets that are not next to singular ones: their quartics. The long run lets none off.
+/// Chains whose solvers lose answers at exactly singular targets: where the elbow stands on the first axis all coefficients of the
+/// quartic of joint 1 vanish. The family is told, the answers whose elbow stands elsewhere are not. The long run lets none off.
 const LOSING: [&str; 2] = ["nao_left_arm", "nao_right_arm"];
 
 /// All chains that are committed, by the names of their folders.
@@ -63,12 +65,31 @@ fn every_chain_passes_some_of_its_checks() {
             told(&report, 6)
         );
         // At 10^-9 from singular what is lost is told, here and in the derivation's README.
-        let counts = |row: &&Row| row.kind != Kind::Near(9);
-        if report.failures().filter(counts).count() > 0 && !LOSING.contains(&name.as_str()) {
+        let let_off =
+            |kind: &Kind| *kind == Kind::Near(9) || (*kind == Kind::Singular && LOSING.contains(&name.as_str()));
+        if report.failures().any(|row| !let_off(&row.kind)) {
             failed.push(name);
         }
     }
     assert!(failed.is_empty(), "{failed:?}");
+}
+
+/// RH0's hand 5e-11 from the axis of the second joint, and the double root of the first: four answers, as by screws.
+#[test]
+fn an_angle_that_hardly_matters_is_found() {
+    let (_, chain) = chains().into_iter().find(|(name, _)| name == "rh0_arm").unwrap();
+    let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+    let screws = ByScrews::new(&chain).unwrap();
+    for q in [[2.9299499523295327, -0.5595037167059775, -2.730454790267445], [-2.744637149732931, 1.99631, -2.73045479]]
+    {
+        let target = derived.reached(&q).unwrap();
+        let found = derived.program.solve(&target).unwrap();
+        // The second joint moves the hand by 1e-10 m a radian, and rounding leaves 1e-16 m of the target.
+        let near = |a: &Solution, q: &[f64]| a.q.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-5);
+        assert!(found.iter().any(|answer| near(answer, &q)), "{q:?}: {found:?}");
+        let expected = screws.solve(&target).unwrap();
+        assert_eq!(found.len(), expected.len(), "{q:?}: {found:?}\n{expected:?}");
+    }
 }
 
 /// How many targets have so many answers: `4:10 8:990`.

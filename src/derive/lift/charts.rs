@@ -19,6 +19,8 @@ const CLOSE: f64 = 1e-5;
 /// A chart does not run where a denominator's symbols are below this share of their sizes: rounding has left nothing of them, and
 /// all values of the joint that they determine solve the equations equally well.
 const LOST: f64 = 1e-13;
+/// The same for the quartics of an angle, whose sizes are products of sizes and so a hundred times what their terms really are.
+const FAINT: f64 = 1e-18;
 
 /// The value of a symbol and the sum of its terms' magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,7 +179,7 @@ impl<'a> Builder<'a> {
         let lead = quartic.last().copied().unwrap_or(Operand::Constant(0.0));
         let sizes: Vec<Operand> = self.place.symbols.iter().map(|symbol| symbol.size).collect();
         let size = sizes.into_iter().fold(Operand::Constant(0.0), |sum, size| self.assembler.add(sum, size));
-        let scale = self.assembler.mul(Operand::Constant(LOST / TINY), size);
+        let scale = self.assembler.mul(Operand::Constant(FAINT / TINY), size);
         self.guards.push(Guard { text: "leading coefficient".to_owned(), value: lead, scale, near: false });
         let guard_code = self.assembler.take();
         let typical = Some(Operand::Constant(1.0));

@@ -31,7 +31,9 @@ fn check(name: &str, chain: &Chain) -> Derived {
         assert!(answers.iter().all(|answer| miss(&derived, &target, answer) <= 1e-12), "{place}");
         assert!(answers.len() <= derived.plan.dimension, "{place}");
         if let Ok(screws) = &screws {
-            let expected = screws.solve(&Target::reached(chain, &q).unwrap()).unwrap();
+            // The given joints are the last inputs.
+            let given = &target[target.len() - chain.parts().given.len()..];
+            let expected = screws.solve_given(&Target::reached(chain, &q).unwrap(), given).unwrap();
             assert_eq!(answers.len(), expected.len(), "{place}\n{expected:?}");
         }
     }

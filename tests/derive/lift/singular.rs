@@ -1,6 +1,6 @@
 //! Singular poses: wrist straight, arm stretched, wrist above the shoulder; exactly, and near.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use groebot::derive::lift::Derived;
 use groebot::robots;
@@ -101,5 +101,29 @@ fn the_wrist_above_the_shoulder_leaves_the_shoulder_free() {
         let family = found.iter().filter(|a| distance(&derived.chain, &a.q, &q, &ignored) < 1e-6);
         assert!(family.clone().count() >= 1, "{q:?}: {found:?}");
         assert!(family.into_iter().all(|a| a.free == [0]), "{q:?}: {found:?}");
+    }
+}
+
+/// NAO's arm is singular where the elbow stands on the axis of ShoulderPitch (ShoulderRoll 1.4289 left, 1.7127 right, by
+/// atan(105/15)) and where the elbow is straight. Next to that all coefficients of the quartic are small.
+#[test]
+fn rays_of_nao_next_to_singular_ones_keep_the_joints_that_made_them() {
+    let on_axis = (105.0f64 / 15.0).atan();
+    let opposite = PI - on_axis;
+    let poses = [
+        ("nao_right_arm", [1.74858, 1.71059, -0.34923, 0.49150, -1.59690], 1e-9),
+        ("nao_right_arm", [1.74858, opposite + 1e-6, -0.34923, 0.49150, -1.59690], 1e-6),
+        ("nao_left_arm", [-0.17942, on_axis + 1e-3, 2.82315, -1.47571, -1.69547], 1e-9),
+        ("nao_left_arm", [-0.17942, on_axis + 1e-6, 2.82315, -1.47571, -1.69547], 1e-6),
+        ("nao_left_arm", [-0.17942, on_axis + 1e-9, 2.82315, -1.47571, -1.69547], 1e-3),
+        ("nao_right_arm", [-1.28566, 1.24801, -0.61828, -1e-9, 2.83514], 1e-4),
+    ];
+    for (name, q, tolerance) in poses {
+        let derived = derived(name);
+        let found = answers(&derived, &q);
+        // What rounding leaves of the target, 1e-16, divided by the distance from the singular one, moves the joints.
+        let nearest = found.iter().map(|a| distance(&derived.chain, &a.q, &q, &a.free)).fold(9.0, f64::min);
+        assert!(nearest < tolerance, "{name} {q:?} {nearest:e}: {found:?}");
+        assert!(found.len() <= derived.plan.dimension, "{name} {q:?}: {found:?}");
     }
 }
