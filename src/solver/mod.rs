@@ -3,6 +3,7 @@
 //! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
 
 mod answers;
+mod compose;
 mod condition;
 mod evaluate;
 mod frame;
