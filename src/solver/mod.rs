@@ -13,7 +13,7 @@ mod refine;
 mod validate;
 mod walk;
 
-pub use evaluate::Solution;
+pub use evaluate::{Nearest, Solution};
 pub use instruction::{Instruction, Operand, Operation};
 pub use program::{
     Block, Chart, Checks, Condition, Guard, Input, Joint, JointValue, ParameterRule, Pivot, Preference, Program, Rule,
