@@ -5,6 +5,7 @@ mod chains;
 mod closure;
 mod ends;
 mod families;
+mod limbs;
 mod planner;
 mod random_chains;
 mod renamed;
