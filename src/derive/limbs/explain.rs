@@ -52,7 +52,7 @@ impl fmt::Display for Explanation {
             ways => write!(f, " in each of the {ways} ways in which the limbs before it reach their targets")?,
         }
         match &self.nearest {
-            Some(nearest) => write!(f, "; the nearest joints leave a residual of {:.1e}", nearest.residual),
+            Some(nearest) => write!(f, "; the nearest joints found leave a residual of {:.1e}", nearest.residual),
             None => f.write_str("; no real joints come near"),
         }
     }
