@@ -2,6 +2,7 @@
 
 use super::model::{JointPlace, Limb, Limbs};
 use crate::derive::lift::Derived;
+use crate::kinematics::Chain;
 use crate::solver::{MAX_JOINTS, Program};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -29,6 +30,9 @@ pub(super) enum Origin {
     Joint(usize),
 }
 
+/// Gives the derivation of a limb's chain.
+pub(super) type Derive<'a> = dyn FnMut(usize, &Chain) -> Result<Derived> + 'a;
+
 /// The derivation of a solver of several limbs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DerivedLimbs {
@@ -48,11 +52,16 @@ impl DerivedLimbs {
     /// [`ErrorKind::PositiveDimensional`] when the tasks leave joints of the limbs that are left undetermined;
     /// [`ErrorKind::BadValue`] for a given joint that another limb finds; as [`Derived::of_chain`], with the limb.
     pub fn of_limbs(limbs: &Limbs, watch: &Watch) -> Result<Self> {
+        DerivedLimbs::assemble(limbs, &mut |_, chain| Derived::of_chain(chain, watch))
+    }
+
+    /// Composes the solvers that `derive` gives of the chains of limbs, which it gets in their order with the limbs' indices.
+    pub(super) fn assemble(limbs: &Limbs, derive: &mut Derive<'_>) -> Result<Self> {
         let mut stages: Vec<LimbStage> = Vec::new();
         while stages.len() < limbs.limbs().len() {
             let limb = next_limb(limbs, &stages)?;
             let named = |error: Error| error.with_context(format_args!("limb `{}`", limbs.limbs()[limb].name));
-            let stage = LimbStage::derive(limbs, limb, &stages, watch).map_err(named)?;
+            let stage = LimbStage::derive(limbs, limb, &stages, derive).map_err(named)?;
             stages.push(stage);
         }
         let last = stages.last().map(|stage| stage.program.clone());
@@ -114,7 +123,7 @@ impl DerivedLimbs {
 
 impl LimbStage {
     /// The limb's derivation behind those of `before`.
-    fn derive(limbs: &Limbs, limb: usize, before: &[LimbStage], watch: &Watch) -> Result<Self> {
+    fn derive(limbs: &Limbs, limb: usize, before: &[LimbStage], derive: &mut Derive<'_>) -> Result<Self> {
         let Limb { prefix, chain, .. } = &limbs.limbs()[limb];
         let found: Vec<Option<usize>> =
             (0..chain.joints().len()).map(|joint| found(limbs, before, limb, joint)).collect();
@@ -127,7 +136,7 @@ impl LimbStage {
             given.push(joint.name.clone());
         }
         let chain = chain.with_task(chain.task(), chain.direction().clone(), given)?;
-        let derived = Derived::of_chain(&chain, watch)?;
+        let derived = derive(limb, &chain)?;
         let own = derived.program.prefixed(prefix);
         let shared: Vec<(usize, usize)> =
             found.iter().enumerate().filter_map(|(joint, &found)| found.map(|place| (place, joint))).collect();

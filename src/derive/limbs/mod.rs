@@ -7,6 +7,7 @@
 //!
 #![doc = include_str!("../../../docs/limbs_toml.md")]
 
+mod certificate;
 mod derived;
 mod explain;
 mod model;

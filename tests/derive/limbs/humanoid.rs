@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use groebot::derive::limbs::{DerivedLimbs, Limbs};
 use groebot::kinematics::screw::{ScrewSolver, Target};
 use groebot::kinematics::{Chain, Task, along_z};
-use groebot::{Watch, robots};
+use groebot::{ErrorKind, Watch, robots};
 
 use super::{Random, distance};
 
@@ -170,4 +170,21 @@ fn a_foot_out_of_reach_is_named() {
     target[0] += 1.0;
     let explained = LEGS.explain(&target).unwrap().unwrap();
     assert_eq!((explained.limb.as_str(), explained.before), ("left", 0));
+}
+
+#[test]
+fn the_certificate_proves_the_same_solver_again_and_no_other() {
+    let text = LEGS.certificate().unwrap();
+    let again = DerivedLimbs::prove(&LEGS.limbs, &text).unwrap();
+    assert_eq!(again.program, LEGS.program);
+    let refused = |text: &str, kind: ErrorKind, word: &str| {
+        let error = DerivedLimbs::prove(&LEGS.limbs, text).unwrap_err();
+        assert!(error.kind() == kind && error.message().contains(word), "`{word}`: {error}");
+    };
+    refused(&text.replacen("\"limb\": \"left\"", "\"limb\": \"right\"", 1), ErrorKind::Certificate, "`left`");
+    refused(&text.replacen("\"name\": \"legs\"", "\"name\": \"arms\"", 1), ErrorKind::Certificate, "`arms`");
+    refused(&text.replacen("\"joint\": 0", "\"joint\": 1", 1), ErrorKind::Certificate, "limb `left`");
+    refused(&text[..text.len() / 2], ErrorKind::Syntax, "certificate");
+    let both = DerivedLimbs::prove(&BOTH_POSES.limbs, &text).unwrap_err();
+    assert_eq!(both.kind(), ErrorKind::Certificate, "{both}");
 }
