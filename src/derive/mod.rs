@@ -15,6 +15,7 @@ mod generic;
 mod grow;
 pub mod input;
 pub mod lift;
+pub mod limbs;
 pub mod plan;
 pub mod planner;
 mod print;

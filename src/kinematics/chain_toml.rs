@@ -33,8 +33,14 @@ impl Chain {
     /// [`ErrorKind::Syntax`] for text that is not TOML or a string that is no number; [`ErrorKind::UnknownKey`],
     /// [`ErrorKind::MissingKey`]; [`ErrorKind::BadValue`] for a wrong type or value; and as [`Chain::new`]. All have a line.
     pub fn from_toml(text: &str) -> Result<Chain> {
-        let document = Document::parse(text)?;
-        let root = document.root();
+        Chain::from_table(Document::parse(text)?.root())
+    }
+
+    /// The chain that a table describes, with the keys of a whole file.
+    ///
+    /// # Errors
+    /// As [`Chain::from_toml`].
+    pub(crate) fn from_table(root: Table<'_>) -> Result<Chain> {
         root.deny_unknown(&ROOT_KEYS)?;
         let joints = root.required("joint")?.tables()?;
         let tip = root.required("tip")?.table()?;

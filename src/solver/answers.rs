@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::evaluate::Solution;
+use super::evaluate::{Nearest, Solution};
 use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
@@ -21,11 +21,17 @@ pub(super) struct Answers<'a> {
     /// Holds what the equations read.
     frame: Frame<'a>,
     list: Vec<Answer>,
+    /// The candidate that missed the equations by the least share of their size.
+    nearest: Option<Nearest>,
 }
 
 impl<'a> Answers<'a> {
     pub fn new(program: &'a Program, frame: Frame<'a>) -> Self {
-        Answers { program, frame, list: Vec::new() }
+        Answers { program, frame, list: Vec::new(), nearest: None }
+    }
+
+    pub fn into_nearest(self) -> Option<Nearest> {
+        self.nearest
     }
 
     pub fn into_solutions(self) -> Vec<Solution> {
@@ -59,6 +65,7 @@ impl<'a> Answers<'a> {
         if !fit.accepted && fit.relative <= ADRIFT {
             refine::polish(self.program, &mut q, &mut fit, &path.free, &mut self.frame);
         }
+        self.miss(&q, &fit);
         if fit.accepted && self.lies_on_family(&q[..self.program.joints.len()], &free, fit.relative) {
             self.keep(path, &q, &fit);
         }
@@ -83,10 +90,19 @@ impl<'a> Answers<'a> {
         }
     }
 
+    /// Remembers a candidate that is no answer if it comes nearest so far.
+    fn miss(&mut self, q: &Joints, fit: &Fit) {
+        let is_nearer = self.nearest.as_ref().is_none_or(|nearest| fit.relative < nearest.relative);
+        if !fit.accepted && fit.relative.is_finite() && is_nearer {
+            let q = q[..self.program.joints.len()].to_vec();
+            self.nearest = Some(Nearest { q, residual: fit.residual, relative: fit.relative });
+        }
+    }
+
     /// Adds an answer if the equations hold, in place of a worse equal one.
     fn keep(&mut self, path: &Path, q: &Joints, fit: &Fit) {
         if !fit.accepted {
-            return;
+            return self.miss(q, fit);
         }
         let free = self.free_joints(path);
         let branch = self.free_branch(path, &free);

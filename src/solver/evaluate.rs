@@ -24,6 +24,17 @@ pub struct Solution {
     pub chosen: bool,
 }
 
+/// A candidate that does not solve the equations.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Nearest {
+    /// Joint values in the program's joint order.
+    pub q: Vec<f64>,
+    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
+    pub residual: f64,
+    /// The largest share of an equation's value in its size.
+    pub relative: f64,
+}
+
 impl Program {
     /// All real solutions for `target` (one number an input, in order and unit of [`Program::inputs`]), by branch. Empty when the
     /// target is unreachable. The program must be valid ([`Program::validate`]).
@@ -32,17 +43,30 @@ impl Program {
     /// [`ErrorKind::BadValue`] for a wrong count of numbers, NaN or infinity, or a condition that does not hold
     /// ([`Program::conditions`]); [`ErrorKind::Unsupported`] when the target lies on a stratum that could not be derived.
     pub fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
+        let mut solutions = self.walk(target, |answers| answers.into_solutions())?;
+        solutions.sort_by_key(|solution| solution.branch);
+        self.mark_choice(&mut solutions);
+        Ok(solutions)
+    }
+
+    /// Of the candidates for `target` that are no solution, the one that misses the equations by the least share of their size, as
+    /// far as polishing brings it; none when there is no such candidate.
+    ///
+    /// # Errors
+    /// As [`Program::solve`].
+    pub fn nearest(&self, target: &[f64]) -> Result<Option<Nearest>> {
+        self.walk(target, |answers| answers.into_nearest())
+    }
+
+    /// What is taken of the answers for a target.
+    fn walk<T>(&self, target: &[f64], take: impl Fn(Answers<'_>) -> T) -> Result<T> {
         self.check_target(target)?;
         let mut target = target.to_vec();
         self.conform(&mut target)?;
         let parameters = self.parameter_values(&target);
         let magnitude = parameters.iter().fold(self.scale, |largest, value| largest.max(value.abs()));
-        let answers =
-            Answers::new(self, Frame::new(&parameters, magnitude, self.unknowns.len(), self.checks.code.len()));
-        let mut solutions = Walk::new(self, &parameters, magnitude, answers).run()?.into_solutions();
-        solutions.sort_by_key(|solution| solution.branch);
-        self.mark_choice(&mut solutions);
-        Ok(solutions)
+        let frame = Frame::new(&parameters, magnitude, self.unknowns.len(), self.checks.code.len());
+        Walk::new(self, &parameters, magnitude, Answers::new(self, frame)).run().map(take)
     }
 
     fn check_target(&self, target: &[f64]) -> Result<()> {

@@ -3,6 +3,7 @@
 //! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
 
 mod answers;
+mod compose;
 mod condition;
 mod evaluate;
 mod frame;
@@ -12,7 +13,7 @@ mod refine;
 mod validate;
 mod walk;
 
-pub use evaluate::Solution;
+pub use evaluate::{Nearest, Solution};
 pub use instruction::{Instruction, Operand, Operation};
 pub use program::{
     Block, Chart, Checks, Condition, Guard, Input, Joint, JointValue, ParameterRule, Pivot, Preference, Program, Rule,

@@ -35,7 +35,7 @@ pub(super) fn unknowns_of(program: &Program, q: &[f64], unknowns: &mut [f64]) {
 }
 
 /// How many instructions of the checks the equations' values and sizes need; the others are for the derivatives.
-fn measured(checks: &Checks) -> usize {
+pub(super) fn measured(checks: &Checks) -> usize {
     let end = |operand: &Operand| if let Operand::Register(index) = operand { index + 1 } else { 0 };
     checks.residuals.iter().chain(&checks.scales).map(end).max().unwrap_or(0)
 }

@@ -6,7 +6,7 @@ use super::{MAX_JOINTS, Unit};
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The most answers of a program.
-const MOST_ANSWERS: usize = 4096;
+pub(super) const MOST_ANSWERS: usize = 4096;
 /// The most blocks.
 const MOST_BLOCKS: usize = 64;
 /// The most unknowns.

@@ -7,6 +7,7 @@ mod ends;
 mod explain;
 mod families;
 mod lift;
+mod limbs;
 mod planner;
 mod random_chains;
 mod renamed;

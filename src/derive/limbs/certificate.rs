@@ -1,0 +1,86 @@
+//! The stored proof of a solver of limbs: the certificates of the limbs' chains, in the order in which they are solved.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::derived::DerivedLimbs;
+use super::model::Limbs;
+use crate::derive::lift::certificate;
+use crate::kinematics::Chain;
+use crate::{Error, ErrorKind, Result};
+
+/// The version of the format; that of one chain has number 2.
+const FORMAT: u32 = 3;
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    format: u32,
+    groebot: String,
+    name: String,
+    limbs: Vec<Proof>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Proof {
+    limb: String,
+    certificate: Value,
+}
+
+impl DerivedLimbs {
+    /// The text of `certificate.json`.
+    ///
+    /// # Errors
+    /// As [`certificate::write`].
+    pub fn certificate(&self) -> Result<String> {
+        let mut record = Record {
+            format: FORMAT,
+            groebot: env!("CARGO_PKG_VERSION").to_owned(),
+            name: self.limbs.parts().name.clone(),
+            limbs: Vec::new(),
+        };
+        for stage in &self.stages {
+            let limb = self.limbs.limbs()[stage.limb].name.clone();
+            let certificate = serde_json::from_str(&certificate::write(&stage.derived)?).map_err(|e| unread(&e))?;
+            record.limbs.push(Proof { limb, certificate });
+        }
+        let text = serde_json::to_string_pretty(&record).expect("a record holds nothing that JSON cannot say");
+        Ok(text + "\n")
+    }
+
+    /// Proves the derivation of `limbs` anew from the text of its certificate, without search and without the Groebner engine.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the limb, the step or
+    /// the form for a claim that does not hold.
+    pub fn prove(limbs: &Limbs, text: &str) -> Result<Self> {
+        let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
+        if record.format != FORMAT || record.name != limbs.parts().name {
+            let (format, name, own) = (record.format, &record.name, &limbs.parts().name);
+            return Err(refused(format!(
+                "this certificate is of format {format} for `{name}`; format {FORMAT} for `{own}` is allowed"
+            )));
+        }
+        let mut stored = record.limbs.iter();
+        let mut prove = |limb: usize, chain: &Chain| match stored.next() {
+            Some(proof) if proof.limb == limbs.limbs()[limb].name => {
+                certificate::prove(chain, &proof.certificate.to_string())
+            }
+            _ => Err(refused("its certificate is missing or not in its place".to_owned())),
+        };
+        let derived = DerivedLimbs::assemble(limbs, &mut prove)?;
+        match stored.next() {
+            None => Ok(derived),
+            Some(proof) => Err(refused(format!("the certificate of `{}` is left over", proof.limb))),
+        }
+    }
+}
+
+fn unread(error: &serde_json::Error) -> Error {
+    Error::new(ErrorKind::Syntax, format!("certificate: {error}")).at_line(error.line())
+}
+
+fn refused(text: String) -> Error {
+    Error::new(ErrorKind::Certificate, text)
+}

@@ -1,0 +1,303 @@
+//! One program of two: mechanisms that share motors are solved one after the other, the second with the shared joints where the
+//! first has put them ([`Program::followed_by`]).
+
+use super::instruction::{Instruction, Operand, Operation};
+use super::program::{
+    Block, Chart, Checks, Condition, Guard, Joint, JointValue, ParameterRule, Pivot, Program, Rule, Step,
+};
+use super::refine::measured;
+use super::validate::MOST_ANSWERS;
+use crate::{Error, ErrorKind, Result};
+
+impl Program {
+    /// The same program with `prefix` before the names of its inputs, parameters, unknowns and joints.
+    #[must_use]
+    pub fn prefixed(&self, prefix: &str) -> Program {
+        let mut program = self.clone();
+        let inputs = program.inputs.iter_mut().map(|input| &mut input.name);
+        let parameters = program.parameters.iter_mut().map(|parameter| &mut parameter.name);
+        let joints = program.joints.iter_mut().map(|joint| &mut joint.name);
+        for name in inputs.chain(parameters).chain(joints).chain(&mut program.unknowns) {
+            name.insert_str(0, prefix);
+        }
+        program
+    }
+
+    /// The program that solves this one and then `next`. In each pair of `shared`, a joint of this program and one that `next`
+    /// takes as given are one motor: it stands once among the joints, and is no input of `next` any more. Inputs and joints of
+    /// `next` stand behind this program's; name, version and preference are this program's.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a shared joint that is not there, that moves otherwise, or that `next` does not take as given;
+    /// for more than 12 joints and what else [`Program::validate`] refuses.
+    pub fn followed_by(&self, next: &Program, shared: &[(usize, usize)]) -> Result<Program> {
+        let places = Places::new(self, next, shared)?;
+        let mut program = self.clone();
+        program.inputs.extend(own(&next.inputs, |index| places.inputs[index].is_some()));
+        program.unknowns.extend(own(&next.unknowns, |index| places.unknowns[index] >= self.unknowns.len()));
+        for &condition in &next.conditions {
+            program.conditions.push(places.condition(condition)?);
+        }
+        for parameter in own(&next.parameters, |index| matches!(places.parameters[index], Operand::Parameter(_))) {
+            program.parameters.push(places.parameter(parameter)?);
+        }
+        let joints = own(&next.joints, |index| places.joints[index] >= self.joints.len());
+        program.joints.extend(joints.map(|joint| Joint { value: places.value(joint.value), ..joint }));
+        program.blocks.extend(next.blocks.iter().filter_map(|block| places.block(block)));
+        program.checks = both(&self.checks, places.checks(&next.checks, program.joints.len()), program.joints.len());
+        program.scale = self.scale.max(next.scale);
+        program.capacity = self.capacity.saturating_mul(next.capacity).min(MOST_ANSWERS);
+        program.validate()?;
+        Ok(program)
+    }
+}
+
+/// The members of a list whose index is wanted.
+fn own<T: Clone>(list: &[T], wanted: impl Fn(usize) -> bool) -> impl Iterator<Item = T> {
+    list.iter().enumerate().filter(move |(index, _)| wanted(*index)).map(|(_, member)| member.clone())
+}
+
+fn refuse(text: String) -> Error {
+    Error::new(ErrorKind::BadValue, text)
+}
+
+/// Where the second program's things stand in the composed one.
+struct Places {
+    /// None for the value of a shared joint.
+    inputs: Vec<Option<usize>>,
+    /// A parameter, or for the value of a shared joint an unknown of the first program.
+    parameters: Vec<Operand>,
+    unknowns: Vec<usize>,
+    joints: Vec<usize>,
+}
+
+impl Places {
+    fn new(first: &Program, next: &Program, shared: &[(usize, usize)]) -> Result<Self> {
+        let mut unknowns = vec![None; next.unknowns.len()];
+        let mut joints = vec![None; next.joints.len()];
+        for &(a, b) in shared {
+            let (Some(one), Some(other)) = (first.joints.get(a), next.joints.get(b)) else {
+                return Err(refuse(format!("shared joints {a} and {b}: there are no such joints")));
+            };
+            for (mine, theirs) in paired(one, other)? {
+                unknowns[theirs] = Some(mine);
+            }
+            joints[b] = Some(a);
+        }
+        let given = given_parameters(next, &unknowns);
+        for &(_, b) in shared {
+            let known = |unknown| given.iter().any(|(_, set)| *set == unknown);
+            if !unknowns_of(next.joints[b].value).into_iter().all(known) {
+                return Err(refuse(format!(
+                    "`{}` is shared, but the next program finds it itself",
+                    next.joints[b].name
+                )));
+            }
+        }
+        let mut parameters = vec![None; next.parameters.len()];
+        let mut used = vec![None; next.inputs.len()];
+        for (parameter, unknown) in given {
+            parameters[parameter] = unknowns[unknown].map(Operand::Unknown);
+            if let Rule::Input(input) | Rule::Cosine(input) | Rule::Sine(input) = next.parameters[parameter].rule {
+                used[input] = Some(None);
+            }
+        }
+        Ok(Places {
+            inputs: counted(used, first.inputs.len(), Some),
+            parameters: counted(parameters, first.parameters.len(), Operand::Parameter),
+            unknowns: counted(unknowns, first.unknowns.len(), |index| index),
+            joints: counted(joints, first.joints.len(), |index| index),
+        })
+    }
+
+    fn operand(&self, operand: Operand) -> Operand {
+        match operand {
+            Operand::Parameter(index) => self.parameters[index],
+            Operand::Unknown(index) => Operand::Unknown(self.unknowns[index]),
+            other => other,
+        }
+    }
+
+    fn code(&self, code: &[Instruction]) -> Vec<Instruction> {
+        let operation = |operation| mapped(operation, &|operand| self.operand(operand));
+        let line = |line: &Instruction| Instruction { operation: operation(line.operation), ..*line };
+        code.iter().map(line).collect()
+    }
+
+    fn value(&self, value: JointValue) -> JointValue {
+        match value {
+            JointValue::Angle { cosine, sine } => {
+                JointValue::Angle { cosine: self.unknowns[cosine], sine: self.unknowns[sine] }
+            }
+            JointValue::Plain(unknown) => JointValue::Plain(self.unknowns[unknown]),
+        }
+    }
+
+    fn input(&self, index: usize) -> Result<usize> {
+        self.inputs[index]
+            .ok_or_else(|| refuse(format!("input {index} of the next program is more than a shared joint")))
+    }
+
+    fn condition(&self, condition: Condition) -> Result<Condition> {
+        Ok(match condition {
+            Condition::Rotation(first) => Condition::Rotation(self.input(first)?),
+            Condition::Unit(first) => Condition::Unit(self.input(first)?),
+        })
+    }
+
+    fn parameter(&self, parameter: ParameterRule) -> Result<ParameterRule> {
+        let rule = match parameter.rule {
+            Rule::Input(index) => Rule::Input(self.input(index)?),
+            Rule::Cosine(index) => Rule::Cosine(self.input(index)?),
+            Rule::Sine(index) => Rule::Sine(self.input(index)?),
+            Rule::Root { code, value } => Rule::Root { code: self.code(&code), value: self.operand(value) },
+        };
+        Ok(ParameterRule { rule, ..parameter })
+    }
+
+    /// The block; none when it only put shared joints where they are.
+    fn block(&self, block: &Block) -> Option<Block> {
+        let charts: Vec<Chart> = block.charts.iter().map(|chart| self.chart(chart)).collect();
+        let idle = |chart: &Chart| chart.steps.is_empty() && chart.guards.is_empty() && !chart.open;
+        let is_idle = matches!(charts.as_slice(), [chart] if idle(chart));
+        (!is_idle).then(|| Block { label: block.label.clone(), code: self.code(&block.code), charts })
+    }
+
+    fn chart(&self, chart: &Chart) -> Chart {
+        let guard = |guard: &Guard| Guard {
+            value: self.operand(guard.value),
+            scale: self.operand(guard.scale),
+            ..guard.clone()
+        };
+        Chart {
+            label: chart.label.clone(),
+            guard_code: self.code(&chart.guard_code),
+            guards: chart.guards.iter().map(guard).collect(),
+            pivot: chart.pivot.map(|pivot| Pivot { value: self.operand(pivot.value), ..pivot }),
+            steps: chart.steps.iter().filter_map(|step| self.step(step)).collect(),
+            free: chart.free.iter().map(|&joint| self.joints[joint]).collect(),
+            open: chart.open,
+            first_branch: chart.first_branch,
+        }
+    }
+
+    /// The step; none when it sets an unknown to itself.
+    fn step(&self, step: &Step) -> Option<Step> {
+        Some(match step {
+            Step::Compute(code) => Step::Compute(self.code(code)),
+            Step::Set { unknown, value } => {
+                let (unknown, value) = (self.unknowns[*unknown], self.operand(*value));
+                return (value != Operand::Unknown(unknown)).then_some(Step::Set { unknown, value });
+            }
+            Step::Roots { unknown, polynomials, typical } => Step::Roots {
+                unknown: self.unknowns[*unknown],
+                polynomials: polynomials.iter().map(|list| self.operands(list)).collect(),
+                typical: typical.map(|typical| self.operand(typical)),
+            },
+            Step::Sample { joint, values } => Step::Sample { joint: self.value(*joint), values: values.clone() },
+        })
+    }
+
+    fn operands(&self, list: &[Operand]) -> Vec<Operand> {
+        list.iter().map(|&operand| self.operand(operand)).collect()
+    }
+
+    /// The equations, with derivatives by all `joints`; those that put shared joints where they are hold by themselves and are left
+    /// out.
+    fn checks(&self, checks: &Checks, joints: usize) -> Checks {
+        let code = self.code(&checks.code);
+        let holds = |residual: Operand| match residual {
+            Operand::Register(index) => matches!(code[index].operation, Operation::Sub(a, b) if a == b),
+            _ => false,
+        };
+        let row = |line: &Vec<Operand>| {
+            let mut row = vec![Operand::Constant(0.0); joints];
+            line.iter().zip(&self.joints).for_each(|(&entry, &joint)| row[joint] = self.operand(entry));
+            row
+        };
+        let counts = |index: usize| !holds(checks.residuals[index]);
+        Checks {
+            residuals: own(&self.operands(&checks.residuals), counts).collect(),
+            scales: own(&self.operands(&checks.scales), counts).collect(),
+            jacobian: own(&checks.jacobian, counts).map(|line| row(&line)).collect(),
+            code,
+        }
+    }
+}
+
+/// Where there is no place yet, the next one from `first` on.
+fn counted<T>(places: Vec<Option<T>>, first: usize, place: impl Fn(usize) -> T) -> Vec<T> {
+    let mut next = first..;
+    places.into_iter().map(|known| known.unwrap_or_else(|| place(next.next().unwrap_or(usize::MAX)))).collect()
+}
+
+fn unknowns_of(value: JointValue) -> Vec<usize> {
+    match value {
+        JointValue::Angle { cosine, sine } => vec![cosine, sine],
+        JointValue::Plain(unknown) => vec![unknown],
+    }
+}
+
+/// The unknowns of two joints that are one motor, side by side.
+fn paired(first: &Joint, next: &Joint) -> Result<Vec<(usize, usize)>> {
+    let (mine, theirs) = (unknowns_of(first.value), unknowns_of(next.value));
+    if first.unit != next.unit || mine.len() != theirs.len() {
+        let text = format!("`{}` and `{}` are shared; both must turn, or slide in one unit", first.name, next.name);
+        return Err(refuse(text));
+    }
+    Ok(mine.into_iter().zip(theirs).collect())
+}
+
+/// The parameters that a program only copies into unknowns that have a place, with these unknowns.
+fn given_parameters(next: &Program, unknowns: &[Option<usize>]) -> Vec<(usize, usize)> {
+    let steps = next.charts().flat_map(|chart| &chart.steps);
+    let copied = steps.filter_map(|step| match step {
+        Step::Set { unknown, value: Operand::Parameter(parameter) } => Some((*parameter, *unknown)),
+        _ => None,
+    });
+    copied.filter(|(_, unknown)| unknowns[*unknown].is_some()).collect()
+}
+
+fn mapped(operation: Operation, place: &dyn Fn(Operand) -> Operand) -> Operation {
+    match operation {
+        Operation::Add(a, b) => Operation::Add(place(a), place(b)),
+        Operation::Sub(a, b) => Operation::Sub(place(a), place(b)),
+        Operation::Mul(a, b) => Operation::Mul(place(a), place(b)),
+        Operation::Div(a, b) => Operation::Div(place(a), place(b)),
+        Operation::Abs(a) => Operation::Abs(place(a)),
+        Operation::Sqrt(a) => Operation::Sqrt(place(a)),
+    }
+}
+
+/// The equations of two programs for one set of `joints`. The code of all values comes before that of the derivatives.
+fn both(first: &Checks, next: Checks, joints: usize) -> Checks {
+    let (mine, theirs, length) = (measured(first), measured(&next), first.code.len());
+    let ahead = |index: usize| if index < mine { index } else { index + theirs };
+    let behind = |index: usize| if index < theirs { index + mine } else { index + length };
+    let mut checks = moved(first, &ahead);
+    let next = moved(&next, &behind);
+    checks.jacobian.iter_mut().for_each(|row| row.resize(joints, Operand::Constant(0.0)));
+    checks.code.extend(next.code);
+    checks.code.sort_by_key(|line| line.target);
+    checks.residuals.extend(next.residuals);
+    checks.scales.extend(next.scales);
+    checks.jacobian.extend(next.jacobian);
+    checks
+}
+
+/// The same equations with other registers.
+fn moved(checks: &Checks, place: &dyn Fn(usize) -> usize) -> Checks {
+    let operand = |operand: Operand| match operand {
+        Operand::Register(index) => Operand::Register(place(index)),
+        other => other,
+    };
+    let line =
+        |line: &Instruction| Instruction { target: place(line.target), operation: mapped(line.operation, &operand) };
+    let all = |list: &[Operand]| list.iter().map(|&entry| operand(entry)).collect();
+    Checks {
+        code: checks.code.iter().map(line).collect(),
+        residuals: all(&checks.residuals),
+        scales: all(&checks.scales),
+        jacobian: checks.jacobian.iter().map(|row| all(row)).collect(),
+    }
+}

@@ -1,0 +1,101 @@
+//! Planar limbs on one shoulder motor, by the law of cosines; which limb is solved first.
+
+use std::path::Path;
+
+use groebot::derive::limbs::{DerivedLimbs, Limbs};
+use groebot::{Error, ErrorKind, Watch};
+
+use super::distance;
+
+const Z: &str = "type = \"revolute\"\naxis = [0, 0, 1]";
+
+/// A limb of links of length one in the plane.
+fn limb(name: &str, joints: usize, task: &str) -> String {
+    let joint = |k: usize| format!("[[limb.chain.joint]]\nname = \"j{k}\"\n{Z}\npoint = [{k}, 0, 0]\n");
+    let joints: String =
+        (0..joints).map(joint).collect::<String>() + &format!("[limb.chain.tip]\npoint = [{joints}, 0, 0]\n");
+    format!(
+        "[[limb]]\nname = \"{name}\"\n[limb.chain]\nname = \"{name}\"\ntask = {{ {task}, plane = \"xy\" }}\n{joints}"
+    )
+}
+
+fn derive(shared: &str, limbs: &[String]) -> Result<DerivedLimbs, Error> {
+    let text = format!("name = \"planar\"\nshared = {shared}\n{}", limbs.concat());
+    DerivedLimbs::of_limbs(&Limbs::from_toml(&text, Path::new("")).unwrap(), &Watch::none())
+}
+
+const POSITION: &str = "kind = \"planar_position\"";
+const POSE: &str = "kind = \"planar_pose\"";
+
+/// The first arm has two links; the second three, of which the first arm turns the first one. At q = (0, pi/2) the first arm's tip
+/// is (1, 1), also reached at (pi/2, -pi/2); the second arm's tip at (0, 0, pi/2) is (2, 1). With j0 = 0 its elbow is at (1, 0) or,
+/// for the tip at (1, 1) as seen from there, at (1, 1); with j0 = pi/2 it is at (0, 1), and the tip (2, 1) is just in reach.
+#[test]
+fn each_way_of_the_first_limb_is_continued_by_the_second() {
+    let limbs = [limb("b", 3, POSITION), limb("a", 2, POSITION)];
+    let arms = derive("[[\"b.j0\", \"a.j0\"]]", &limbs).unwrap();
+    assert_eq!(arms.stages.iter().map(|stage| stage.limb).collect::<Vec<_>>(), [1, 0]);
+    let joints: Vec<&str> = arms.program.joints.iter().map(|joint| joint.name.as_str()).collect();
+    assert_eq!(joints, ["j0", "a_j1", "b_j1", "b_j2"]);
+    let half = std::f64::consts::FRAC_PI_2;
+    let target = [1.0, 1.0, 1.9, 1.0];
+    let answers = arms.program.solve(&target).unwrap();
+    // The second arm from (1, 0) to (1.9, 1) and from (0, 1) to (1.9, 1): two elbows each.
+    assert_eq!(answers.len(), 4, "{answers:?}");
+    for hip in [0.0, half] {
+        let count = answers.iter().filter(|answer| distance(&answer.q[..1], &[hip]) < 1e-12).count();
+        assert_eq!(count, 2, "{answers:?}");
+    }
+    let elbow = (0.95_f64).acos();
+    let expected = [half, -half, -half + elbow, -2.0 * elbow];
+    assert!(answers.iter().any(|answer| distance(&answer.q, &expected) < 1e-12), "{expected:?}: {answers:?}");
+    for answer in &answers {
+        let reached = arms.reached(&answer.q).unwrap();
+        assert!(reached.iter().zip(target).all(|(a, b)| (a - b).abs() < 1e-12), "{reached:?}");
+    }
+}
+
+/// Three limbs on one motor: the angle of the first is that of all.
+#[test]
+fn a_motor_of_three_limbs_stands_once() {
+    let limbs = [limb("a", 2, POSITION), limb("b", 2, POSITION), limb("c", 3, POSITION)];
+    let arms = derive("[[\"a.j0\", \"c.j0\", \"b.j0\"]]", &limbs).unwrap();
+    assert_eq!(arms.program.joints.len(), 5);
+    for q in [[0.3, 0.7, -1.1, 0.4, 0.9], [-2.0, 1.0, 2.0, -1.5, 0.5]] {
+        let target = arms.reached(&q).unwrap();
+        let answers = arms.program.solve(&target).unwrap();
+        assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-12), "{q:?}: {answers:?}");
+        // b has one joint for two numbers: only the hip that made the target fits.
+        assert!(answers.iter().all(|answer| distance(&answer.q[..1], &q[..1]) < 1e-12), "{answers:?}");
+        assert_eq!(answers.len(), 2, "{answers:?}");
+    }
+}
+
+#[test]
+fn limbs_that_cannot_be_solved_say_what_is_open() {
+    let error = derive("[[\"a.j0\", \"b.j0\"]]", &[limb("a", 3, POSITION), limb("b", 3, POSITION)]).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::PositiveDimensional);
+    assert!(error.message().contains("`a` has 3 joints to find, its task `planar_position` determines 2"), "{error}");
+}
+
+#[test]
+fn a_joint_that_is_found_before_is_not_given_too() {
+    let second =
+        limb("b", 2, POSE).replace("name = \"b\"\n[limb.chain]", "name = \"b\"\ngiven = [\"j0\"]\n[limb.chain]");
+    let error = derive("[[\"a.j0\", \"b.j0\"]]", &[limb("a", 2, POSITION), second]).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::BadValue);
+    assert!(error.message().contains("`b`: `j0` is given"), "{error}");
+}
+
+/// The hip is given to the first limb, and so to the second.
+#[test]
+fn a_given_shared_joint_is_given_once() {
+    let given = |text: String| text.replace("\n[limb.chain]\n", "\ngiven = [\"j0\"]\n[limb.chain]\n");
+    let arms = derive("[[\"a.j0\", \"b.j0\"]]", &[given(limb("a", 3, POSITION)), limb("b", 3, POSITION)]).unwrap();
+    let inputs: Vec<&str> = arms.program.inputs.iter().map(|input| input.name.as_str()).collect();
+    assert_eq!(inputs, ["a_px", "a_py", "a_j0", "b_px", "b_py"]);
+    let q = [0.4, 0.5, 0.6, -0.7, -0.8];
+    let answers = arms.program.solve(&arms.reached(&q).unwrap()).unwrap();
+    assert_eq!(answers.len(), 4, "{answers:?}");
+    assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-12), "{answers:?}");
+}
