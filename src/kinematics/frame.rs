@@ -7,6 +7,9 @@ use crate::number::{BigInt, BigRational};
 use num_integer::Integer;
 use num_traits::Zero;
 
+/// Bits of the integers that a direction is told in.
+const SHORT: u64 = 24;
+
 /// What a description's frames miss by rounding, in radians and metres: axes that are nearer to a relation than this are in it.
 pub const ROUNDING: f64 = 1e-12;
 
@@ -41,13 +44,13 @@ impl Frame {
         Frame { rotation, origin }
     }
 
-    /// The direction `axis` of this frame in the base frame (0.866025 stands for sqrt 3 / 2 in a unit vector), in coprime integers when it is rational, else each entry within
-    /// 2^-80 of the greatest.
+    /// The direction `axis` of this frame in the base frame (0.866025 stands for sqrt 3 / 2 in a unit vector), in coprime integers when
+    /// it is rational and they are short, else as it is; what is not rational within 2^-80 of the greatest entry.
     pub fn direction(&self, axis: &ExactVector) -> ExactVector {
         let axis = recognised(axis).unwrap_or_else(|| surds(axis));
         let direction = directed(&self.rotation.turned(&axis));
         match direction.each_ref().map(|entry| entry.rational().cloned()) {
-            [Some(x), Some(y), Some(z)] if !self.rotation.is_long() => primitive(&[x, y, z]),
+            [Some(x), Some(y), Some(z)] if !self.rotation.is_long() => shortest([x, y, z]),
             _ => direction.each_ref().map(|entry| entry.nearby()),
         }
     }
@@ -63,9 +66,10 @@ impl Frame {
     }
 }
 
-/// The direction of `axis` in coprime integers: (0, 0.7071, -0.7071) is (0, 1, -1).
-fn primitive(axis: &ExactVector) -> ExactVector {
+/// The direction of `axis` in coprime integers, (0, 1, -1) for (0, 0.7071, -0.7071), unless they are longer than [`SHORT`].
+fn shortest(axis: ExactVector) -> ExactVector {
     let (integers, _) = over_common(axis.each_ref());
     let divisor = integers.iter().fold(BigInt::zero(), |divisor, x| divisor.gcd(x));
-    integers.map(|x| BigRational::from_integer(if divisor.is_zero() { x } else { x / &divisor }))
+    let integers = integers.map(|x| if divisor.is_zero() { x } else { x / &divisor });
+    if integers.iter().any(|x| x.bits() > SHORT) { axis } else { integers.map(BigRational::from_integer) }
 }

@@ -76,9 +76,8 @@ fn systems_without_finitely_many_solutions() {
         { name = \"Up\", type = \"prismatic\", axis = [0, 0, 1], point = [0, 0, 0] },\n\
         { name = \"Turn\", type = \"revolute\", axis = [0, 1, 0], point = [0, 0, 0] },\n]\n\
         tip = { point = [0, 0, 1] }\n";
-    let error = refuse_file("0_chain.toml", gantry.as_bytes(), &["more joints than equations"]);
-    let named = ["Along", "Up", "Turn"].iter().filter(|joint| error.contains(&format!("{joint} stay free"))).count();
-    assert_eq!(named, 1, "any of the three, but one: {error}");
+    let told = ["some of the 3 unknown joints free", "the value of one of the joints `Along`, `Up`, `Turn`"];
+    refuse_file("0_chain.toml", gantry.as_bytes(), &told);
 }
 
 #[test]
