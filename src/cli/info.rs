@@ -124,7 +124,7 @@ fn sliding(chain: &Chain) -> &'static str {
 }
 
 fn joint_row(index: usize, joint: &Joint, unit: &str) -> Vec<String> {
-    let (axis, point) = (vector(&joint.axis), vector(&joint.point));
+    let (axis, point) = (direction(&joint.axis), vector(&joint.point));
     let motion = match joint.kind {
         JointKind::Revolute => format!("turns about {axis}"),
         JointKind::Prismatic => format!("slides along {axis}"),
@@ -138,6 +138,16 @@ fn joint_row(index: usize, joint: &Joint, unit: &str) -> Vec<String> {
     };
     let point = format!("through {point} {unit}");
     vec![(index + 1).to_string(), joint.name.clone(), motion, point, limits]
+}
+
+/// A direction: integers as they are, others as the unit vector.
+fn direction(axis: &ExactVector) -> String {
+    if axis.iter().all(|entry| entry.is_integer()) {
+        return vector(axis);
+    }
+    let entries = axis.each_ref().map(|entry| entry.to_f64().unwrap_or(f64::NAN));
+    let length = entries.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+    format!("({})", entries.map(|entry| tidy(entry / length)).join(", "))
 }
 
 /// Three numbers: short ones exactly, others to nine decimals.
