@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use num_traits::{Signed, ToPrimitive, Zero};
 
-use crate::number::BigRational;
-use crate::poly::Expression;
+use crate::number::{BigRational, Rationals};
+use crate::poly::{Expression, Polynomial, PolynomialRing, Term};
 use crate::solver::{Instruction, Operand, Operation};
 
 /// A term over operands: an exact coefficient and a power of each operand.
@@ -21,6 +21,12 @@ impl FlatTerm {
     pub fn new(coefficient: BigRational, exponents: &[u32]) -> Self {
         let powers = exponents.iter().enumerate().filter(|(_, e)| **e > 0).map(|(s, e)| (s, *e)).collect();
         FlatTerm { coefficient, powers }
+    }
+
+    /// The terms of a polynomial whose variables are the symbols, in their order.
+    pub fn all(ring: &PolynomialRing<Rationals>, f: &Polynomial<BigRational>) -> Vec<Self> {
+        let term = |t: &Term<BigRational>| FlatTerm::new(t.coefficient.clone(), &ring.layout().exponents(&t.monomial));
+        f.terms().iter().map(term).collect()
     }
 }
 

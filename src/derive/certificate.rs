@@ -78,8 +78,7 @@ pub fn write(derivation: &Derivation) -> Result<String> {
         requested: entries(&derivation.requested)?,
         searched: derivation.searched.as_ref().map(entries).transpose()?,
     };
-    let text = serde_json::to_string_pretty(&record).expect("a record holds nothing that JSON cannot say");
-    Ok(text + "\n")
+    Ok(written(&record))
 }
 
 /// Proves the derivation of `system` anew from the text of its certificate, without the Groebner engine.
@@ -88,15 +87,8 @@ pub fn write(derivation: &Derivation) -> Result<String> {
 /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the stratum for a claim that does
 /// not hold, is missing or is left over.
 pub fn prove(system: &System, text: &str) -> Result<Derivation> {
-    let record: Record = serde_json::from_str(text)
-        .map_err(|error| Error::new(ErrorKind::Syntax, format!("certificate: {error}")).at_line(error.line()))?;
-    if record.format != FORMAT || record.name != system.name {
-        let text = format!(
-            "this certificate is of format {} for `{}`; format {FORMAT} for `{}` is allowed",
-            record.format, record.name, system.name
-        );
-        return Err(refused(text));
-    }
+    let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
+    check_head((record.format, &record.name), (FORMAT, &system.name))?;
     let requested = replay(system, &record.requested).map_err(|error| error.with_context("requested order"))?;
     let searched = record.searched.as_ref().map(|entries| replay(system, entries)).transpose();
     let searched = searched.map_err(|error| error.with_context("searched order"))?;
@@ -107,7 +99,32 @@ pub fn prove(system: &System, text: &str) -> Result<Derivation> {
     Derivation::assemble(system.clone(), requested, searched)
 }
 
-fn refused(text: String) -> Error {
+/// A record as the text of a certificate of any kind.
+pub(super) fn written(record: &impl Serialize) -> String {
+    serde_json::to_string_pretty(record).expect("a record holds nothing that JSON cannot say") + "\n"
+}
+
+/// Text that is no record.
+pub(super) fn unread(error: &serde_json::Error) -> Error {
+    Error::new(ErrorKind::Syntax, format!("certificate: {error}")).at_line(error.line())
+}
+
+/// Whether a certificate of this format and name is the one that is allowed.
+///
+/// # Errors
+/// [`ErrorKind::Certificate`] when it is not.
+pub(super) fn check_head(found: (u32, &str), allowed: (u32, &str)) -> Result<()> {
+    if found == allowed {
+        return Ok(());
+    }
+    let ((format, name), (own_format, own_name)) = (found, allowed);
+    let text =
+        format!("this certificate is of format {format} for `{name}`; format {own_format} for `{own_name}` is allowed");
+    Err(refused(text))
+}
+
+/// A claim that does not hold.
+pub(super) fn refused(text: String) -> Error {
     Error::new(ErrorKind::Certificate, text)
 }
 

@@ -180,13 +180,11 @@ impl<'a> Compiler<'a> {
         let field = setting.field()?;
         let ground = field.ring();
         let symbols = self.symbols(setting, assembler)?;
-        let exponents = |t: &crate::poly::Term<BigRational>| ground.layout().exponents(&t.monomial);
-        let flat = factor.terms().iter().map(|t| flat(t.coefficient.clone(), &exponents(t), 0)).collect::<Vec<_>>();
-        let value = assembler.horner(&flat, &symbols);
+        let value = assembler.horner(&FlatTerm::all(ground, factor), &symbols);
         let sizes: Vec<FlatTerm> = factor
             .terms()
             .iter()
-            .map(|t| flat_power(t.coefficient.abs(), ground.layout().degree(&t.monomial)))
+            .map(|t| FlatTerm::new(t.coefficient.abs(), &[ground.layout().degree(&t.monomial)]))
             .collect();
         let scale = assembler.horner(&sizes, &[Operand::Magnitude]);
         Ok(Guard { text: ground.format(factor, Style::Text), value, scale, near })
@@ -336,20 +334,11 @@ fn undefined(name: &str) -> Error {
     Error::new(ErrorKind::UnknownName, format!("`{name}` has no value in the compiled program"))
 }
 
-fn push_code(steps: &mut Vec<Step>, assembler: &mut Assembler) {
+pub(super) fn push_code(steps: &mut Vec<Step>, assembler: &mut Assembler) {
     let code = assembler.take();
     if !code.is_empty() {
         steps.push(Step::Compute(code));
     }
-}
-
-fn flat(coefficient: BigRational, exponents: &[u32], first: usize) -> FlatTerm {
-    let powers = exponents.iter().enumerate().filter(|(_, e)| **e > 0).map(|(s, e)| (first + s, *e)).collect();
-    FlatTerm { coefficient, powers }
-}
-
-fn flat_power(coefficient: BigRational, exponent: u32) -> FlatTerm {
-    flat(coefficient, &[exponent], 0)
 }
 
 /// The terms of `f`, whose denominators are one, over parameters and then unknowns.
@@ -362,7 +351,7 @@ pub(super) fn flatten(ring: &Unknowns, f: &Poly) -> Vec<FlatTerm> {
         for part in term.coefficient.numerator().terms() {
             let mut powers = ground.layout().exponents(&part.monomial);
             powers.extend(&unknowns);
-            terms.push(flat(part.coefficient.clone(), &powers, 0));
+            terms.push(FlatTerm::new(part.coefficient.clone(), &powers));
         }
     }
     terms

@@ -109,19 +109,7 @@ impl<'a> Check<'a> {
             Err(error) if error.kind() == ErrorKind::Unsupported => None,
             Err(error) => return Err(error),
         };
-        let mut row = Row {
-            number: number + 1,
-            kind,
-            target,
-            joints,
-            solutions: answers.as_ref().map_or(0, Vec::len),
-            exact: None,
-            screw: None,
-            oracle: None,
-            worst_residual: None,
-            nearest: None,
-            verdict: Verdict::Open,
-        };
+        let mut row = Row::open(number, kind, target, joints, answers.as_deref());
         if let Some(answers) = answers {
             let faults = self.faults(number, &mut row, &answers)?;
             row.verdict = if faults.is_empty() { Verdict::Pass } else { Verdict::Fail(faults) };

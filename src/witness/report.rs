@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::solver::Solution;
+
 /// How a row's target was made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -88,6 +90,31 @@ pub struct Row {
     pub nearest: Option<f64>,
     /// Whether all is right.
     pub verdict: Verdict,
+}
+
+impl Row {
+    /// The row with this number from 0, before anything is checked; no answers are a gap of the solver.
+    pub(super) fn open(
+        number: usize,
+        kind: Kind,
+        target: Vec<f64>,
+        joints: Option<Vec<f64>>,
+        answers: Option<&[Solution]>,
+    ) -> Self {
+        Row {
+            number: number + 1,
+            kind,
+            target,
+            joints,
+            solutions: answers.map_or(0, <[Solution]>::len),
+            exact: None,
+            screw: None,
+            oracle: None,
+            worst_residual: None,
+            nearest: None,
+            verdict: Verdict::Open,
+        }
+    }
 }
 
 /// The checks of one program.

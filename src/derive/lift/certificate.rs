@@ -13,11 +13,11 @@ use super::half_angle::{self, HalfAngles};
 use super::shape::{eliminated, shape};
 use super::template::{Form, Template};
 use super::{Derived, Lifted, Parts};
-use crate::derive::certificate::{Entry, entries, replay};
+use crate::Result;
+use crate::derive::certificate::{Entry, check_head, entries, refused, replay, unread, written};
 use crate::derive::closure::{self, Mechanism};
 use crate::derive::planner::{Plan, PlanStep, Way};
 use crate::kinematics::Chain;
-use crate::{Error, ErrorKind, Result};
 
 /// The version of the format; that of a system of equations has number 1.
 const FORMAT: u32 = 2;
@@ -65,8 +65,7 @@ pub fn write(derived: &Derived) -> Result<String> {
             .collect(),
         half_angles: derived.half_angles.as_ref().map(HalfAngles::stored),
     };
-    let text = serde_json::to_string_pretty(&record).expect("a record holds nothing that JSON cannot say");
-    Ok(text + "\n")
+    Ok(written(&record))
 }
 
 /// Proves the derivation of `chain` anew from the text of its certificate, without search and without the Groebner engine.
@@ -75,17 +74,8 @@ pub fn write(derived: &Derived) -> Result<String> {
 /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the step or the form for a
 /// claim that does not hold.
 pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
-    let record: Record = serde_json::from_str(text)
-        .map_err(|error| Error::new(ErrorKind::Syntax, format!("certificate: {error}")).at_line(error.line()))?;
-    if record.format != FORMAT || record.name != chain.name() {
-        let text = format!(
-            "this certificate is of format {} for `{}`; format {FORMAT} for `{}` is allowed",
-            record.format,
-            record.name,
-            chain.name()
-        );
-        return Err(refused(text));
-    }
+    let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
+    check_head((record.format, &record.name), (FORMAT, chain.name()))?;
     let mechanism = Mechanism::new(chain)?;
     let mut stored = record.eliminations.iter();
     let mut eliminate = |step: &PlanStep, away: &[usize]| match stored.next() {
@@ -103,10 +93,6 @@ pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
         return Err(refused("the templates are not those of the plan's forms, in their order".to_owned()));
     }
     Derived::assemble(chain, &mechanism, Parts { plan: record.plan, steps, templates, half_angles })
-}
-
-fn refused(text: String) -> Error {
-    Error::new(ErrorKind::Certificate, text)
 }
 
 fn prove_template(proof: &Proof) -> Result<Template> {

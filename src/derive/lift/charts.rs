@@ -5,6 +5,7 @@ use num_traits::Signed;
 use super::half_angle::{HalfAngle, HalfAngles};
 use super::template::{Form, Template};
 use crate::derive::assemble::{Assembler, FlatTerm};
+use crate::derive::compile::{flatten, push_code};
 use crate::derive::setting::{ParameterPoly, Setting, Unknowns};
 use crate::derive::strata::{self, ZeroSet};
 use crate::derive::tree::{Node, Outcome, Solved, collect_denominators};
@@ -19,7 +20,8 @@ const CLOSE: f64 = 1e-5;
 /// A chart does not run where a denominator's symbols are below this share of their sizes: rounding has left nothing of them, and
 /// all values of the joint that they determine solve the equations equally well.
 const LOST: f64 = 1e-13;
-/// The same for the quartics of an angle, whose sizes are products of sizes and so a hundred times what their terms really are.
+/// The same for the leading coefficient of an angle's quartic, against the sum of all symbols' sizes: an elimination multiplies symbols,
+/// so that near a singular configuration little is left of it that is still right.
 const FAINT: f64 = 1e-18;
 
 /// The value of a symbol and the sum of its terms' magnitudes.
@@ -186,7 +188,7 @@ impl<'a> Builder<'a> {
         let mut steps = vec![Step::Roots { unknown, polynomials: vec![quartic], typical }];
         let sine = self.coefficients(ring, half.stair(1)?, 1, Operand::Unknown(unknown));
         let sine = self.root(&sine)?;
-        let low = self.with_sine(ring, half.stair(0)?, sine, Operand::Unknown(unknown));
+        let low = self.parts(ring, half.stair(0)?, 0, [Operand::Constant(0.0), sine, Operand::Unknown(unknown)]);
         let cosine = self.root(&low)?;
         let values = [(self.place.unknown("c")?, cosine), (self.place.unknown("s")?, sine)];
         self.put(&values, &mut steps)?;
@@ -207,16 +209,7 @@ impl<'a> Builder<'a> {
         self.parts(ring, f, v, [zero, zero, t])
     }
 
-    fn with_sine(
-        &mut self,
-        ring: &PolynomialRing<Rationals>,
-        f: &ParameterPoly,
-        sine: Operand,
-        t: Operand,
-    ) -> Vec<Operand> {
-        self.parts(ring, f, 0, [Operand::Constant(0.0), sine, t])
-    }
-
+    /// The coefficients of `f` in unknown `v`, at these values of c, s, t.
     fn parts(
         &mut self,
         ring: &PolynomialRing<Rationals>,
@@ -225,11 +218,8 @@ impl<'a> Builder<'a> {
         unknowns: [Operand; 3],
     ) -> Vec<Operand> {
         let operands: Vec<Operand> = unknowns.into_iter().chain(self.place.symbols.iter().map(|s| s.value)).collect();
-        let exponents = |t: &crate::poly::Term<_>| ring.layout().exponents(&t.monomial);
-        let flat = |part: &ParameterPoly| -> Vec<FlatTerm> {
-            part.terms().iter().map(|t| FlatTerm::new(t.coefficient.clone(), &exponents(t))).collect()
-        };
-        ring.coefficients_in(f, v).iter().map(|part| self.assembler.horner(&flat(part), &operands)).collect()
+        let parts = ring.coefficients_in(f, v);
+        parts.iter().map(|part| self.assembler.horner(&FlatTerm::all(ring, part), &operands)).collect()
     }
 
     /// The root of a linear polynomial.
@@ -256,16 +246,13 @@ impl<'a> Builder<'a> {
     fn guard(&mut self, ground: &PolynomialRing<Rationals>, factor: &ParameterPoly, near: bool) -> Result<bool> {
         let symbols = self.symbols(ground.variables())?;
         let (values, sizes): (Vec<Operand>, Vec<Operand>) = symbols.iter().map(|s| (s.value, s.size)).unzip();
-        let exponents = |t: &crate::poly::Term<_>| ground.layout().exponents(&t.monomial);
-        let flat: Vec<FlatTerm> =
-            factor.terms().iter().map(|t| FlatTerm::new(t.coefficient.clone(), &exponents(t))).collect();
-        let value = self.assembler.horner(&flat, &values);
+        let mut terms = FlatTerm::all(ground, factor);
+        let value = self.assembler.horner(&terms, &values);
         if let Operand::Constant(value) = value {
             return Ok((value == 0.0) == near);
         }
-        let flat: Vec<FlatTerm> =
-            factor.terms().iter().map(|t| FlatTerm::new(t.coefficient.abs(), &exponents(t))).collect();
-        let size = self.assembler.horner(&flat, &sizes);
+        terms.iter_mut().for_each(|term| term.coefficient = term.coefficient.abs());
+        let size = self.assembler.horner(&terms, &sizes);
         let degree = ground.degree(factor) as i32;
         let share = if near { CLOSE.powi(degree) / NEAR } else { LOST.powi(degree) / TINY };
         let scale = self.assembler.mul(Operand::Constant(share), size);
@@ -302,10 +289,8 @@ impl<'a> Builder<'a> {
             operands.push(value.map_or(Operand::Unknown(own), |(_, value)| *value));
         }
         let parts = ring.coefficients_in(&stair.polynomials[0], stair.unknown);
-        let coefficients: Vec<Operand> = parts
-            .iter()
-            .map(|part| self.assembler.horner(&crate::derive::compile::flatten(ring, part), &operands))
-            .collect();
+        let coefficients: Vec<Operand> =
+            parts.iter().map(|part| self.assembler.horner(&flatten(ring, part), &operands)).collect();
         match coefficients.as_slice() {
             [low, high] => {
                 let top = self.assembler.mul(Operand::Constant(-1.0), *low);
@@ -358,12 +343,5 @@ impl<'a> Builder<'a> {
         }
         steps.extend(put.into_iter().map(|(unknown, value)| Step::Set { unknown, value }));
         Ok(())
-    }
-}
-
-fn push_code(steps: &mut Vec<Step>, assembler: &mut Assembler) {
-    let code = assembler.take();
-    if !code.is_empty() {
-        steps.push(Step::Compute(code));
     }
 }

@@ -12,7 +12,7 @@ use super::shape::Shape;
 use super::template::{Form, Template};
 use super::{Lifted, Parts};
 use crate::derive::assemble::{Assembler, FlatTerm};
-use crate::derive::closure::{Assignment, Factor, Mechanism, Multilinear, Relation, evaluate};
+use crate::derive::closure::{Assignment, Factor, Mechanism, Multilinear, evaluate};
 use crate::kinematics::{Chain, LengthUnit};
 use crate::number::BigRational;
 use crate::solver::{Block, Chart, Checks, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
@@ -200,7 +200,6 @@ impl Context<'_> {
     ) -> Result<Vec<Operand>> {
         let mut equations = Vec::new();
         for relation in &self.step.relations {
-            let relation: &Relation = relation;
             equations.push(evaluate(self.mechanism, relation, assignment, &mut Sizes(assembler))?);
         }
         let sizes = self.combine(&equations, Some(values), assembler);

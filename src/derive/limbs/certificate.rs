@@ -5,9 +5,10 @@ use serde_json::Value;
 
 use super::derived::DerivedLimbs;
 use super::model::Limbs;
+use crate::Result;
+use crate::derive::certificate::{check_head, refused, unread, written};
 use crate::derive::lift::certificate;
 use crate::kinematics::Chain;
-use crate::{Error, ErrorKind, Result};
 
 /// The version of the format; that of one chain has number 2.
 const FORMAT: u32 = 3;
@@ -45,8 +46,7 @@ impl DerivedLimbs {
             let certificate = serde_json::from_str(&certificate::write(&stage.derived)?).map_err(|e| unread(&e))?;
             record.limbs.push(Proof { limb, certificate });
         }
-        let text = serde_json::to_string_pretty(&record).expect("a record holds nothing that JSON cannot say");
-        Ok(text + "\n")
+        Ok(written(&record))
     }
 
     /// Proves the derivation of `limbs` anew from the text of its certificate, without search and without the Groebner engine.
@@ -56,12 +56,7 @@ impl DerivedLimbs {
     /// the form for a claim that does not hold.
     pub fn prove(limbs: &Limbs, text: &str) -> Result<Self> {
         let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
-        if record.format != FORMAT || record.name != limbs.parts().name {
-            let (format, name, own) = (record.format, &record.name, &limbs.parts().name);
-            return Err(refused(format!(
-                "this certificate is of format {format} for `{name}`; format {FORMAT} for `{own}` is allowed"
-            )));
-        }
+        check_head((record.format, &record.name), (FORMAT, &limbs.parts().name))?;
         let mut stored = record.limbs.iter();
         let mut prove = |limb: usize, chain: &Chain| match stored.next() {
             Some(proof) if proof.limb == limbs.limbs()[limb].name => {
@@ -75,12 +70,4 @@ impl DerivedLimbs {
             Some(proof) => Err(refused(format!("the certificate of `{}` is left over", proof.limb))),
         }
     }
-}
-
-fn unread(error: &serde_json::Error) -> Error {
-    Error::new(ErrorKind::Syntax, format!("certificate: {error}")).at_line(error.line())
-}
-
-fn refused(text: String) -> Error {
-    Error::new(ErrorKind::Certificate, text)
 }

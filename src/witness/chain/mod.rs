@@ -108,19 +108,7 @@ impl<'a> Check<'a> {
             Err(error) if error.kind() == ErrorKind::Unsupported => None,
             Err(error) => return Err(error.with_context(format!("row {}, {kind}", number + 1))),
         };
-        let mut row = Row {
-            number: number + 1,
-            kind,
-            target: inputs,
-            joints,
-            solutions: answers.as_ref().map_or(0, Vec::len),
-            exact,
-            screw: None,
-            oracle: None,
-            worst_residual: None,
-            nearest: None,
-            verdict: Verdict::Open,
-        };
+        let mut row = Row { exact, ..Row::open(number, kind, inputs, joints, answers.as_deref()) };
         if let Some(answers) = answers {
             let complete = |answer: Solution| self.model.completed(&row.target, answer);
             let answers: Vec<Solution> = answers.into_iter().map(complete).collect();
