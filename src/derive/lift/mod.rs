@@ -40,6 +40,8 @@ pub struct Lifted {
     pub elimination: Option<Elimination>,
     /// The shape in the joint.
     pub shape: Shape,
+    /// The form in the joint of [`Elimination::determinant`], where there is one that a form fits.
+    pub dependent: Option<Form>,
 }
 
 /// What a program is made of, proved.
@@ -104,8 +106,7 @@ impl Derived {
     pub fn of_plan(chain: &Chain, mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
         let mut eliminate = |step: &PlanStep, away: &[usize]| Elimination::derive(mechanism, step, away, watch);
         let steps = certificate::prove_plan(mechanism, &plan, &mut eliminate)?;
-        let quartic = steps.iter().any(|step| step.shape.form == Form::Quartic);
-        let half_angles = quartic.then(|| HalfAngles::derive(watch)).transpose()?;
+        let half_angles = HalfAngles::are_needed(&steps).then(|| HalfAngles::derive(watch)).transpose()?;
         let forms = Template::needed(&steps);
         let templates = forms.into_iter().map(|form| Template::derive(form, watch)).collect::<Result<_>>()?;
         Derived::assemble(chain, mechanism, Parts { plan, steps, templates, half_angles })

@@ -2,7 +2,7 @@
 
 use num_traits::{Signed, ToPrimitive};
 
-use super::charts::{Place, Sized, charts, quartic};
+use super::charts::{Place, Sized, charts, quartic, vanishing};
 use super::checks::checks;
 use super::eliminate::{Elimination, SymbolPlace};
 use super::emit::{Emitted, Emitter, Sizes};
@@ -92,6 +92,33 @@ fn template(templates: &[Template], form: Form) -> Result<&Template> {
     templates.iter().find(|template| template.form == form).ok_or_else(missing)
 }
 
+/// What of an elimination the symbols are taken from.
+#[derive(Clone, Copy)]
+enum Part {
+    /// What it leaves in the joint.
+    Member,
+    /// The determinant of its relations, of this form.
+    Determinant(Form),
+}
+
+/// A form, its symbols, and the guards under which it is looked at.
+type Dependent = (Form, Vec<Sized>, Vec<Guard>);
+
+/// The forms that have been solved.
+struct Proved<'a> {
+    templates: &'a [Template],
+    half_angles: Option<&'a HalfAngles>,
+}
+
+impl Proved<'_> {
+    fn charts(&self, form: Form, place: &Place, assembler: &Assembler, guards: &[Guard]) -> Result<Vec<Chart>> {
+        match (form, self.half_angles) {
+            (Form::Quartic, Some(half_angles)) => quartic(half_angles, place, assembler, guards),
+            _ => charts(template(self.templates, form)?, place, assembler, guards),
+        }
+    }
+}
+
 /// The block that puts a given joint where the user says.
 fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Block {
     let unknowns = match layout.joints[joint] {
@@ -126,15 +153,11 @@ impl Context<'_> {
     fn block(&self, layout: &mut Layout, templates: &[Template], half_angles: Option<&HalfAngles>) -> Result<Block> {
         let joint = self.step.joint;
         let screw = &self.mechanism.joints()[joint];
-        let auxiliary = match self.step.shape.form {
-            Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic => {
-                Some(layout.unknown(&format!("w{}", screw.symbol)))
-            }
-            Form::Turn | Form::Linear | Form::Lengths => None,
-        };
+        let has_auxiliary = |form| matches!(form, Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic);
+        let auxiliary = (has_auxiliary(self.step.shape.form) || self.step.dependent.is_some_and(has_auxiliary))
+            .then(|| layout.unknown(&format!("w{}", screw.symbol)));
         let mut assembler = Assembler::default();
-        let symbols = self.symbols(layout, &mut assembler)?;
-        let code = assembler.take();
+        let symbols = self.symbols(layout, Part::Member, &mut assembler)?;
         let place = |symbols: Vec<Sized>| Place {
             joint,
             value: layout.joints[joint],
@@ -142,17 +165,21 @@ impl Context<'_> {
             symbols,
             samples: self.samples(layout.joints[joint]),
         };
-        match (self.step.shape.form, half_angles) {
-            (Form::Pair, _) => {}
-            (Form::Quartic, Some(half_angles)) => {
-                let list = quartic(half_angles, &place(symbols), &assembler)?;
-                return Ok(Block::numbered(&screw.name, code, list));
+        if self.step.shape.form != Form::Pair {
+            let dependent = self.dependent(layout, &symbols, &mut assembler)?;
+            let code = assembler.take();
+            let proved = Proved { templates, half_angles };
+            let mut list = proved.charts(self.step.shape.form, &place(symbols), &assembler, &[])?;
+            if let Some((form, symbols, guards)) = dependent {
+                let mut more = proved.charts(form, &place(symbols), &assembler, &guards)?;
+                more.retain(|chart| chart.free.is_empty());
+                // The directions of a half angle compete among themselves.
+                more.iter_mut().filter_map(|chart| chart.pivot.as_mut()).for_each(|pivot| pivot.group += 1);
+                list.extend(more);
             }
-            (form, _) => {
-                let list = charts(template(templates, form)?, &place(symbols), &assembler, &[])?;
-                return Ok(Block::numbered(&screw.name, code, list));
-            }
+            return Ok(Block::numbered(&screw.name, code, list));
         }
+        let code = assembler.take();
         let (both, single) = (template(templates, Form::Pair)?, template(templates, Form::Angle)?);
         let [a, b, e, f, x, y] = symbols[..] else {
             return Err(Error::new(ErrorKind::Unsupported, "a pair has six symbols"));
@@ -167,6 +194,14 @@ impl Context<'_> {
         Ok(Block::numbered(&screw.name, code, list))
     }
 
+    /// The determinant of eliminated relations, as the symbols of a form with the guards that nothing else determines the joint: where
+    /// what an elimination leaves vanishes, there may be answers beside the family, and they lie at its roots.
+    fn dependent(&self, layout: &Layout, symbols: &[Sized], assembler: &mut Assembler) -> Result<Option<Dependent>> {
+        let Some(form) = self.step.dependent else { return Ok(None) };
+        let own = self.symbols(layout, Part::Determinant(form), assembler)?;
+        Ok(Some((form, own, vanishing(self.step.shape.form, symbols, assembler))))
+    }
+
     fn samples(&self, value: JointValue) -> Vec<f64> {
         match value {
             JointValue::Angle { .. } => {
@@ -176,25 +211,26 @@ impl Context<'_> {
         }
     }
 
-    /// The symbols of the step's form. Their sizes matter only where a guard asks for them.
-    fn symbols(&self, layout: &Layout, assembler: &mut Assembler) -> Result<Vec<Sized>> {
+    /// The symbols of the step's form, or of its determinant's. Their sizes matter only where a guard asks for them.
+    fn symbols(&self, layout: &Layout, part: Part, assembler: &mut Assembler) -> Result<Vec<Sized>> {
         let assignment = layout.assignment(self.mechanism, self.known, assembler)?;
         let mut equations = Vec::new();
         for relation in &self.step.relations {
             equations.push(evaluate(self.mechanism, relation, &assignment, &mut Emitter(assembler))?);
         }
-        let values = self.combine(&equations, None, assembler);
+        let values = self.combine(&equations, part, None, assembler);
         if values.first().is_some_and(is_number) && !matches!(self.step.shape.form, Form::Pair | Form::Quartic) {
             return Ok(values.into_iter().map(|value| Sized { value, size: Operand::Constant(1.0) }).collect());
         }
         let assignment = layout.sizes(self.mechanism, self.known, assembler)?;
-        let sizes = self.sizes(&equations, &assignment, assembler)?;
+        let sizes = self.sizes(&equations, part, &assignment, assembler)?;
         Ok(values.into_iter().zip(sizes).map(|(value, size)| Sized { value, size }).collect())
     }
 
     fn sizes(
         &self,
         values: &[Multilinear<Emitted>],
+        part: Part,
         assignment: &Assignment<Emitted>,
         assembler: &mut Assembler,
     ) -> Result<Vec<Operand>> {
@@ -202,7 +238,7 @@ impl Context<'_> {
         for relation in &self.step.relations {
             equations.push(evaluate(self.mechanism, relation, assignment, &mut Sizes(assembler))?);
         }
-        let sizes = self.combine(&equations, Some(values), assembler);
+        let sizes = self.combine(&equations, part, Some(values), assembler);
         Ok(sizes.into_iter().map(|size| assembler.abs(size)).collect())
     }
 
@@ -211,6 +247,7 @@ impl Context<'_> {
     fn combine(
         &self,
         equations: &[Multilinear<Emitted>],
+        part: Part,
         values: Option<&[Multilinear<Emitted>]>,
         assembler: &mut Assembler,
     ) -> Vec<Operand> {
@@ -218,7 +255,7 @@ impl Context<'_> {
         let square = self.mechanism.joints()[joint].square.to_f64().unwrap_or(1.0);
         let root = square.sqrt();
         if let Some(elimination) = &self.step.elimination {
-            return self.left(elimination, equations, values, root, assembler);
+            return self.left(elimination, part, equations, values, root, assembler);
         }
         let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors)
         {
@@ -251,15 +288,20 @@ impl Context<'_> {
 }
 
 impl Context<'_> {
-    /// The symbols from what an elimination leaves.
+    /// The symbols from what an elimination leaves, or from its determinant.
     fn left(
         &self,
         elimination: &Elimination,
+        part: Part,
         equations: &[Multilinear<Emitted>],
         values: Option<&[Multilinear<Emitted>]>,
         root: f64,
         assembler: &mut Assembler,
     ) -> Vec<Operand> {
+        let (form, polynomial) = match (part, &elimination.determinant) {
+            (Part::Determinant(form), Some(determinant)) => (form, determinant),
+            _ => (self.step.shape.form, &elimination.member),
+        };
         let list = |equations: &[Multilinear<Emitted>]| -> Vec<Operand> {
             let coefficient = |place: &SymbolPlace| equations[place.relation].coefficient(&place.factors);
             let value = |place| coefficient(place).map_or(Operand::Constant(0.0), Emitted::operand);
@@ -269,7 +311,7 @@ impl Context<'_> {
         if let Some(values) = values {
             symbols = list(values).into_iter().map(|value| assembler.abs(value)).chain(symbols).collect();
         }
-        let parts = elimination.coefficients();
+        let parts = elimination.coefficients(polynomial);
         let mut take = |exponents: &[u32], factor: f64| {
             let Some(terms) = parts.get(exponents) else { return Operand::Constant(0.0) };
             let flat = |(q, powers): &(BigRational, Vec<u32>)| match values {
@@ -281,7 +323,7 @@ impl Context<'_> {
             assembler.mul(Operand::Constant(factor), sum)
         };
         let sine = 1.0 / root;
-        match self.step.shape.form {
+        match form {
             Form::Angle => vec![take(&[1, 0], 1.0), take(&[0, 1], sine), take(&[0, 0], 1.0)],
             Form::Linear => vec![take(&[1], sine), take(&[0], 1.0)],
             Form::Lengths => (0..5).rev().map(|k: i32| take(&[k as u32], sine.powi(k))).collect(),
