@@ -39,8 +39,8 @@ impl Sized {
 
 /// Where a template is put to use.
 pub(super) struct Place {
-    /// Index of the joint that it determines.
-    pub joint: usize,
+    /// Index of the joint that is free where the template's is.
+    pub free: usize,
     /// The joint's unknowns.
     pub value: JointValue,
     /// The auxiliary unknown `w`.
@@ -162,7 +162,7 @@ impl<'a> Builder<'a> {
         if let Some(unknown) = self.place.auxiliary {
             steps.insert(0, Step::Set { unknown, value: Operand::Constant(0.0) });
         }
-        let free = vec![self.place.joint];
+        let free = vec![self.place.free];
         self.chart(label, guard_code, steps, free)
     }
 

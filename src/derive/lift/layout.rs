@@ -1,5 +1,6 @@
 //! Where a program keeps what: inputs, parameters and unknowns of a [`Mechanism`]'s solver ([`Layout`]).
 
+use nalgebra::Vector3;
 use num_traits::ToPrimitive;
 
 use super::emit::{Emitted, Emitter};
@@ -18,6 +19,8 @@ pub(super) struct Layout {
     pub unknowns: Vec<String>,
     /// By joint: its unknowns.
     pub joints: Vec<JointValue>,
+    /// For a ray, the unknowns that hold two unit vectors across it and each other.
+    pub across: Option<[[usize; 3]; 2]>,
     /// By joint: the parameters that are its value when it is given: a cosine and a sine, or a length.
     pub given: Vec<Vec<usize>>,
 }
@@ -31,6 +34,7 @@ impl Layout {
             parameters: Vec::new(),
             unknowns: Vec::new(),
             joints: Vec::new(),
+            across: None,
             given: vec![Vec::new(); mechanism.joints().len()],
         };
         let length = match unit {
@@ -48,6 +52,9 @@ impl Layout {
             };
             layout.joints.push(value);
         }
+        layout.across = mechanism
+            .hidden()
+            .map(|_| ["u", "v"].map(|letter| ["x", "y", "z"].map(|axis| layout.unknown(&format!("{letter}{axis}")))));
         for &index in mechanism.given() {
             let joint = &mechanism.joints()[index];
             let input = layout.inputs.len();
@@ -66,7 +73,7 @@ impl Layout {
 
     /// The inputs and parameters of the task.
     fn target(&mut self, mechanism: &Mechanism, length: Unit) {
-        let names = mechanism.parameters();
+        let names = mechanism.inputs();
         let planar = matches!(mechanism.task(), Task::PlanarPose { .. });
         for name in names {
             let input = self.inputs.len();
@@ -108,19 +115,16 @@ impl Layout {
         assembler: &mut Assembler,
     ) -> Result<Assignment<Emitted>> {
         let emitter = &mut Emitter(assembler);
-        let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
-        let aim = square.to_f64().unwrap_or(1.0).sqrt();
-        let aimed = match mechanism.task() {
-            Task::Ray => 3..6,
-            Task::Direction => 0..3,
-            _ => 0..0,
+        let parameters = match self.across {
+            Some(across) => turned(mechanism, across, emitter),
+            None => {
+                let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
+                let factor =
+                    if mechanism.task() == Task::Direction { square.to_f64().unwrap_or(1.0).sqrt() } else { 1.0 };
+                let value = |index| Emitted::Code(emitter.0.mul(Operand::Constant(factor), Operand::Parameter(index)));
+                (0..mechanism.parameters().len()).map(value).collect()
+            }
         };
-        let parameter = |index: usize| {
-            let value = Operand::Parameter(index);
-            let factor = Operand::Constant(if aimed.contains(&index) { aim } else { 1.0 });
-            Emitted::Code(emitter.0.mul(factor, value))
-        };
-        let parameters: Vec<Emitted> = (0..mechanism.parameters().len()).map(parameter).collect();
         let target = Target::new(mechanism, &parameters, emitter)?;
         let joints = (0..self.joints.len()).map(|joint| {
             if known.contains(&joint) { self.known(mechanism, joint, emitter) } else { closure::JointValue::Unknown }
@@ -165,4 +169,24 @@ impl Layout {
         let joints = joints.collect();
         Ok(Assignment { joints, target })
     }
+}
+
+/// The pose that stands for a ray: its point, and the rotation from where the tip is at zero that takes the aim and two unit vectors across
+/// it to the direction and the unknowns `across`.
+fn turned(mechanism: &Mechanism, across: [[usize; 3]; 2], emitter: &mut Emitter<'_>) -> Vec<Emitted> {
+    let aim = mechanism.aim().each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
+    let aim = Vector3::from(aim).normalize();
+    let beside = aim.cross(&Vector3::ith(aim.iamin(), 1.0)).normalize();
+    let before = [aim, beside, aim.cross(&beside)];
+    let behind = [[3, 4, 5].map(Operand::Parameter), across[0].map(Operand::Unknown), across[1].map(Operand::Unknown)];
+    let mut values: Vec<Emitted> = (0..3).map(|index| Emitted::Code(Operand::Parameter(index))).collect();
+    for entry in 0..9 {
+        let terms = before.iter().zip(&behind).map(|(from, to)| (from[entry % 3], to[entry / 3]));
+        let sum = terms.fold(Operand::Constant(0.0), |sum, (factor, value)| {
+            let term = emitter.0.mul(Operand::Constant(factor), value);
+            emitter.0.add(sum, term)
+        });
+        values.push(Emitted::Code(sum));
+    }
+    values
 }

@@ -15,7 +15,7 @@ use crate::derive::assemble::{Assembler, FlatTerm};
 use crate::derive::closure::{Assignment, Factor, Mechanism, Multilinear, evaluate};
 use crate::kinematics::{Chain, LengthUnit};
 use crate::number::BigRational;
-use crate::solver::{Block, Chart, Checks, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
+use crate::solver::{Block, Chart, Checks, Guard, Joint, JointValue, NEAR, Operand, Pivot, Program, Step, Unit};
 use crate::{Error, ErrorKind, Result};
 
 /// A free angle is put at eight places round the circle, none of them one that a solution is likely to have by itself.
@@ -34,8 +34,10 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts) -> Re
     let reach = reach(chain);
     let mut known = mechanism.given().to_vec();
     let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
-    for step in &parts.steps {
-        let context = Context { mechanism, known: &known, step, reach };
+    blocks.extend(layout.across.map(across));
+    for (index, step) in parts.steps.iter().enumerate() {
+        let free = free(mechanism, &parts.steps[index..]);
+        let context = Context { mechanism, known: &known, step, free, reach };
         blocks.push(context.block(&mut layout, templates, parts.half_angles.as_ref())?);
         known.push(step.joint);
     }
@@ -92,6 +94,48 @@ fn template(templates: &[Template], form: Form) -> Result<&Template> {
     templates.iter().find(|template| template.form == form).ok_or_else(missing)
 }
 
+/// The joint that moves freely where the first of these steps leaves its joint free: that joint itself, and for the hidden one, which is no
+/// joint of an answer, the first that follows from it.
+fn free(mechanism: &Mechanism, steps: &[Lifted]) -> usize {
+    let own = steps.iter().map(|step| step.joint).find(|joint| mechanism.hidden() != Some(*joint));
+    own.unwrap_or(0)
+}
+
+/// The block that finds two unit vectors across a ray and each other: the first is across a coordinate axis as well, that from which the
+/// ray is farthest.
+fn across([first, second]: [[usize; 3]; 2]) -> Block {
+    let chart = |axis: usize| {
+        let (mut assembler, d) = (Assembler::default(), [3, 4, 5].map(Operand::Parameter));
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let squares = [assembler.mul(d[a], d[a]), assembler.mul(d[b], d[b])];
+        let square = assembler.add(squares[0], squares[1]);
+        let guard_code = assembler.take();
+        let length = assembler.sqrt(square);
+        let mut u = [Operand::Constant(0.0); 3];
+        u[a] = assembler.div(d[b], length);
+        let quotient = assembler.div(d[a], length);
+        u[b] = assembler.mul(Operand::Constant(-1.0), quotient);
+        let v: [Operand; 3] = std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let (left, right) = (assembler.mul(d[i], u[j]), assembler.mul(d[j], u[i]));
+            assembler.sub(left, right)
+        });
+        let sets = first.into_iter().zip(u).chain(second.into_iter().zip(v));
+        let sets = sets.map(|(unknown, value)| Step::Set { unknown, value });
+        Chart {
+            label: format!("across {}", ["x", "y", "z"][axis]),
+            guard_code,
+            guards: Vec::new(),
+            pivot: Some(Pivot { group: 0, value: square }),
+            steps: [Step::Compute(assembler.take())].into_iter().chain(sets).collect(),
+            free: Vec::new(),
+            open: false,
+            first_branch: 0,
+        }
+    };
+    Block::numbered("directions across the ray", Vec::new(), (0..3).map(chart).collect())
+}
+
 /// What of an elimination the symbols are taken from.
 #[derive(Clone, Copy)]
 enum Part {
@@ -146,6 +190,8 @@ struct Context<'a> {
     mechanism: &'a Mechanism,
     known: &'a [usize],
     step: &'a Lifted,
+    /// The joint that is told as free where the step's is.
+    free: usize,
     reach: f64,
 }
 
@@ -159,7 +205,7 @@ impl Context<'_> {
         let mut assembler = Assembler::default();
         let symbols = self.symbols(layout, Part::Member, &mut assembler)?;
         let place = |symbols: Vec<Sized>| Place {
-            joint,
+            free: self.free,
             value: layout.joints[joint],
             auxiliary,
             symbols,
