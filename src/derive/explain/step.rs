@@ -210,15 +210,6 @@ impl Writer<'_> {
         for equation in forms::equations(form) {
             self.equation(renamed(equation, &own));
         }
-        if let (Some(determinant), Some(form)) = (&elimination.determinant, self.step.dependent) {
-            self.page.say(&format!(
-                "At a target where ({number}) vanishes whatever this joint does, the two relations have a solution for each of its values, \
-                 and others only where they are dependent: where the determinant of the coefficients of the cosine and the sine of {away} is zero. Such a target \
-                 is singular; the roots of the determinant are then candidates, beside the family."
-            ));
-            self.equation(format!("{} = 0", text(determinant)));
-            self.page.paragraph(Line::of("It is solved by the form ").name(form.name()).and("."));
-        }
     }
 
     fn elimination_names(&self, elimination: &Elimination) -> Vec<(String, String)> {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::eliminate::{self, Elimination};
 use super::half_angle::{self, HalfAngles};
-use super::shape::{eliminated, of_degree, shape};
+use super::shape::{eliminated, shape};
 use super::template::{Form, Template};
 use super::{Derived, Lifted, Parts};
 use crate::Result;
@@ -84,7 +84,7 @@ pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
     };
     let steps = prove_plan(&mechanism, &record.plan, &mut eliminate)?;
     let half_angles = record.half_angles.as_deref().map(HalfAngles::again).transpose()?;
-    if half_angles.is_some() != HalfAngles::are_needed(&steps) || stored.next().is_some() {
+    if half_angles.is_some() != steps.iter().any(|step| step.shape.form == Form::Quartic) || stored.next().is_some() {
         return Err(refused("half angles or eliminations are missing or left over".to_owned()));
     }
     let templates = record.templates.iter().map(prove_template).collect::<Result<Vec<_>>>()?;
@@ -166,8 +166,5 @@ fn prove_step(
         let text = format!("its equations give {} solutions, {} are claimed", shape.form.degree(), step.degree);
         return Err(refused(text));
     }
-    let is_angle = mechanism.joints()[step.joint].is_revolute();
-    let degree = |elimination: &Elimination| elimination.determinant.as_ref().map(|f| elimination.degree(f));
-    let dependent = elimination.as_ref().and_then(degree).and_then(|degree| of_degree(is_angle, degree));
-    Ok(Lifted { joint: step.joint, relations: step.way.relations().to_vec(), elimination, shape, dependent })
+    Ok(Lifted { joint: step.joint, relations: step.way.relations().to_vec(), elimination, shape })
 }

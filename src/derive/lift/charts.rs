@@ -88,30 +88,18 @@ pub(super) fn charts(
 
 /// The charts of an equation of degree two in cosine and sine: one a direction, of which the best conditioned runs, and one where the
 /// equation says nothing.
-pub(super) fn quartic(
-    half_angles: &HalfAngles,
-    place: &Place,
-    assembler: &Assembler,
-    guards: &[Guard],
-) -> Result<Vec<Chart>> {
+pub(super) fn quartic(half_angles: &HalfAngles, place: &Place, assembler: &Assembler) -> Result<Vec<Chart>> {
     let mut list = Vec::new();
     for half in &half_angles.0 {
-        list.push(Builder::new(Form::Quartic, place, assembler, guards).half(half)?);
+        list.push(Builder::new(Form::Quartic, place, assembler, &[]).half(half)?);
     }
-    let mut free = Builder::new(Form::Quartic, place, assembler, guards);
-    let more = vanishing(Form::Quartic, &place.symbols, &mut free.assembler);
-    free.guards.extend(more);
+    let mut free = Builder::new(Form::Quartic, place, assembler, &[]);
+    for (symbol, name) in place.symbols.iter().zip(Form::Quartic.symbols()) {
+        let scale = free.assembler.mul(Operand::Constant(CLOSE / NEAR), symbol.size);
+        free.guards.push(Guard { text: (*name).to_owned(), value: symbol.value, scale, near: true });
+    }
     list.push(free.free("A = B = C = D = E = 0"));
     Ok(list)
-}
-
-/// The guards that all symbols of a form nearly vanish, so that it says nothing of the joint.
-pub(super) fn vanishing(form: Form, symbols: &[Sized], assembler: &mut Assembler) -> Vec<Guard> {
-    let guard = |(symbol, name): (&Sized, &&str)| {
-        let scale = assembler.mul(Operand::Constant(CLOSE / NEAR), symbol.size);
-        Guard { text: (*name).to_owned(), value: symbol.value, scale, near: true }
-    };
-    symbols.iter().zip(form.symbols()).map(guard).collect()
 }
 
 struct Builder<'a> {

@@ -10,7 +10,7 @@ use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 
 use super::shape::{Symbolic, TargetPoly};
-use super::squares::{by_squares, determinant};
+use super::squares::by_squares;
 use crate::derive::closure::{Factor, Mechanism};
 use crate::derive::planner::PlanStep;
 use crate::groebner::{Options, Strategy, basis, divide};
@@ -52,9 +52,6 @@ pub struct Elimination {
     pub member: Poly,
     /// `member = sum over j of cofactors[j] * generators[j]`.
     pub cofactors: Vec<Poly>,
-    /// Of two relations that are linear in the one angle that goes: the determinant of that angle's coefficients. Where the member
-    /// vanishes whatever the joint's value is, the relations have a solution for every value, and others only where they are dependent.
-    pub determinant: Option<Poly>,
 }
 
 /// The stored proof.
@@ -71,7 +68,7 @@ impl Elimination {
     /// # Errors
     /// [`ErrorKind::Unsupported`] when nothing of use is left; what `watch` stops with.
     pub(super) fn derive(mechanism: &Mechanism, step: &PlanStep, away: &[usize], watch: &Watch) -> Result<Self> {
-        let mut elimination = Elimination::begun(mechanism, step, away)?;
+        let mut elimination = Setting::new(mechanism, step, away)?.finish()?;
         if let Some((member, cofactors)) = elimination.by_squares(mechanism, step, away) {
             (elimination.member, elimination.cofactors) = (member, cofactors);
             return elimination.proved();
@@ -92,13 +89,6 @@ impl Elimination {
         })?;
         (elimination.member, elimination.cofactors) = (member.clone(), cofactors.clone());
         elimination.proved()
-    }
-
-    /// The equations; the member is still zero.
-    fn begun(mechanism: &Mechanism, step: &PlanStep, away: &[usize]) -> Result<Self> {
-        let mut elimination = Setting::new(mechanism, step, away)?.finish()?;
-        elimination.determinant = elimination.dependence(mechanism, step, away);
-        Ok(elimination)
     }
 
     /// The sum of the squares of two relations that turn a vector by one joint, when no form's degree is too low for it.
@@ -123,19 +113,6 @@ impl Elimination {
         (self.is_own(&member) && self.degree(&member) <= most).then_some((member, cofactors))
     }
 
-    /// The determinant of the relations in the only angle that goes, when it depends on the joint.
-    fn dependence(&self, mechanism: &Mechanism, step: &PlanStep, away: &[usize]) -> Option<Poly> {
-        let ([joint], [f, g, ..]) = (away, self.generators.as_slice()) else { return None };
-        if !mechanism.joints()[*joint].is_revolute() || step.way.relations().len() != 2 {
-            return None;
-        }
-        let mut found = determinant(&self.ring, [f, g])?;
-        if mechanism.joints()[step.joint].is_revolute() {
-            found = self.without_square(&found, &mut self.ring.zero())?;
-        }
-        (self.degree(&found) > 0).then_some(found)
-    }
-
     /// The remainder by the joint's own circle, the last generator: the square of the cosine goes.
     fn without_square(&self, f: &Poly, cofactor: &mut Poly) -> Option<Poly> {
         let division = divide(&self.ring, f, std::slice::from_ref(self.generators.last()?)).ok()?;
@@ -148,7 +125,7 @@ impl Elimination {
     /// # Errors
     /// [`ErrorKind::Certificate`] when it does not hold.
     pub(super) fn again(mechanism: &Mechanism, step: &PlanStep, away: &[usize], stored: &Stored) -> Result<Self> {
-        let mut elimination = Elimination::begun(mechanism, step, away)?;
+        let mut elimination = Setting::new(mechanism, step, away)?.finish()?;
         let read = |text: &String| -> Result<Poly> { parse(text)?.evaluate(&elimination.ring) };
         let member = read(&stored.member)?;
         let cofactors = stored.cofactors.iter().map(read).collect::<Result<_>>()?;
@@ -194,11 +171,11 @@ impl Elimination {
         f.terms().iter().map(|term| degree(self.ring.layout().exponents(&term.monomial))).max().unwrap_or(0)
     }
 
-    /// The coefficients of `f` by the exponents of the joint's unknowns: terms with their exponents of the symbols.
-    pub(super) fn coefficients(&self, f: &Poly) -> BTreeMap<Vec<u32>, Vec<(BigRational, Vec<u32>)>> {
+    /// The coefficients by the exponents of the joint's unknowns: terms with their exponents of the symbols.
+    pub(super) fn coefficients(&self) -> BTreeMap<Vec<u32>, Vec<(BigRational, Vec<u32>)>> {
         let [away, own] = self.sizes;
         let mut parts: BTreeMap<Vec<u32>, Vec<(BigRational, Vec<u32>)>> = BTreeMap::new();
-        for term in f.terms() {
+        for term in self.member.terms() {
             let exponents = self.ring.layout().exponents(&term.monomial);
             let (own, symbols) = exponents[away..].split_at(own);
             parts.entry(own.to_vec()).or_default().push((term.coefficient.clone(), symbols.to_vec()));
@@ -298,7 +275,7 @@ impl<'a> Setting<'a> {
         }
         let symbols = self.symbols.into_iter().map(|(place, _)| place).collect();
         let (member, cofactors) = (ring.zero(), Vec::new());
-        Ok(Elimination { ring, sizes, generators, symbols, member, cofactors, determinant: None })
+        Ok(Elimination { ring, sizes, generators, symbols, member, cofactors })
     }
 }
 

@@ -1,9 +1,9 @@
 //! Where a program keeps what: inputs, parameters and unknowns of a [`Mechanism`]'s solver ([`Layout`]).
 
-use nalgebra::Vector3;
 use num_traits::ToPrimitive;
 
 use super::emit::{Emitted, Emitter};
+use super::ray;
 use crate::Result;
 use crate::derive::assemble::Assembler;
 use crate::derive::closure::{self, Assignment, Mechanism, Target};
@@ -116,7 +116,7 @@ impl Layout {
     ) -> Result<Assignment<Emitted>> {
         let emitter = &mut Emitter(assembler);
         let parameters = match self.across {
-            Some(across) => turned(mechanism, across, emitter),
+            Some(across) => ray::turned(mechanism, across, emitter),
             None => {
                 let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
                 let factor =
@@ -169,24 +169,4 @@ impl Layout {
         let joints = joints.collect();
         Ok(Assignment { joints, target })
     }
-}
-
-/// The pose that stands for a ray: its point, and the rotation from where the tip is at zero that takes the aim and two unit vectors across
-/// it to the direction and the unknowns `across`.
-fn turned(mechanism: &Mechanism, across: [[usize; 3]; 2], emitter: &mut Emitter<'_>) -> Vec<Emitted> {
-    let aim = mechanism.aim().each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
-    let aim = Vector3::from(aim).normalize();
-    let beside = aim.cross(&Vector3::ith(aim.iamin(), 1.0)).normalize();
-    let before = [aim, beside, aim.cross(&beside)];
-    let behind = [[3, 4, 5].map(Operand::Parameter), across[0].map(Operand::Unknown), across[1].map(Operand::Unknown)];
-    let mut values: Vec<Emitted> = (0..3).map(|index| Emitted::Code(Operand::Parameter(index))).collect();
-    for entry in 0..9 {
-        let terms = before.iter().zip(&behind).map(|(from, to)| (from[entry % 3], to[entry / 3]));
-        let sum = terms.fold(Operand::Constant(0.0), |sum, (factor, value)| {
-            let term = emitter.0.mul(Operand::Constant(factor), value);
-            emitter.0.add(sum, term)
-        });
-        values.push(Emitted::Code(sum));
-    }
-    values
 }

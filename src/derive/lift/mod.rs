@@ -9,6 +9,7 @@ mod emit;
 mod half_angle;
 mod layout;
 mod program;
+mod ray;
 mod shape;
 mod squares;
 mod stages;
@@ -40,8 +41,6 @@ pub struct Lifted {
     pub elimination: Option<Elimination>,
     /// The shape in the joint.
     pub shape: Shape,
-    /// The form in the joint of [`Elimination::determinant`], where there is one that a form fits.
-    pub dependent: Option<Form>,
 }
 
 /// What a program is made of, proved.
@@ -106,7 +105,8 @@ impl Derived {
     pub fn of_plan(chain: &Chain, mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
         let mut eliminate = |step: &PlanStep, away: &[usize]| Elimination::derive(mechanism, step, away, watch);
         let steps = certificate::prove_plan(mechanism, &plan, &mut eliminate)?;
-        let half_angles = HalfAngles::are_needed(&steps).then(|| HalfAngles::derive(watch)).transpose()?;
+        let quartic = steps.iter().any(|step| step.shape.form == Form::Quartic);
+        let half_angles = quartic.then(|| HalfAngles::derive(watch)).transpose()?;
         let forms = Template::needed(&steps);
         let templates = forms.into_iter().map(|form| Template::derive(form, watch)).collect::<Result<_>>()?;
         Derived::assemble(chain, mechanism, Parts { plan, steps, templates, half_angles })

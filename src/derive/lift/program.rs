@@ -2,12 +2,13 @@
 
 use num_traits::{Signed, ToPrimitive};
 
-use super::charts::{Place, Sized, charts, quartic, vanishing};
+use super::charts::{Place, Sized, charts, quartic};
 use super::checks::checks;
 use super::eliminate::{Elimination, SymbolPlace};
 use super::emit::{Emitted, Emitter, Sizes};
 use super::half_angle::HalfAngles;
 use super::layout::Layout;
+use super::ray;
 use super::shape::Shape;
 use super::template::{Form, Template};
 use super::{Lifted, Parts};
@@ -15,7 +16,7 @@ use crate::derive::assemble::{Assembler, FlatTerm};
 use crate::derive::closure::{Assignment, Factor, Mechanism, Multilinear, evaluate};
 use crate::kinematics::{Chain, LengthUnit};
 use crate::number::BigRational;
-use crate::solver::{Block, Chart, Checks, Guard, Joint, JointValue, NEAR, Operand, Pivot, Program, Step, Unit};
+use crate::solver::{Block, Chart, Checks, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
 use crate::{Error, ErrorKind, Result};
 
 /// A free angle is put at eight places round the circle, none of them one that a solution is likely to have by itself.
@@ -34,7 +35,7 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts) -> Re
     let reach = reach(chain);
     let mut known = mechanism.given().to_vec();
     let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
-    blocks.extend(layout.across.map(across));
+    blocks.extend(layout.across.map(ray::across));
     for (index, step) in parts.steps.iter().enumerate() {
         let free = free(mechanism, &parts.steps[index..]);
         let context = Context { mechanism, known: &known, step, free, reach };
@@ -101,68 +102,6 @@ fn free(mechanism: &Mechanism, steps: &[Lifted]) -> usize {
     own.unwrap_or(0)
 }
 
-/// The block that finds two unit vectors across a ray and each other: the first is across a coordinate axis as well, that from which the
-/// ray is farthest.
-fn across([first, second]: [[usize; 3]; 2]) -> Block {
-    let chart = |axis: usize| {
-        let (mut assembler, d) = (Assembler::default(), [3, 4, 5].map(Operand::Parameter));
-        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-        let squares = [assembler.mul(d[a], d[a]), assembler.mul(d[b], d[b])];
-        let square = assembler.add(squares[0], squares[1]);
-        let guard_code = assembler.take();
-        let length = assembler.sqrt(square);
-        let mut u = [Operand::Constant(0.0); 3];
-        u[a] = assembler.div(d[b], length);
-        let quotient = assembler.div(d[a], length);
-        u[b] = assembler.mul(Operand::Constant(-1.0), quotient);
-        let v: [Operand; 3] = std::array::from_fn(|k| {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            let (left, right) = (assembler.mul(d[i], u[j]), assembler.mul(d[j], u[i]));
-            assembler.sub(left, right)
-        });
-        let sets = first.into_iter().zip(u).chain(second.into_iter().zip(v));
-        let sets = sets.map(|(unknown, value)| Step::Set { unknown, value });
-        Chart {
-            label: format!("across {}", ["x", "y", "z"][axis]),
-            guard_code,
-            guards: Vec::new(),
-            pivot: Some(Pivot { group: 0, value: square }),
-            steps: [Step::Compute(assembler.take())].into_iter().chain(sets).collect(),
-            free: Vec::new(),
-            open: false,
-            first_branch: 0,
-        }
-    };
-    Block::numbered("directions across the ray", Vec::new(), (0..3).map(chart).collect())
-}
-
-/// What of an elimination the symbols are taken from.
-#[derive(Clone, Copy)]
-enum Part {
-    /// What it leaves in the joint.
-    Member,
-    /// The determinant of its relations, of this form.
-    Determinant(Form),
-}
-
-/// A form, its symbols, and the guards under which it is looked at.
-type Dependent = (Form, Vec<Sized>, Vec<Guard>);
-
-/// The forms that have been solved.
-struct Proved<'a> {
-    templates: &'a [Template],
-    half_angles: Option<&'a HalfAngles>,
-}
-
-impl Proved<'_> {
-    fn charts(&self, form: Form, place: &Place, assembler: &Assembler, guards: &[Guard]) -> Result<Vec<Chart>> {
-        match (form, self.half_angles) {
-            (Form::Quartic, Some(half_angles)) => quartic(half_angles, place, assembler, guards),
-            _ => charts(template(self.templates, form)?, place, assembler, guards),
-        }
-    }
-}
-
 /// The block that puts a given joint where the user says.
 fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Block {
     let unknowns = match layout.joints[joint] {
@@ -199,11 +138,15 @@ impl Context<'_> {
     fn block(&self, layout: &mut Layout, templates: &[Template], half_angles: Option<&HalfAngles>) -> Result<Block> {
         let joint = self.step.joint;
         let screw = &self.mechanism.joints()[joint];
-        let has_auxiliary = |form| matches!(form, Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic);
-        let auxiliary = (has_auxiliary(self.step.shape.form) || self.step.dependent.is_some_and(has_auxiliary))
-            .then(|| layout.unknown(&format!("w{}", screw.symbol)));
+        let auxiliary = match self.step.shape.form {
+            Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic => {
+                Some(layout.unknown(&format!("w{}", screw.symbol)))
+            }
+            Form::Turn | Form::Linear | Form::Lengths => None,
+        };
         let mut assembler = Assembler::default();
-        let symbols = self.symbols(layout, Part::Member, &mut assembler)?;
+        let symbols = self.symbols(layout, &mut assembler)?;
+        let code = assembler.take();
         let place = |symbols: Vec<Sized>| Place {
             free: self.free,
             value: layout.joints[joint],
@@ -211,21 +154,17 @@ impl Context<'_> {
             symbols,
             samples: self.samples(layout.joints[joint]),
         };
-        if self.step.shape.form != Form::Pair {
-            let dependent = self.dependent(layout, &symbols, &mut assembler)?;
-            let code = assembler.take();
-            let proved = Proved { templates, half_angles };
-            let mut list = proved.charts(self.step.shape.form, &place(symbols), &assembler, &[])?;
-            if let Some((form, symbols, guards)) = dependent {
-                let mut more = proved.charts(form, &place(symbols), &assembler, &guards)?;
-                more.retain(|chart| chart.free.is_empty());
-                // The directions of a half angle compete among themselves.
-                more.iter_mut().filter_map(|chart| chart.pivot.as_mut()).for_each(|pivot| pivot.group += 1);
-                list.extend(more);
+        match (self.step.shape.form, half_angles) {
+            (Form::Pair, _) => {}
+            (Form::Quartic, Some(half_angles)) => {
+                let list = quartic(half_angles, &place(symbols), &assembler)?;
+                return Ok(Block::numbered(&screw.name, code, list));
             }
-            return Ok(Block::numbered(&screw.name, code, list));
+            (form, _) => {
+                let list = charts(template(templates, form)?, &place(symbols), &assembler, &[])?;
+                return Ok(Block::numbered(&screw.name, code, list));
+            }
         }
-        let code = assembler.take();
         let (both, single) = (template(templates, Form::Pair)?, template(templates, Form::Angle)?);
         let [a, b, e, f, x, y] = symbols[..] else {
             return Err(Error::new(ErrorKind::Unsupported, "a pair has six symbols"));
@@ -240,14 +179,6 @@ impl Context<'_> {
         Ok(Block::numbered(&screw.name, code, list))
     }
 
-    /// The determinant of eliminated relations, as the symbols of a form with the guards that nothing else determines the joint: where
-    /// what an elimination leaves vanishes, there may be answers beside the family, and they lie at its roots.
-    fn dependent(&self, layout: &Layout, symbols: &[Sized], assembler: &mut Assembler) -> Result<Option<Dependent>> {
-        let Some(form) = self.step.dependent else { return Ok(None) };
-        let own = self.symbols(layout, Part::Determinant(form), assembler)?;
-        Ok(Some((form, own, vanishing(self.step.shape.form, symbols, assembler))))
-    }
-
     fn samples(&self, value: JointValue) -> Vec<f64> {
         match value {
             JointValue::Angle { .. } => {
@@ -257,26 +188,25 @@ impl Context<'_> {
         }
     }
 
-    /// The symbols of the step's form, or of its determinant's. Their sizes matter only where a guard asks for them.
-    fn symbols(&self, layout: &Layout, part: Part, assembler: &mut Assembler) -> Result<Vec<Sized>> {
+    /// The symbols of the step's form. Their sizes matter only where a guard asks for them.
+    fn symbols(&self, layout: &Layout, assembler: &mut Assembler) -> Result<Vec<Sized>> {
         let assignment = layout.assignment(self.mechanism, self.known, assembler)?;
         let mut equations = Vec::new();
         for relation in &self.step.relations {
             equations.push(evaluate(self.mechanism, relation, &assignment, &mut Emitter(assembler))?);
         }
-        let values = self.combine(&equations, part, None, assembler);
+        let values = self.combine(&equations, None, assembler);
         if values.first().is_some_and(is_number) && !matches!(self.step.shape.form, Form::Pair | Form::Quartic) {
             return Ok(values.into_iter().map(|value| Sized { value, size: Operand::Constant(1.0) }).collect());
         }
         let assignment = layout.sizes(self.mechanism, self.known, assembler)?;
-        let sizes = self.sizes(&equations, part, &assignment, assembler)?;
+        let sizes = self.sizes(&equations, &assignment, assembler)?;
         Ok(values.into_iter().zip(sizes).map(|(value, size)| Sized { value, size }).collect())
     }
 
     fn sizes(
         &self,
         values: &[Multilinear<Emitted>],
-        part: Part,
         assignment: &Assignment<Emitted>,
         assembler: &mut Assembler,
     ) -> Result<Vec<Operand>> {
@@ -284,7 +214,7 @@ impl Context<'_> {
         for relation in &self.step.relations {
             equations.push(evaluate(self.mechanism, relation, assignment, &mut Sizes(assembler))?);
         }
-        let sizes = self.combine(&equations, part, Some(values), assembler);
+        let sizes = self.combine(&equations, Some(values), assembler);
         Ok(sizes.into_iter().map(|size| assembler.abs(size)).collect())
     }
 
@@ -293,7 +223,6 @@ impl Context<'_> {
     fn combine(
         &self,
         equations: &[Multilinear<Emitted>],
-        part: Part,
         values: Option<&[Multilinear<Emitted>]>,
         assembler: &mut Assembler,
     ) -> Vec<Operand> {
@@ -301,7 +230,7 @@ impl Context<'_> {
         let square = self.mechanism.joints()[joint].square.to_f64().unwrap_or(1.0);
         let root = square.sqrt();
         if let Some(elimination) = &self.step.elimination {
-            return self.left(elimination, part, equations, values, root, assembler);
+            return self.left(elimination, equations, values, root, assembler);
         }
         let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors)
         {
@@ -334,20 +263,15 @@ impl Context<'_> {
 }
 
 impl Context<'_> {
-    /// The symbols from what an elimination leaves, or from its determinant.
+    /// The symbols from what an elimination leaves.
     fn left(
         &self,
         elimination: &Elimination,
-        part: Part,
         equations: &[Multilinear<Emitted>],
         values: Option<&[Multilinear<Emitted>]>,
         root: f64,
         assembler: &mut Assembler,
     ) -> Vec<Operand> {
-        let (form, polynomial) = match (part, &elimination.determinant) {
-            (Part::Determinant(form), Some(determinant)) => (form, determinant),
-            _ => (self.step.shape.form, &elimination.member),
-        };
         let list = |equations: &[Multilinear<Emitted>]| -> Vec<Operand> {
             let coefficient = |place: &SymbolPlace| equations[place.relation].coefficient(&place.factors);
             let value = |place| coefficient(place).map_or(Operand::Constant(0.0), Emitted::operand);
@@ -357,7 +281,7 @@ impl Context<'_> {
         if let Some(values) = values {
             symbols = list(values).into_iter().map(|value| assembler.abs(value)).chain(symbols).collect();
         }
-        let parts = elimination.coefficients(polynomial);
+        let parts = elimination.coefficients();
         let mut take = |exponents: &[u32], factor: f64| {
             let Some(terms) = parts.get(exponents) else { return Operand::Constant(0.0) };
             let flat = |(q, powers): &(BigRational, Vec<u32>)| match values {
@@ -369,7 +293,7 @@ impl Context<'_> {
             assembler.mul(Operand::Constant(factor), sum)
         };
         let sine = 1.0 / root;
-        match form {
+        match self.step.shape.form {
             Form::Angle => vec![take(&[1, 0], 1.0), take(&[0, 1], sine), take(&[0, 0], 1.0)],
             Form::Linear => vec![take(&[1], sine), take(&[0], 1.0)],
             Form::Lengths => (0..5).rev().map(|k: i32| take(&[k as u32], sine.powi(k))).collect(),

@@ -98,25 +98,20 @@ pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
 /// [`ErrorKind::Unsupported`] for a degree that no form has.
 pub(super) fn eliminated(mechanism: &Mechanism, step: &PlanStep, elimination: &Elimination) -> Result<Shape> {
     let degree = elimination.degree(&elimination.member);
-    let form = of_degree(mechanism.joints()[step.joint].is_revolute(), degree).ok_or_else(|| {
-        let text = format!(
-            "what the elimination leaves has degree {degree}; at most 2 is allowed for an angle, 4 for a length"
-        );
-        Error::new(ErrorKind::Unsupported, text)
-    })?;
+    let form = match (mechanism.joints()[step.joint].is_revolute(), degree) {
+        (true, 1) => Form::Angle,
+        (true, 2) => Form::Quartic,
+        (false, 1) => Form::Linear,
+        (false, 2) => Form::Quadratic,
+        (false, 3 | 4) => Form::Lengths,
+        _ => {
+            let text = format!(
+                "what the elimination leaves has degree {degree}; at most 2 is allowed for an angle, 4 for a length"
+            );
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+    };
     Ok(Shape { form, ratio: None })
-}
-
-/// The form of an equation of this degree in the unknowns of one joint.
-pub(super) fn of_degree(is_angle: bool, degree: u32) -> Option<Form> {
-    match (is_angle, degree) {
-        (true, 1) => Some(Form::Angle),
-        (true, 2) => Some(Form::Quartic),
-        (false, 1) => Some(Form::Linear),
-        (false, 2) => Some(Form::Quadratic),
-        (false, 3 | 4) => Some(Form::Lengths),
-        _ => None,
-    }
 }
 
 /// The coefficient of `factor`, by the unknowns of the other joints.

@@ -41,12 +41,6 @@ pub(super) fn by_squares(
     Some((member, [by_first, by_other, length]))
 }
 
-/// The determinant of the coefficients of variables 0 and 1 in two polynomials that are linear in them.
-pub(super) fn determinant(ring: &PolynomialRing<Rationals>, [f, g]: [&Poly; 2]) -> Option<Poly> {
-    let (first, second) = (linear(ring, f)?, linear(ring, g)?);
-    Some(ring.sub(&ring.mul(&first.p, &second.q), &ring.mul(&first.q, &second.p)))
-}
-
 fn linear(ring: &PolynomialRing<Rationals>, f: &Poly) -> Option<Linear> {
     let part = |f: &Poly, v: usize| {
         let mut parts = ring.coefficients_in(f, v).into_iter();

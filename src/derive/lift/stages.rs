@@ -358,12 +358,5 @@ fn left(index: usize, mechanism: &Mechanism, step: &Lifted, elimination: &Elimin
     let text = elimination.ring.format(&elimination.member, Style::Decimal);
     lines.push(format!("with {own} for {}:", joint_unknowns(mechanism, step.joint)));
     lines.push(format!("{text} = 0"));
-    if let (Some(determinant), Some(form)) = (&elimination.determinant, step.dependent) {
-        lines.push(format!(
-            "where that vanishes, answers beside the family make the relations dependent ({}):",
-            form.name()
-        ));
-        lines.push(format!("{} = 0", elimination.ring.format(determinant, Style::Decimal)));
-    }
     lines
 }

@@ -163,8 +163,7 @@ pub struct Template {
 impl Template {
     /// The forms that `steps` are solved by, each once.
     pub(super) fn needed(steps: &[Lifted]) -> Vec<Form> {
-        let forms = steps.iter().flat_map(|step| [Some(step.shape.form), step.dependent]).flatten();
-        let mut forms: Vec<Form> = forms.flat_map(Form::needs).copied().collect();
+        let mut forms: Vec<Form> = steps.iter().flat_map(|step| step.shape.form.needs()).copied().collect();
         forms.sort_unstable();
         forms.dedup();
         forms
