@@ -53,6 +53,8 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts) -> Re
         unknowns: layout.unknowns,
         scale: reach,
         capacity: (2 * parts.plan.dimension + blocks.len()).min(4096),
+        // Where the task asks for more than the joints can do, special targets might have more.
+        isolated: (mechanism.seen().freedoms() <= mechanism.unknown().len()).then_some(parts.plan.dimension),
         blocks,
         preference: None,
     };
