@@ -12,8 +12,11 @@ use groebot::kinematics::Chain;
 
 const MECHANISMS: [&str; 2] = ["nao_leg_sagittal", "nao_arm_planar"];
 
-/// The chains whose times issue 5 bounds: half a second for all but the last two.
-const CHAINS: [&str; 6] = ["puma", "stanford", "nao_left_leg", "rh0_right_leg", "ur5", "iiwa14"];
+/// Arms and legs of every kind that `derivations/` has.
+const CHAINS: [&str; 7] = ["puma", "stanford", "nao_left_leg", "rh0_right_leg", "nao_left_arm", "ur5", "iiwa14"];
+
+/// Joint values that no pose of a chain is singular at.
+const ORDINARY: [f64; 7] = [0.31, -0.42, 0.53, 0.64, 0.75, -0.86, 0.47];
 
 fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(name)
@@ -81,5 +84,17 @@ fn solve(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, derive, prove, derive_chain, prove_chain, solve);
+/// All solutions of one pose, each measured by forward kinematics.
+fn solve_chain(c: &mut Criterion) {
+    let mut group = c.benchmark_group("solve_chain");
+    for name in CHAINS {
+        let chain = chain(name);
+        let derived = Derived::of_chain(&chain, &Watch::none()).expect("it derives");
+        let target = derived.reached(&ORDINARY[..chain.joints().len()]).expect("as many values as joints");
+        group.bench_function(name, |b| b.iter(|| derived.program.solve(black_box(&target))));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, derive, prove, derive_chain, prove_chain, solve, solve_chain);
 criterion_main!(benches);

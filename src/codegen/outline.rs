@@ -22,6 +22,7 @@ pub(super) struct Outline {
     joints: Vec<Quantity>,
     extra: Vec<String>,
     capacity: usize,
+    isolated: Option<usize>,
     equations: usize,
     /// The highest degree of a root step; 0 without one.
     degree: usize,
@@ -132,6 +133,7 @@ impl Outline {
                 .collect(),
             extra: scene.extra.iter().map(|&unknown| remark(&program.unknowns[unknown])).collect(),
             capacity: program.capacity,
+            isolated: program.isolated.filter(|_| needs.answers),
             equations: checks.values.len(),
             degree: root_steps(program).map(|(step, _)| step.slots()).max().unwrap_or(0),
             scale: number(program.scale),

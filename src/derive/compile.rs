@@ -43,6 +43,7 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
         checks,
         preference: compiler.preference()?,
         capacity,
+        isolated: None,
     };
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;
     Ok(program)

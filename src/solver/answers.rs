@@ -34,8 +34,46 @@ impl<'a> Answers<'a> {
         self.nearest
     }
 
-    pub fn into_solutions(self) -> Vec<Solution> {
+    pub fn into_solutions(mut self) -> Vec<Solution> {
+        self.unite();
         self.list.into_iter().map(|answer| answer.solution).collect()
+    }
+
+    /// Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the
+    /// nearest two are one, and the better of them stays, until there are no more than that.
+    fn unite(&mut self) {
+        let Some(most) = self.program.isolated else { return };
+        while self.list.iter().filter(|answer| answer.is_isolated()).count() > most {
+            let worse = self.doubled();
+            self.list.remove(worse);
+        }
+    }
+
+    /// Of the two isolated answers nearest to each other the one that holds less well, the later of equals.
+    fn doubled(&self) -> usize {
+        let (mut least, mut worse) = (f64::INFINITY, 0);
+        for (second, b) in self.list.iter().enumerate().filter(|(_, b)| b.is_isolated()) {
+            for (first, a) in self.list[..second].iter().enumerate().filter(|(_, a)| a.is_isolated()) {
+                let distance = self.distance(&a.solution, &b.solution);
+                if distance < least {
+                    (least, worse) = (distance, if a.relative > b.relative { first } else { second });
+                }
+            }
+        }
+        worse
+    }
+
+    /// The greatest difference of a joint: of an angle, or as a share of a length's size.
+    fn distance(&self, a: &Solution, b: &Solution) -> f64 {
+        let mut greatest = 0.0_f64;
+        for (joint, parts) in self.program.joints.iter().enumerate() {
+            let size = match parts.value {
+                JointValue::Angle { .. } => 1.0,
+                JointValue::Plain(_) => self.program.scale.max(a.q[joint].abs()),
+            };
+            greatest = greatest.max(difference(self.program, joint, &a.q, &b.q).abs() / size);
+        }
+        greatest
     }
 
     /// Turns the unknowns into joints, polishes them, and keeps what solves the equations.

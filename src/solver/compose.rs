@@ -47,6 +47,7 @@ impl Program {
         program.checks = both(&self.checks, places.checks(&next.checks, program.joints.len()), program.joints.len());
         program.scale = self.scale.max(next.scale);
         program.capacity = self.capacity.saturating_mul(next.capacity).min(MOST_ANSWERS);
+        program.isolated = self.isolated.zip(next.isolated).map(|(own, other)| own.saturating_mul(other));
         program.validate()?;
         Ok(program)
     }

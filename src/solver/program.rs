@@ -231,6 +231,10 @@ pub struct Program {
     pub preference: Option<Preference>,
     /// The most answers that a target can have, at most 4096; if there were more, the best are kept.
     pub capacity: usize,
+    /// The certified number of complex solutions of a generic target, when no target has more isolated ones. Of more, the nearest are
+    /// one that rounding has doubled.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub isolated: Option<usize>,
 }
 
 impl Program {

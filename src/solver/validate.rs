@@ -31,6 +31,7 @@ impl Program {
         let branches = self.blocks.iter().map(Block::branches).try_fold(1usize, usize::checked_mul);
         ensure(branches.is_some_and(|branches| branches <= MOST_BRANCHES), "too many branches")?;
         let least = usize::from(self.charts().any(|chart| !chart.open));
+        ensure(self.isolated != Some(0), "isolated: at least 1 is allowed")?;
         ensure((least..=MOST_ANSWERS).contains(&self.capacity), "capacity: 1 to 4096 is allowed")
     }
 

@@ -45,6 +45,7 @@ fn named(names: &[String]) -> Program {
         checks,
         preference: None,
         capacity: 1,
+        isolated: None,
     }
 }
 

@@ -53,6 +53,7 @@ fn slide() -> Program {
         checks,
         preference: None,
         capacity: 1,
+        isolated: None,
     }
 }
 

@@ -129,6 +129,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
         checks,
         preference: None,
         capacity: 1,
+        isolated: None,
     };
     program.validate().unwrap();
     program.solve(&claims).unwrap().iter().map(|answer| answer.q[0]).collect()

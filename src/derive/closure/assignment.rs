@@ -63,8 +63,8 @@ impl<V: Clone> Target<V> {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let mut position = mechanism.tip_point().each_ref().map(|entry| arithmetic.rational(entry));
-        let turn = match mechanism.task() {
-            Task::Pose => {
+        let turn = match mechanism.seen() {
+            Task::Pose | Task::Ray => {
                 position.clone_from_slice(&parameters[..3]);
                 Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 + 3 * i + j].clone())))
             }
@@ -75,10 +75,6 @@ impl<V: Clone> Target<V> {
             Task::PlanarPosition { plane } => {
                 plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
                 Turn::Nothing
-            }
-            Task::Ray => {
-                position.clone_from_slice(&parameters[..3]);
-                Turn::Direction(std::array::from_fn(|k| parameters[3 + k].clone()))
             }
             Task::Direction => Turn::Direction(std::array::from_fn(|k| parameters[k].clone())),
             Task::Rotation => {

@@ -43,6 +43,10 @@ impl ScrewJoint {
 ///
 /// With T the pose asked for and M that of the tip at zero, the loop is E1 ... En = G, where G = T M^-1 moves the whole body from
 /// where it is at zero (RH0 2-20).
+///
+/// A ray does not say how the tip is turned about it. Any turn is chosen, which makes the ray a pose, and a joint behind the last one,
+/// [`Mechanism::hidden`], turns the tip about the ray from where the chain brings it: so the turn is an unknown like the others, and
+/// where the axes behind a point are known but for it, its sphere is met by a circle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mechanism {
     joints: Vec<ScrewJoint>,
@@ -50,6 +54,8 @@ pub struct Mechanism {
     tip_rotation: ExactMatrix,
     aim: ExactVector,
     task: Task,
+    /// What relations see of the tip.
+    seen: Task,
     given: Vec<usize>,
     /// Motions of the tip that the task does not see, as joints behind the last one.
     unseen: Vec<ScrewJoint>,
@@ -61,21 +67,27 @@ impl Mechanism {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a given joint that the chain has not.
     pub fn new(chain: &Chain) -> Result<Self> {
-        let joints: Vec<ScrewJoint> = chain
+        let mut joints: Vec<ScrewJoint> = chain
             .joints()
             .iter()
             .map(|joint| ScrewJoint::new(&joint.name, &joint.symbol, joint.kind, &joint.axis, &joint.point))
             .collect();
         let task = chain.task();
-        // The angle of a planar pose is counted from the zero configuration.
+        // The angle of a planar pose is counted from the zero configuration, and so is the turn about a ray.
         let tip_rotation = match task {
-            Task::PlanarPose { .. } => vector::identity(),
+            Task::PlanarPose { .. } | Task::Ray => vector::identity(),
             _ => chain.tip().rotation.clone(),
         };
         let tip_point = chain.tip().point.clone();
         let aim = vector::normalised(&vector::turn(&chain.tip().rotation, chain.direction()));
-        let unseen = unseen(task, &tip_point, &aim);
-        Mechanism { joints, tip_point, tip_rotation, aim, task, given: Vec::new(), unseen }.with_given(&chain.given())
+        let seen = if task == Task::Ray { Task::Pose } else { task };
+        if task == Task::Ray {
+            let symbol = hidden_symbol(&joints);
+            joints.push(ScrewJoint::new("turn about the ray", &symbol, JointKind::Revolute, &aim, &tip_point));
+        }
+        let unseen = unseen(seen, &tip_point, &aim);
+        Mechanism { joints, tip_point, tip_rotation, aim, task, seen, given: Vec::new(), unseen }
+            .with_given(&chain.given())
     }
 
     /// The same mechanism with these joints, by their places, given by the user.
@@ -83,8 +95,9 @@ impl Mechanism {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a place beyond the last joint.
     pub fn with_given(mut self, given: &[usize]) -> Result<Self> {
-        if let Some(place) = given.iter().find(|&&place| place >= self.joints.len()) {
-            let text = format!("joint {} cannot be given: the chain has {} joints", place + 1, self.joints.len());
+        let count = self.driven().len();
+        if let Some(place) = given.iter().find(|&&place| place >= count) {
+            let text = format!("joint {} cannot be given: the chain has {count} joints", place + 1);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         self.given = given.to_vec();
@@ -93,9 +106,20 @@ impl Mechanism {
         Ok(self)
     }
 
-    /// The joints from base to tip.
+    /// The joints from base to tip, [`Mechanism::hidden`] behind them.
     pub fn joints(&self) -> &[ScrewJoint] {
         &self.joints
+    }
+
+    /// The joints of the chain itself.
+    pub fn driven(&self) -> &[ScrewJoint] {
+        &self.joints[..self.hidden().unwrap_or(self.joints.len())]
+    }
+
+    /// The place of the joint behind the last one that turns the tip about its ray, when the task is a ray. Its angle is found with the
+    /// others and is no part of an answer.
+    pub fn hidden(&self) -> Option<usize> {
+        (self.task == Task::Ray).then(|| self.joints.len() - 1)
     }
 
     /// The origin of the tip at zero, in the base frame.
@@ -103,7 +127,7 @@ impl Mechanism {
         &self.tip_point
     }
 
-    /// The rotation of the tip at zero, base_from_tip; for a planar pose, whose angle is counted from there, the identity.
+    /// The rotation of the tip at zero, base_from_tip; for a planar pose and a ray, whose turn is counted from there, the identity.
     pub fn tip_rotation(&self) -> &ExactMatrix {
         &self.tip_rotation
     }
@@ -119,39 +143,61 @@ impl Mechanism {
         self.task
     }
 
+    /// What relations see of the tip: what is asked, and of a ray the pose with the turn that is chosen.
+    pub fn seen(&self) -> Task {
+        self.seen
+    }
+
     /// The places of the joints that the user gives, ascending.
     pub fn given(&self) -> &[usize] {
         &self.given
     }
 
-    /// The places of the joints that are not given, ascending.
+    /// The places of the joints that are not given, ascending, that of the hidden one too.
     pub fn unknown(&self) -> Vec<usize> {
         (0..self.joints.len()).filter(|joint| !self.given.contains(joint)).collect()
     }
 
-    /// The motions that the task does not see, as joints behind the tip: of the tip about its line for a ray, and so on.
+    /// The motions that relations do not see, as joints behind the tip: for a position all turns about the tip's point, and so on.
     pub(super) fn unseen(&self) -> &[ScrewJoint] {
         &self.unseen
     }
 
-    /// The names of the numbers of the target, in the order of [`super::Target::new`]: px, py, pz, r11 ... r33 and so on.
+    /// The names of the numbers of the target that relations hold, in the order of [`super::Target::new`]: px, py, pz, r11 ... r33 and
+    /// so on.
     pub fn parameters(&self) -> Vec<String> {
-        let coordinates = |prefix: char, axes: &[usize]| -> Vec<String> {
-            axes.iter().map(|&axis| format!("{prefix}{}", ["x", "y", "z"][axis])).collect()
-        };
-        let position = || coordinates('p', &[0, 1, 2]);
-        let rotation = || (1..=3).flat_map(|row| (1..=3).map(move |column| format!("r{row}{column}")));
-        let planar = |plane: Plane| coordinates('p', &plane.coordinates());
-        match self.task {
-            Task::Pose => position().into_iter().chain(rotation()).collect(),
-            Task::Position => position(),
-            Task::PlanarPosition { plane } => planar(plane),
-            Task::PlanarPose { plane } => planar(plane).into_iter().chain(["cphi".into(), "sphi".into()]).collect(),
-            Task::Ray => position().into_iter().chain(coordinates('d', &[0, 1, 2])).collect(),
-            Task::Direction => coordinates('d', &[0, 1, 2]),
-            Task::Rotation => rotation().collect(),
-        }
+        numbers(self.seen)
     }
+
+    /// The names of the numbers of the target that the user gives.
+    pub fn inputs(&self) -> Vec<String> {
+        numbers(self.task)
+    }
+}
+
+/// The names of the numbers of a task's target.
+fn numbers(task: Task) -> Vec<String> {
+    let coordinates = |prefix: char, axes: &[usize]| -> Vec<String> {
+        axes.iter().map(|&axis| format!("{prefix}{}", ["x", "y", "z"][axis])).collect()
+    };
+    let position = || coordinates('p', &[0, 1, 2]);
+    let rotation = || (1..=3).flat_map(|row| (1..=3).map(move |column| format!("r{row}{column}")));
+    let planar = |plane: Plane| coordinates('p', &plane.coordinates());
+    match task {
+        Task::Pose => position().into_iter().chain(rotation()).collect(),
+        Task::Position => position(),
+        Task::PlanarPosition { plane } => planar(plane),
+        Task::PlanarPose { plane } => planar(plane).into_iter().chain(["cphi".into(), "sphi".into()]).collect(),
+        Task::Ray => position().into_iter().chain(coordinates('d', &[0, 1, 2])).collect(),
+        Task::Direction => coordinates('d', &[0, 1, 2]),
+        Task::Rotation => rotation().collect(),
+    }
+}
+
+/// A symbol that no joint has.
+fn hidden_symbol(joints: &[ScrewJoint]) -> String {
+    let is_free = |symbol: &String| !joints.iter().any(|joint| joint.symbol == *symbol);
+    ["r", "ray"].map(String::from).into_iter().chain((0..).map(|k| format!("ray{k}"))).find(is_free).unwrap_or_default()
 }
 
 /// The motions of the tip that `task` does not see, as joints behind the last one.
@@ -160,9 +206,8 @@ fn unseen(task: Task, tip: &ExactVector, aim: &ExactVector) -> Vec<ScrewJoint> {
     let every = |kind| (0..3).map(move |k| joint(kind, &vector::unit(k)));
     let about_aim = joint(JointKind::Revolute, aim);
     match task {
-        Task::Pose | Task::PlanarPose { .. } => Vec::new(),
+        Task::Pose | Task::PlanarPose { .. } | Task::Ray => Vec::new(),
         Task::Position | Task::PlanarPosition { .. } => every(JointKind::Revolute).collect(),
-        Task::Ray => vec![about_aim],
         Task::Direction => every(JointKind::Prismatic).chain([about_aim]).collect(),
         Task::Rotation => every(JointKind::Prismatic).collect(),
     }

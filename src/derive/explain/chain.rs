@@ -85,6 +85,14 @@ fn chain(page: &mut Document, derived: &Derived, mechanism: &Mechanism) {
         true => page.say("No two neighbouring axes meet or are parallel."),
         false => page.items(common),
     }
+    if let Some(hidden) = mechanism.hidden() {
+        page.say(&format!(
+            "A ray does not say how the tip is turned about it. Any turn is chosen, two directions across the ray, which makes the target a \
+             pose. Joint {} is none of the chain's: it turns the tip about the ray from where the chain brings it to there. Its angle is found \
+             with the others and is no part of an answer.",
+            hidden + 1
+        ));
+    }
     if !derived.plan.given.is_empty() {
         let given = geometry::numbers(derived.plan.given.iter().copied());
         page.say(&format!("The user gives the value of {given}."));

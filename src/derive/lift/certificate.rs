@@ -129,7 +129,7 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
         return Err(refused("the plan does not find every joint".to_owned()));
     }
     // Equations beyond those of the plan, where the task asks for more than the joints can do, leave fewer solutions.
-    let tight = mechanism.task().freedoms() <= mechanism.unknown().len();
+    let tight = mechanism.seen().freedoms() <= mechanism.unknown().len();
     if plan.product() < plan.dimension || tight && plan.product() != plan.dimension {
         let text = format!("the steps give {} solutions, {} are claimed", plan.product(), plan.dimension);
         return Err(refused(text));

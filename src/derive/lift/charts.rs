@@ -19,7 +19,7 @@ use crate::{Error, ErrorKind, Result};
 const CLOSE: f64 = 1e-5;
 /// A chart does not run where a denominator's symbols are below this share of their sizes: rounding has left nothing of them, and
 /// all values of the joint that they determine solve the equations equally well.
-const LOST: f64 = 1e-13;
+const LOST: f64 = 4e-15;
 /// The same for the leading coefficient of an angle's quartic, against the sum of all symbols' sizes: an elimination multiplies symbols,
 /// so that near a singular configuration little is left of it that is still right.
 const FAINT: f64 = 1e-18;
@@ -39,8 +39,8 @@ impl Sized {
 
 /// Where a template is put to use.
 pub(super) struct Place {
-    /// Index of the joint that it determines.
-    pub joint: usize,
+    /// Index of the joint that is free where the template's is.
+    pub free: usize,
     /// The joint's unknowns.
     pub value: JointValue,
     /// The auxiliary unknown `w`.
@@ -150,7 +150,7 @@ impl<'a> Builder<'a> {
         if let Some(unknown) = self.place.auxiliary {
             steps.insert(0, Step::Set { unknown, value: Operand::Constant(0.0) });
         }
-        let free = vec![self.place.joint];
+        let free = vec![self.place.free];
         self.chart(label, guard_code, steps, free)
     }
 

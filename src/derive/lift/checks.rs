@@ -19,7 +19,7 @@ type Vector = [Emitted; 3];
 pub(super) fn checks(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Checks {
     let mut assembler = Assembler::default();
     let mut forward = Forward::new(mechanism, layout, &mut assembler);
-    mechanism.joints().iter().enumerate().for_each(|(index, joint)| forward.pass(index, joint));
+    mechanism.driven().iter().enumerate().for_each(|(index, joint)| forward.pass(index, joint));
     forward.compare(mechanism, reach);
     let mut checks = forward.checks;
     checks.code = assembler.take();
@@ -48,7 +48,7 @@ impl<'a> Forward<'a> {
             layout,
             rotation: std::array::from_fn(|column| std::array::from_fn(|row| number(row == column))),
             position: std::array::from_fn(|_| number(false)),
-            twists: Vec::with_capacity(mechanism.joints().len()),
+            twists: Vec::with_capacity(mechanism.driven().len()),
             shifts: Operand::Constant(0.0),
             checks: Checks { code: Vec::new(), residuals: Vec::new(), scales: Vec::new(), jacobian: Vec::new() },
         }

@@ -3,6 +3,7 @@
 use num_traits::ToPrimitive;
 
 use super::emit::{Emitted, Emitter};
+use super::ray;
 use crate::Result;
 use crate::derive::assemble::Assembler;
 use crate::derive::closure::{self, Assignment, Mechanism, Target};
@@ -18,6 +19,8 @@ pub(super) struct Layout {
     pub unknowns: Vec<String>,
     /// By joint: its unknowns.
     pub joints: Vec<JointValue>,
+    /// For a ray, the unknowns that hold two unit vectors across it and each other.
+    pub across: Option<[[usize; 3]; 2]>,
     /// By joint: the parameters that are its value when it is given: a cosine and a sine, or a length.
     pub given: Vec<Vec<usize>>,
 }
@@ -31,6 +34,7 @@ impl Layout {
             parameters: Vec::new(),
             unknowns: Vec::new(),
             joints: Vec::new(),
+            across: None,
             given: vec![Vec::new(); mechanism.joints().len()],
         };
         let length = match unit {
@@ -48,6 +52,9 @@ impl Layout {
             };
             layout.joints.push(value);
         }
+        layout.across = mechanism
+            .hidden()
+            .map(|_| ["u", "v"].map(|letter| ["x", "y", "z"].map(|axis| layout.unknown(&format!("{letter}{axis}")))));
         for &index in mechanism.given() {
             let joint = &mechanism.joints()[index];
             let input = layout.inputs.len();
@@ -66,7 +73,7 @@ impl Layout {
 
     /// The inputs and parameters of the task.
     fn target(&mut self, mechanism: &Mechanism, length: Unit) {
-        let names = mechanism.parameters();
+        let names = mechanism.inputs();
         let planar = matches!(mechanism.task(), Task::PlanarPose { .. });
         for name in names {
             let input = self.inputs.len();
@@ -108,19 +115,16 @@ impl Layout {
         assembler: &mut Assembler,
     ) -> Result<Assignment<Emitted>> {
         let emitter = &mut Emitter(assembler);
-        let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
-        let aim = square.to_f64().unwrap_or(1.0).sqrt();
-        let aimed = match mechanism.task() {
-            Task::Ray => 3..6,
-            Task::Direction => 0..3,
-            _ => 0..0,
+        let parameters = match self.across {
+            Some(across) => ray::turned(mechanism, across, emitter),
+            None => {
+                let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
+                let factor =
+                    if mechanism.task() == Task::Direction { square.to_f64().unwrap_or(1.0).sqrt() } else { 1.0 };
+                let value = |index| Emitted::Code(emitter.0.mul(Operand::Constant(factor), Operand::Parameter(index)));
+                (0..mechanism.parameters().len()).map(value).collect()
+            }
         };
-        let parameter = |index: usize| {
-            let value = Operand::Parameter(index);
-            let factor = Operand::Constant(if aimed.contains(&index) { aim } else { 1.0 });
-            Emitted::Code(emitter.0.mul(factor, value))
-        };
-        let parameters: Vec<Emitted> = (0..mechanism.parameters().len()).map(parameter).collect();
         let target = Target::new(mechanism, &parameters, emitter)?;
         let joints = (0..self.joints.len()).map(|joint| {
             if known.contains(&joint) { self.known(mechanism, joint, emitter) } else { closure::JointValue::Unknown }

@@ -9,6 +9,7 @@ mod emit;
 mod half_angle;
 mod layout;
 mod program;
+mod ray;
 mod shape;
 mod squares;
 mod stages;

@@ -8,6 +8,7 @@ use super::eliminate::{Elimination, SymbolPlace};
 use super::emit::{Emitted, Emitter, Sizes};
 use super::half_angle::HalfAngles;
 use super::layout::Layout;
+use super::ray;
 use super::shape::Shape;
 use super::template::{Form, Template};
 use super::{Lifted, Parts};
@@ -34,8 +35,10 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts) -> Re
     let reach = reach(chain);
     let mut known = mechanism.given().to_vec();
     let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
-    for step in &parts.steps {
-        let context = Context { mechanism, known: &known, step, reach };
+    blocks.extend(layout.across.map(ray::across));
+    for (index, step) in parts.steps.iter().enumerate() {
+        let free = free(mechanism, &parts.steps[index..]);
+        let context = Context { mechanism, known: &known, step, free, reach };
         blocks.push(context.block(&mut layout, templates, parts.half_angles.as_ref())?);
         known.push(step.joint);
     }
@@ -50,6 +53,8 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts) -> Re
         unknowns: layout.unknowns,
         scale: reach,
         capacity: (2 * parts.plan.dimension + blocks.len()).min(4096),
+        // Where the task asks for more than the joints can do, special targets might have more.
+        isolated: (mechanism.seen().freedoms() <= mechanism.unknown().len()).then_some(parts.plan.dimension),
         blocks,
         preference: None,
     };
@@ -92,6 +97,13 @@ fn template(templates: &[Template], form: Form) -> Result<&Template> {
     templates.iter().find(|template| template.form == form).ok_or_else(missing)
 }
 
+/// The joint that moves freely where the first of these steps leaves its joint free: that joint itself, and for the hidden one, which is no
+/// joint of an answer, the first that follows from it.
+fn free(mechanism: &Mechanism, steps: &[Lifted]) -> usize {
+    let own = steps.iter().map(|step| step.joint).find(|joint| mechanism.hidden() != Some(*joint));
+    own.unwrap_or(0)
+}
+
 /// The block that puts a given joint where the user says.
 fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Block {
     let unknowns = match layout.joints[joint] {
@@ -119,6 +131,8 @@ struct Context<'a> {
     mechanism: &'a Mechanism,
     known: &'a [usize],
     step: &'a Lifted,
+    /// The joint that is told as free where the step's is.
+    free: usize,
     reach: f64,
 }
 
@@ -136,7 +150,7 @@ impl Context<'_> {
         let symbols = self.symbols(layout, &mut assembler)?;
         let code = assembler.take();
         let place = |symbols: Vec<Sized>| Place {
-            joint,
+            free: self.free,
             value: layout.joints[joint],
             auxiliary,
             symbols,

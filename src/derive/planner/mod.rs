@@ -38,7 +38,7 @@ const SEED: u64 = 5;
 /// [`ErrorKind::PositiveDimensional`] when joints are free, with those that may be given; [`ErrorKind::Unsupported`] when there is no
 /// such plan, with the number of solutions, the degrees of the joints and what the geometry lacks; what `watch` stops with.
 pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
-    if mechanism.unknown().len() > mechanism.task().freedoms() {
+    if mechanism.unknown().len() > mechanism.seen().freedoms() {
         return Err(refuse::free(mechanism, watch)?);
     }
     let relations = mechanism.relations();
@@ -66,7 +66,7 @@ fn search(
     let (_, arithmetic) =
         lucky.ok_or_else(|| Error::new(ErrorKind::Unsupported, "no prime suits the chain's constants"))?;
     let mut sights = Sights::new(mechanism, relations, arithmetic, &mut Random::new(SEED))?;
-    let asks_too_much = mechanism.task().freedoms() > mechanism.unknown().len();
+    let asks_too_much = mechanism.seen().freedoms() > mechanism.unknown().len();
     let mut best: Option<(usize, Vec<PlanStep>)> = None;
     for reach in REACHES {
         let Some(steps) = Search::new(&mut sights, reach, watch).steps()? else { continue };

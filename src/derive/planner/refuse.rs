@@ -11,7 +11,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 /// # Errors
 /// What `watch` stops with.
 pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
-    let (unknown, freedoms) = (mechanism.unknown(), mechanism.task().freedoms());
+    let (unknown, freedoms) = (driven(mechanism), mechanism.task().freedoms());
     let suits = if unknown.len() <= freedoms + 1 { suitable(mechanism, watch)? } else { Vec::new() };
     let advice = match suits.as_slice() {
         [] if unknown.len() > freedoms => format!("give the values of at least {}", unknown.len() - freedoms),
@@ -24,13 +24,18 @@ pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
     Ok(Error::new(ErrorKind::PositiveDimensional, format!("{many}: {advice}")))
 }
 
+/// The places of the chain's own joints that are not given.
+fn driven(mechanism: &Mechanism) -> Vec<usize> {
+    mechanism.unknown().into_iter().filter(|&joint| mechanism.hidden() != Some(joint)).collect()
+}
+
 /// The names of the joints that leave finitely many solutions when their value is given.
 fn suitable(mechanism: &Mechanism, watch: &Watch) -> Result<Vec<String>> {
     let relations = mechanism.relations();
     let mut names = Vec::new();
-    for joint in mechanism.unknown() {
+    for joint in driven(mechanism) {
         let given: Vec<usize> = mechanism.given().iter().copied().chain([joint]).collect();
-        if given.len() < mechanism.joints().len()
+        if given.len() < mechanism.driven().len()
             && is_finite(&mechanism.clone().with_given(&given)?, &relations, watch)?
         {
             names.push(format!("`{}`", mechanism.joints()[joint].name));
@@ -42,7 +47,7 @@ fn suitable(mechanism: &Mechanism, watch: &Watch) -> Result<Vec<String>> {
 /// The error of a mechanism whose joints are not found one at a time with at most four solutions each.
 pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize>) -> Error {
     let degree = |&joint: &usize| format!("`{}` {}", mechanism.joints()[joint].name, evidence.degrees[joint]);
-    let degrees: Vec<String> = mechanism.unknown().iter().map(degree).collect();
+    let degrees: Vec<String> = driven(mechanism).iter().map(degree).collect();
     let found = match product {
         None => "no order of the joints determines one at a time with at most 4 values each".to_owned(),
         Some(product) => format!("the best order of the joints gives {product} instead"),
@@ -59,7 +64,7 @@ pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize
 
 /// Which neighbouring axes meet or are parallel, and which would have to.
 fn lacking(mechanism: &Mechanism) -> String {
-    let count = mechanism.joints().len();
+    let count = mechanism.driven().len();
     let triples: Vec<usize> = (0..count.saturating_sub(2)).collect();
     let names = |first: &usize| format!("{}-{}-{}", first + 1, first + 2, first + 3);
     let list = |triples: &[usize]| triples.iter().map(names).collect::<Vec<_>>().join(", ");

@@ -103,10 +103,9 @@ fn parameters(mechanism: &Mechanism, at: &Assignment<u64>, arithmetic: &mut Modu
         columns.push(image(Object::Direction(column))?);
     }
     let rotation = (0..9).map(|entry| columns[entry % 3][entry / 3]);
-    Ok(match mechanism.task() {
-        Task::Pose => position.into_iter().chain(rotation).collect(),
+    Ok(match mechanism.seen() {
+        Task::Pose | Task::Ray => position.into_iter().chain(rotation).collect(),
         Task::Position => position.to_vec(),
-        Task::Ray => [position, aim].concat(),
         Task::Direction => aim.to_vec(),
         Task::Rotation => rotation.collect(),
         Task::PlanarPosition { plane } => plane.coordinates().map(|k| position[k]).to_vec(),

@@ -44,6 +44,7 @@ pub fn program() -> Program {
         checks: checks(),
         preference: Some(Preference { unknown: S3, greatest: false }),
         capacity: 6,
+        isolated: None,
     }
 }
 

@@ -30,6 +30,7 @@ pub fn program() -> Program {
         checks: checks(),
         preference: Some(Preference { unknown: S4, greatest: true }),
         capacity: 2,
+        isolated: None,
     }
 }
 

@@ -31,6 +31,7 @@ pub fn program() -> Program {
         checks: checks(),
         preference: None,
         capacity: 3,
+        isolated: None,
     }
 }
 

@@ -33,6 +33,7 @@ pub fn program() -> Program {
         checks: checks(),
         preference: Some(Preference { unknown: RHO, greatest: true }),
         capacity: 5,
+        isolated: None,
     }
 }
 

@@ -30,6 +30,7 @@ pub fn program() -> Program {
         checks: checks(),
         preference: None,
         capacity: 4,
+        isolated: None,
     }
 }
 

@@ -80,6 +80,7 @@ pub fn program(gap: bool) -> Program {
         checks: checks(),
         preference: None,
         capacity: 4,
+        isolated: None,
     }
 }
 

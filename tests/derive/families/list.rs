@@ -67,6 +67,22 @@ pub const FAMILIES: &[Family] = &[
         let joints = arm(draw);
         along_the_last_axis(&draw.chain(&joints, Task::Pose, &[]))
     }),
+    family("arm to a ray anywhere", |draw| {
+        let joints = arm(draw);
+        draw.chain(&joints, Task::Ray, &[])
+    }),
+    family("RR, spherical wrist to a ray", |draw| {
+        let joints = joined(&[&draw.anywhere("RR"), &draw.meeting(3)]);
+        draw.chain(&joints, Task::Ray, &[])
+    }),
+    family("spherical shoulder, RR to a ray", |draw| {
+        let joints = joined(&[&draw.meeting(3), &draw.anywhere("RR")]);
+        draw.chain(&joints, Task::Ray, &[])
+    }),
+    family("R, three parallel axes, R to a ray", |draw| {
+        let joints = joined(&[&draw.anywhere("R"), &draw.parallel(3), &draw.anywhere("R")]);
+        draw.chain(&joints, Task::Ray, &[])
+    }),
     family("leg: spherical hip, parallel pair, joint", |draw| {
         let joints = joined(&[&draw.meeting(3), &draw.parallel(2), &draw.anywhere("R")]);
         draw.chain(&joints, Task::Pose, &[])
