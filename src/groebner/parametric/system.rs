@@ -61,6 +61,11 @@ impl System {
 }
 
 impl System {
+    /// The leading monomials of the basis, smallest first.
+    pub fn leads(&self) -> impl Iterator<Item = &Monomial> + Clone {
+        self.supports.iter().map(|support| &support[0])
+    }
+
     /// The terms that the basis at one point takes.
     pub fn terms(&self) -> usize {
         self.trace.terms()

@@ -1,0 +1,27 @@
+//! What a caller decides while a computation is learned.
+
+use crate::Result;
+
+/// Bounds a computation by what it is worth, and tells when and with which elements it may end.
+pub(in crate::groebner) trait Guide {
+    /// Fails when so many terms are more than the computation is worth.
+    fn allow(&mut self, _terms: usize) -> Result<()> {
+        Ok(())
+    }
+
+    /// The computation may end as soon as each of these vectors begins the exponents of a leading monomial. `None`: when no pair is
+    /// left.
+    fn goal(&self) -> Option<&[Vec<u32>]> {
+        None
+    }
+
+    /// Which of the elements with leading monomials of these exponents, smallest first, are wanted.
+    fn wanted(&self, leads: &[Vec<u32>]) -> Vec<usize> {
+        (0..leads.len()).collect()
+    }
+}
+
+/// The guide to the whole basis, at any price.
+pub(super) struct Whole;
+
+impl Guide for Whole {}
