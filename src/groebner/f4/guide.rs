@@ -15,6 +15,11 @@ pub(in crate::groebner) trait Guide {
         None
     }
 
+    /// Whether the tails of the elements are wanted, too.
+    fn wants_tails(&self) -> bool {
+        true
+    }
+
     /// Which of the elements with leading monomials of these exponents, smallest first, are wanted.
     fn wanted(&self, leads: &[Vec<u32>]) -> Vec<usize> {
         (0..leads.len()).collect()
@@ -25,3 +30,12 @@ pub(in crate::groebner) trait Guide {
 pub(super) struct Whole;
 
 impl Guide for Whole {}
+
+/// The guide to the leading monomials alone.
+pub(super) struct Leads;
+
+impl Guide for Leads {
+    fn wants_tails(&self) -> bool {
+        false
+    }
+}

@@ -19,14 +19,15 @@ pub use trace::Trace;
 
 use super::Basis;
 use crate::number::Zp;
-use crate::poly::{Order, Polynomial, PolynomialRing, Term};
+use crate::poly::{Monomial, Order, Polynomial, PolynomialRing, Term};
 use crate::watch::Matrix;
 use crate::{Error, ErrorKind, Result, Watch};
 use eliminate::{Way, eliminate, normal_forms};
-use guide::Whole;
+use guide::{Leads, Whole};
 use lanes::Instructions;
 use packing::{Packing, words};
 use running::{Running, overflow};
+use sweep::Sparse;
 use symbolic::{Builder, Columns, Shape};
 use table::Table;
 
@@ -73,6 +74,20 @@ pub fn f4_with(
     let instructions = if settings.vectors { Instructions::detect() } else { Instructions::Portable };
     let way = Way { combinations: settings.combinations, instructions };
     Ok(in_some_width(ring, generators, way, &mut Whole, watch)?.0)
+}
+
+/// The leading monomials of the basis that [`f4`] computes, smallest first.
+///
+/// # Errors
+/// As [`f4`].
+pub(super) fn leading_monomials(
+    ring: &PolynomialRing<Zp>,
+    generators: &[Polynomial<u64>],
+    watch: &Watch,
+) -> Result<Vec<Monomial>> {
+    let way = Way { combinations: true, instructions: Instructions::detect() };
+    let (basis, _) = in_some_width(ring, generators, way, &mut Leads, watch)?;
+    Ok(basis.polynomials.into_iter().map(|f| f.terms()[0].monomial.clone()).collect())
 }
 
 impl Trace {
@@ -283,38 +298,55 @@ impl<'a, const W: usize> Run<'a, W> {
 
     /// The reduced basis: the wanted ones of the live elements with their tails reduced, smallest lead first.
     fn finish(mut self, guide: &dyn Guide, watch: &Watch) -> Result<(Basis<Zp>, Trace)> {
-        let packing = self.running.packing.clone();
-        let mut live = self.running.live();
-        let lead = |element: &u32| packing.rank(&self.running.elements[*element as usize][0]);
-        live.sort_by_key(lead);
+        let live = self.wanted(guide);
+        let (tails, columns) = if guide.wants_tails() { self.tails(&live, watch)? } else { Default::default() };
         let mut exponents = vec![0; self.ring.variables().len()];
-        let leads = live.iter().map(|&element| {
-            packing.unpack(&self.running.elements[element as usize][0], &mut exponents);
-            exponents.clone()
-        });
-        let leads: Vec<Vec<u32>> = leads.collect();
-        let live: Vec<u32> = guide.wanted(&leads).into_iter().map(|index| live[index]).collect();
-        let mut builder = Builder::new(&self.running, &mut self.table, u32::MAX);
-        builder.take_elements(&live, 1)?;
-        builder.close(watch)?;
-        let (shape, columns) = builder.finish();
-        let tails = normal_forms(&shape, &self.coefficients, self.p, self.way, watch)?;
         let mut term = |key: &packing::Key<W>, coefficient: u32| {
-            packing.unpack(key, &mut exponents);
+            self.running.packing.unpack(key, &mut exponents);
             Ok(Term { coefficient: u64::from(coefficient), monomial: self.ring.monomial(&exponents)? })
         };
         let mut polynomials = Vec::with_capacity(live.len());
-        for (element, tail) in live.iter().zip(&tails) {
+        for (index, element) in live.iter().enumerate() {
             let mut terms = vec![term(&self.running.elements[*element as usize][0], 1)?];
-            for (&column, &coefficient) in tail.columns.iter().zip(&tail.coefficients) {
-                terms.push(term(&columns[column as usize], coefficient)?);
+            if let Some(tail) = tails.get(index) {
+                terms.reserve(tail.columns.len());
+                for (&column, &coefficient) in tail.columns.iter().zip(&tail.coefficients) {
+                    terms.push(term(&columns[column as usize], coefficient)?);
+                }
             }
             polynomials.push(self.ring.descending(terms));
         }
         if !self.way.combinations {
-            self.trace.last = trace::pruned(&shape);
             self.trace.supports = tails.into_iter().map(|tail| tail.columns.into()).collect();
         }
         Ok((Basis { ring: self.ring.clone(), polynomials, cofactors: Vec::new() }, self.trace))
+    }
+
+    /// The live elements that `guide` wants, smallest lead first.
+    fn wanted(&self, guide: &dyn Guide) -> Vec<u32> {
+        let packing = &self.running.packing;
+        let lead = |element: &u32| &self.running.elements[*element as usize][0];
+        let mut live = self.running.live();
+        live.sort_by_key(|element| packing.rank(lead(element)));
+        let exponents = |element: &u32| {
+            let mut exponents = vec![0; self.ring.variables().len()];
+            packing.unpack(lead(element), &mut exponents);
+            exponents
+        };
+        let leads: Vec<Vec<u32>> = live.iter().map(exponents).collect();
+        guide.wanted(&leads).into_iter().map(|index| live[index]).collect()
+    }
+
+    /// The reduced tails of these elements, and the monomials of their columns.
+    fn tails(&mut self, elements: &[u32], watch: &Watch) -> Result<(Vec<Sparse<u32>>, Columns<W>)> {
+        let mut builder = Builder::new(&self.running, &mut self.table, u32::MAX);
+        builder.take_elements(elements, 1)?;
+        builder.close(watch)?;
+        let (shape, columns) = builder.finish();
+        let tails = normal_forms(&shape, &self.coefficients, self.p, self.way, watch)?;
+        if !self.way.combinations {
+            self.trace.last = trace::pruned(&shape);
+        }
+        Ok((tails, columns))
     }
 }

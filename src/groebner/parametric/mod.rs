@@ -4,12 +4,14 @@
 //! evaluation at many points modulo primes and interpolation of the coefficients. `docs/parametric_bases.md` tells how they work and how one is chosen.
 
 mod assemble;
+mod estimate;
 mod flat;
 mod fresh;
 mod learn;
 mod lift;
 mod line;
 mod modular;
+mod on_a_line;
 mod pattern;
 mod pilot;
 mod prime;

@@ -9,7 +9,7 @@ use super::flat::{equations, flat_ring};
 use super::lift::{Primes, Residues, image};
 use super::pilot::Pilot;
 use super::prime::Prime;
-use super::{Ideal, Ring, fresh, is_free};
+use super::{Ideal, fresh, is_free};
 use crate::groebner::Basis;
 use crate::groebner::f4::Trace;
 use crate::number::{BigRational, Rationals, Zp};
@@ -33,10 +33,11 @@ pub(super) fn rebuilt_basis(
     watch: &Watch,
 ) -> Result<Basis<Fractions<Rationals>>> {
     let mut primes = Primes::new();
-    let equations = equations(ideal, &flat_ring(ideal.ring, Rationals)?)?;
+    let rational = flat_ring(ideal.ring, Rationals)?;
+    let equations = equations(ideal, &rational)?;
     for _ in 0..TEACHERS {
         let teacher = primes.next_that(|field| admit(&equations, field));
-        let flat = flat_ring(ideal.ring, Zp::known_prime(teacher.p))?;
+        let flat = rational.over(Zp::known_prime(teacher.p));
         let image = image_of(&flat, &equations, teacher).expect("a prime that divides no coefficient");
         let (basis, trace) = Trace::learn_guided(&flat, &image, pilot, watch)?;
         let leads = basis.polynomials.iter().map(|f| flat.layout().exponents(&f.terms()[0].monomial));

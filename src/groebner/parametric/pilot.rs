@@ -3,9 +3,10 @@
 //! The basis at a random point has the leading monomials of the basis over the rational functions. As soon as elements with these are found,
 //! they are that basis: the pairs that are left only say where it specialises.
 
+use super::estimate::Estimate;
 use super::modular::minimal;
 use super::system::System;
-use super::{FEW_TERMS, Ideal, TERMS_OF_POINTS, is_free, learn};
+use super::{FEW_TERMS, Ideal, TERMS_OF_POINTS, is_free};
 use crate::groebner::f4::Guide;
 use crate::poly::Monomial;
 use crate::{Error, ErrorKind, Result, Watch};
@@ -17,7 +18,7 @@ pub(super) struct Pilot<'a> {
     is_free: bool,
     /// Whether the computation ends when interpolation is worth more.
     is_bounded: bool,
-    system: Option<System>,
+    system: Option<(System, Estimate)>,
     goal: Option<Vec<Vec<u32>>>,
     /// So many terms are worth it, and perhaps more.
     worth: usize,
@@ -39,23 +40,24 @@ impl<'a> Pilot<'a> {
 
     /// The leading monomials of the basis, smallest first, if points were looked at: two random ones agree.
     pub fn leads(&self) -> Option<impl Iterator<Item = &Monomial> + Clone> {
-        self.system.as_ref().map(System::leads)
+        self.system.as_ref().map(|(system, _)| system.leads())
     }
 
     /// The system, when the computation was refused.
     pub fn into_refused(self) -> Option<System> {
-        self.system.filter(|_| self.is_refused)
+        self.system.filter(|_| self.is_refused).map(|(system, _)| system)
     }
 
     /// Looks at points, once.
-    fn system(&mut self) -> Result<&System> {
+    fn system(&mut self) -> Result<&mut (System, Estimate)> {
         if self.system.is_none() {
             let system = System::new(self.ideal, self.watch)?;
             let layout = self.ideal.ring.layout();
             self.goal = Some(system.leads().map(|lead| layout.exponents(lead)).collect());
-            self.system = Some(system);
+            let parameters = self.ideal.ring.field().ring().variables().len();
+            self.system = Some((system, Estimate::new(parameters)));
         }
-        Ok(self.system.as_ref().expect("it was filled"))
+        Ok(self.system.as_mut().expect("it was filled"))
     }
 }
 
@@ -65,12 +67,12 @@ impl Guide for Pilot<'_> {
             return Ok(());
         }
         let (watch, is_bounded) = (self.watch, self.is_bounded);
-        let system = self.system()?;
+        let (system, estimate) = self.system()?;
         if !is_bounded {
             return Ok(());
         }
         let enough = 2 * terms * TERMS_OF_POINTS / system.terms().max(1);
-        self.worth = learn::points(system, enough, watch)?.saturating_mul(system.terms()) / TERMS_OF_POINTS;
+        self.worth = estimate.points(system, enough, watch)?.saturating_mul(system.terms()) / TERMS_OF_POINTS;
         if terms <= self.worth {
             return Ok(());
         }
