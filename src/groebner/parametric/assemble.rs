@@ -96,16 +96,26 @@ fn embedded(ring: &Ring, parts: Parts) -> Poly {
 
 /// Whether no leading monomial divides one in another tail.
 fn are_reduced(ring: &Ring, elements: &[Parts]) -> bool {
-    let divides = |lead: &Monomial, parts: &Parts| parts[1..].iter().any(|(m, _)| ring.layout().divides(lead, m));
-    elements.iter().enumerate().all(|(index, f)| !elements[..index].iter().any(|g| divides(&g[0].0, f)))
+    elements.iter().enumerate().all(|(index, f)| !elements[..index].iter().any(|g| reduces(ring, g, f)))
+}
+
+/// Whether `g` may reduce the tail of `f`.
+fn reduces(ring: &Ring, g: &Parts, f: &Parts) -> bool {
+    f[1..].iter().any(|(monomial, _)| ring.layout().divides(&g[0].0, monomial))
 }
 
 /// Reduces all tails, smallest element first, on integer coefficients.
 fn reduce_tails(ring: &Ring, line: &Line, elements: Vec<Parts>, watch: &Watch) -> Result<Vec<Parts>> {
     let mut done: Vec<Parts> = Vec::with_capacity(elements.len());
-    for mut parts in elements {
+    let takes_part = |(index, f): (usize, &Parts)| {
+        elements[..index].iter().any(|g| reduces(ring, g, f)) || elements[index..].iter().any(|g| reduces(ring, f, g))
+    };
+    let part: Vec<bool> = elements.iter().enumerate().map(takes_part).collect();
+    for (mut parts, takes_part) in elements.into_iter().zip(part) {
         watch.check()?;
-        make_integral(ring.field().ring(), parts.iter_mut().map(|(_, c)| c).collect());
+        if takes_part {
+            make_integral(ring.field().ring(), parts.iter_mut().map(|(_, c)| c).collect());
+        }
         done.push(reduce_tail(ring, line, parts, &done)?);
     }
     Ok(done)

@@ -2,8 +2,7 @@
 
 use super::lift::defined_image;
 use super::prime::{Prime, Stream};
-use super::{Poly, Ring, sequence};
-use crate::Watch;
+use super::{Poly, Ring};
 use crate::number::{BigRational, Ring as _};
 use crate::poly::{Monomial, Polynomial, Term};
 
@@ -38,7 +37,8 @@ impl Line {
         let restricted = restricted.filter(|f| f.len() == degree + 1);
         let mut terms = vec![Term { coefficient: field.one(), monomial }];
         for (monomial, c) in rest {
-            let is_coprime = restricted.as_ref().is_some_and(|f| self.are_coprime(f, || self.restrict(ring, &c)));
+            let is_coprime = ground.degree(&c) == 0
+                || restricted.as_ref().is_some_and(|f| self.are_coprime(f, || self.restrict(ring, &c)));
             let coefficient = if is_coprime {
                 field.coprime_fraction(c, divisor.clone())
             } else {
@@ -53,51 +53,72 @@ impl Line {
     /// part does, and divides all parts there.
     pub fn content_bound(&self, ring: &Ring, parts: &[(Monomial, Ground)]) -> Option<usize> {
         let degree = ring.field().ring().degree(&parts[0].1) as usize;
-        let mut shared = self.restrict(ring, &parts[0].1).filter(|f| f.len() == degree + 1)?;
+        let mut gcd = self.restrict(ring, &parts[0].1).filter(|f| f.len() == degree + 1)?;
         for (_, c) in &parts[1..] {
-            if shared.len() == 1 {
+            if gcd.len() == 1 {
                 break;
             }
-            shared = sequence::gcd(self.field, shared, self.restrict(ring, c)?, &Watch::none()).ok()?;
+            gcd = shared(self.field, gcd, self.restrict(ring, c)?);
         }
-        Some(shared.len() - 1)
+        Some(gcd.len() - 1)
     }
 
     /// Whether nothing divides both; a common factor of polynomials would show here when `a` keeps its degree on the line.
     fn are_coprime(&self, a: &[u64], b: impl FnOnce() -> Option<Vec<u64>>) -> bool {
-        if a.len() == 1 {
-            return true;
-        }
-        let gcd = b().and_then(|b| sequence::gcd(self.field, a.to_vec(), b, &Watch::none()).ok());
-        gcd.is_some_and(|gcd| gcd.len() == 1)
+        a.len() == 1 || b().is_some_and(|b| shared(self.field, a.to_vec(), b).len() == 1)
     }
 
     /// The polynomial in `t` that `f` is on the line; `None` when the prime divides a denominator.
     fn restrict(&self, ring: &Ring, f: &Ground) -> Option<Vec<u64>> {
         let ground = ring.field().ring();
-        let mut sum: Vec<u64> = Vec::new();
+        let length = ground.degree(f) as usize + 1;
+        let (mut sum, mut product) = (vec![0; length], Vec::with_capacity(length));
         for term in f.terms() {
-            let mut product = vec![defined_image(self.field, &term.coefficient)?];
+            product.clear();
+            product.push(defined_image(self.field, &term.coefficient)?);
             for (variable, &factor) in self.points.iter().enumerate() {
                 for _ in 0..ground.layout().exponent(&term.monomial, variable) {
-                    product = self.times_linear(&product, factor);
+                    self.multiply(&mut product, factor);
                 }
             }
-            sum.resize(sum.len().max(product.len()), 0);
             sum.iter_mut().zip(&product).for_each(|(sum, &c)| *sum = self.field.add(*sum, c));
         }
-        while sum.last() == Some(&0) {
-            sum.pop();
-        }
+        trim(&mut sum);
         Some(sum)
     }
 
-    /// `f` times `offset + t direction`.
-    fn times_linear(&self, f: &[u64], [offset, direction]: [u64; 2]) -> Vec<u64> {
-        let coefficient = |k: usize| {
-            let (own, lower) = (f.get(k).map_or(0, |c| c * offset), if k > 0 { f[k - 1] * direction } else { 0 });
-            self.field.reduce(own + lower)
-        };
-        (0..=f.len()).map(coefficient).collect()
+    /// Multiplies `f` by `offset + t direction`.
+    fn multiply(&self, f: &mut Vec<u64>, [offset, direction]: [u64; 2]) {
+        f.push(0);
+        for k in (0..f.len()).rev() {
+            let lower = if k > 0 { f[k - 1] * direction } else { 0 };
+            f[k] = self.field.reduce(f[k] * offset + lower);
+        }
+    }
+}
+
+/// A greatest common divisor of `a`, not zero, and `b`: Euclid's algorithm with multiplications instead of inverses.
+fn shared(field: Prime, mut a: Vec<u64>, mut b: Vec<u64>) -> Vec<u64> {
+    while !b.is_empty() {
+        if b.len() == 1 {
+            return b;
+        }
+        while a.len() >= b.len() {
+            let (shift, lead) = (a.len() - b.len(), b[b.len() - 1]);
+            let top = field.neg(a.pop().expect("it is as long as the other"));
+            for (k, c) in a.iter_mut().enumerate() {
+                let other = if k >= shift { top * b[k - shift] } else { 0 };
+                *c = field.reduce(*c * lead + other);
+            }
+            trim(&mut a);
+        }
+        (a, b) = (b, a);
+    }
+    a
+}
+
+fn trim(f: &mut Vec<u64>) {
+    while f.last() == Some(&0) {
+        f.pop();
     }
 }
