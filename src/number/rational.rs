@@ -85,7 +85,8 @@ fn product(a: &BigRational, (n, d): (&BigInt, &BigInt)) -> BigRational {
     if let (Some(a), Some(n), Some(d)) = (words(a.numer(), a.denom()), n.to_i64(), d.to_i64()) {
         let (first, second) = (gcd_of_words(a.0, d), gcd_of_words(n, a.1));
         let numerator = i128::from(a.0 / first) * i128::from(n / second);
-        return BigRational::new_raw(numerator.into(), (i128::from(a.1 / second) * i128::from(d / first)).into());
+        let denominator = i128::from(a.1 / second) * i128::from(d / first);
+        return BigRational::new_raw(integer_of(numerator), integer_of(denominator));
     }
     let (first, second) = (common_divisor(a.numer(), d), common_divisor(n, a.denom()));
     let divided = |n: &BigInt, by: &BigInt| if by.is_one() { n.clone() } else { n / by };
@@ -93,6 +94,11 @@ fn product(a: &BigRational, (n, d): (&BigInt, &BigInt)) -> BigRational {
         divided(a.numer(), &first) * divided(n, &second),
         divided(a.denom(), &second) * divided(d, &first),
     )
+}
+
+/// The conversion of a word is faster than that of a double word.
+fn integer_of(n: i128) -> BigInt {
+    i64::try_from(n).map_or_else(|_| n.into(), BigInt::from)
 }
 
 fn words(n: &BigInt, d: &BigInt) -> Option<(i64, i64)> {

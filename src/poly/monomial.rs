@@ -88,8 +88,17 @@ impl Layout {
         &self.order
     }
 
+    /// The binary logarithm of the lanes of a word: places are found by shifts.
+    fn lanes_per_word_log2(&self) -> u32 {
+        match self.width {
+            Width::Bits8 => 3,
+            Width::Bits16 => 2,
+            Width::Bits32 => 1,
+        }
+    }
+
     fn lanes_per_word(&self) -> usize {
-        (64 / self.width.bits()) as usize
+        1 << self.lanes_per_word_log2()
     }
 
     /// Graded reverse orders keep the last variable in front, so that words compare as numbers.
@@ -101,9 +110,9 @@ impl Layout {
     }
 
     fn place(&self, lane: usize) -> (usize, u32) {
-        let per_word = self.lanes_per_word();
-        let shift = (per_word - 1 - lane % per_word) as u32 * self.width.bits();
-        (lane / per_word, shift)
+        let last = self.lanes_per_word() - 1;
+        let shift = (last - (lane & last)) as u32 * self.width.bits();
+        (lane >> self.lanes_per_word_log2(), shift)
     }
 
     fn lane_mask(&self) -> u64 {
@@ -121,7 +130,7 @@ impl Layout {
 
     /// The monomial 1.
     pub fn one(&self) -> Monomial {
-        let words = (self.variables + 1).div_ceil(self.lanes_per_word());
+        let words = (self.variables >> self.lanes_per_word_log2()) + 1;
         Monomial { words: SmallVec::from_elem(0, words) }
     }
 

@@ -85,6 +85,12 @@ impl<F: Field> PolynomialRing<F> {
         PolynomialRing { layout, ..self.clone() }
     }
 
+    /// The ring of the same monomials over another field, none of whose elements has the name of a variable.
+    pub(crate) fn over<G: Field>(&self, field: G) -> PolynomialRing<G> {
+        debug_assert!(self.variables.iter().all(|name| field.generator(name).is_none()));
+        PolynomialRing { field, variables: self.variables.clone(), layout: self.layout.clone() }
+    }
+
     /// The coefficient field.
     pub fn field(&self) -> &F {
         &self.field

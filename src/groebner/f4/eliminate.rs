@@ -131,6 +131,9 @@ fn apart(rows: &Sparse<[u32; LANES]>, lane: usize) -> Sparse<u32> {
 
 /// Reduces the found rows by one another, those with the smallest leads first.
 fn interreduce(sweep: &mut Sweep<'_, u32, LANES>, watch: &Watch) -> Result<()> {
+    if sweep.rows.len() < 2 {
+        return Ok(());
+    }
     let mut order: Vec<usize> = (0..sweep.rows.len()).collect();
     order.sort_unstable_by_key(|&row| std::cmp::Reverse(sweep.rows[row].columns[0]));
     for group in order.chunks(LANES) {

@@ -5,6 +5,7 @@
 //! arithmetic alone for other primes or other coefficients.
 
 mod eliminate;
+mod guide;
 mod lanes;
 mod packing;
 mod running;
@@ -13,17 +14,20 @@ mod symbolic;
 mod table;
 mod trace;
 
+pub(super) use guide::Guide;
 pub use trace::Trace;
 
 use super::Basis;
 use crate::number::Zp;
-use crate::poly::{Order, Polynomial, PolynomialRing, Term};
+use crate::poly::{Monomial, Order, Polynomial, PolynomialRing, Term};
 use crate::watch::Matrix;
 use crate::{Error, ErrorKind, Result, Watch};
 use eliminate::{Way, eliminate, normal_forms};
+use guide::{Leads, Whole};
 use lanes::Instructions;
 use packing::{Packing, words};
 use running::{Running, overflow};
+use sweep::Sparse;
 use symbolic::{Builder, Columns, Shape};
 use table::Table;
 
@@ -69,7 +73,21 @@ pub fn f4_with(
 ) -> Result<Basis<Zp>> {
     let instructions = if settings.vectors { Instructions::detect() } else { Instructions::Portable };
     let way = Way { combinations: settings.combinations, instructions };
-    Ok(in_some_width(ring, generators, way, watch)?.0)
+    Ok(in_some_width(ring, generators, way, &mut Whole, watch)?.0)
+}
+
+/// The leading monomials of the basis that [`f4`] computes, smallest first.
+///
+/// # Errors
+/// As [`f4`].
+pub(super) fn leading_monomials(
+    ring: &PolynomialRing<Zp>,
+    generators: &[Polynomial<u64>],
+    watch: &Watch,
+) -> Result<Vec<Monomial>> {
+    let way = Way { combinations: true, instructions: Instructions::detect() };
+    let (basis, _) = in_some_width(ring, generators, way, &mut Leads, watch)?;
+    Ok(basis.polynomials.into_iter().map(|f| f.terms()[0].monomial.clone()).collect())
 }
 
 impl Trace {
@@ -82,8 +100,22 @@ impl Trace {
         generators: &[Polynomial<u64>],
         watch: &Watch,
     ) -> Result<(Basis<Zp>, Trace)> {
+        Self::learn_guided(ring, generators, &mut Whole, watch)
+    }
+
+    /// [`Trace::learn`] of the elements that `guide` wants, until it has enough. They are a basis when the guide's goal is the leading
+    /// monomials of one.
+    ///
+    /// # Errors
+    /// As [`f4`]; what `guide` stops with.
+    pub(super) fn learn_guided(
+        ring: &PolynomialRing<Zp>,
+        generators: &[Polynomial<u64>],
+        guide: &mut dyn Guide,
+        watch: &Watch,
+    ) -> Result<(Basis<Zp>, Trace)> {
         let way = Way { combinations: false, instructions: Instructions::detect() };
-        in_some_width(ring, generators, way, watch)
+        in_some_width(ring, generators, way, guide, watch)
     }
 }
 
@@ -92,6 +124,7 @@ fn in_some_width(
     ring: &PolynomialRing<Zp>,
     generators: &[Polynomial<u64>],
     way: Way,
+    guide: &mut dyn Guide,
     watch: &Watch,
 ) -> Result<(Basis<Zp>, Trace)> {
     let p = ring.field().modulus();
@@ -99,8 +132,8 @@ fn in_some_width(
         let text = format!("F4 works modulo primes below 2^31, not modulo {p}");
         return Err(Error::new(ErrorKind::BadValue, text));
     }
-    match in_lanes(ring, generators, way, 8, watch) {
-        Err(error) if error.kind() == ErrorKind::Overflow => in_lanes(ring, generators, way, 16, watch),
+    match in_lanes(ring, generators, way, 8, guide, watch) {
+        Err(error) if error.kind() == ErrorKind::Overflow => in_lanes(ring, generators, way, 16, guide, watch),
         outcome => outcome,
     }
 }
@@ -111,16 +144,17 @@ fn in_lanes(
     generators: &[Polynomial<u64>],
     way: Way,
     bits: u32,
+    guide: &mut dyn Guide,
     watch: &Watch,
 ) -> Result<(Basis<Zp>, Trace)> {
     let words = words(ring.layout().order(), ring.variables().len(), bits);
     match words {
-        1 => Run::<1>::new(ring, bits, way).basis(generators, watch),
-        2 => Run::<2>::new(ring, bits, way).basis(generators, watch),
-        3 => Run::<3>::new(ring, bits, way).basis(generators, watch),
-        4 => Run::<4>::new(ring, bits, way).basis(generators, watch),
-        5..=6 => Run::<6>::new(ring, bits, way).basis(generators, watch),
-        7..=8 => Run::<8>::new(ring, bits, way).basis(generators, watch),
+        1 => Run::<1>::new(ring, bits, way).basis(generators, guide, watch),
+        2 => Run::<2>::new(ring, bits, way).basis(generators, guide, watch),
+        3 => Run::<3>::new(ring, bits, way).basis(generators, guide, watch),
+        4 => Run::<4>::new(ring, bits, way).basis(generators, guide, watch),
+        5..=6 => Run::<6>::new(ring, bits, way).basis(generators, guide, watch),
+        7..=8 => Run::<8>::new(ring, bits, way).basis(generators, guide, watch),
         _ => {
             let text = format!("{} variables are more than the keys of F4 hold", ring.variables().len());
             Err(Error::new(ErrorKind::Overflow, text))
@@ -162,12 +196,17 @@ impl<'a, const W: usize> Run<'a, W> {
 
     /// The algorithm: reduce the generators by one another; then select pairs, complete them to a matrix by symbolic
     /// preprocessing, eliminate, and adjoin the new rows, until no pair is left; reduce the tails.
-    fn basis(mut self, generators: &[Polynomial<u64>], watch: &Watch) -> Result<(Basis<Zp>, Trace)> {
-        self.begin(generators, watch)?;
+    fn basis(
+        mut self,
+        generators: &[Polynomial<u64>],
+        guide: &mut dyn Guide,
+        watch: &Watch,
+    ) -> Result<(Basis<Zp>, Trace)> {
+        self.begin(generators, guide, watch)?;
         loop {
             let selected = self.running.select();
-            if selected.is_empty() || self.trace.unit {
-                return self.finish(watch);
+            if selected.is_empty() || self.trace.unit || guide.goal().is_some_and(|goal| self.has_reached(goal)) {
+                return self.finish(guide, watch);
             }
             // In an order by degree the sugar of a round is its degree.
             let sugar = selected[0].sugar;
@@ -176,12 +215,20 @@ impl<'a, const W: usize> Run<'a, W> {
             builder.take_pairs(&selected)?;
             builder.close(watch)?;
             let (shape, columns) = builder.finish();
-            self.eliminate(shape, &columns, sugar, watch)?;
+            self.eliminate(shape, &columns, sugar, guide, watch)?;
         }
     }
 
+    /// Whether each of these vectors begins the exponents of a leading monomial.
+    fn has_reached(&self, goal: &[Vec<u32>]) -> bool {
+        let packing = &self.running.packing;
+        let begins =
+            |key: &packing::Key<W>, part: &Vec<u32>| (0..part.len()).all(|v| packing.exponent(key, v) == part[v]);
+        goal.iter().all(|part| self.running.lead_keys().any(|key| begins(key, part)))
+    }
+
     /// The generators, reduced by one another without multiplying any.
-    fn begin(&mut self, generators: &[Polynomial<u64>], watch: &Watch) -> Result<()> {
+    fn begin(&mut self, generators: &[Polynomial<u64>], guide: &mut dyn Guide, watch: &Watch) -> Result<()> {
         let mut raw = Running::new(self.running.packing.clone(), true);
         for (index, f) in generators.iter().enumerate().filter(|(_, f)| !f.is_zero()) {
             let keys = f.terms().iter().map(|term| {
@@ -198,14 +245,23 @@ impl<'a, const W: usize> Run<'a, W> {
         builder.take_elements(&all, 0)?;
         let (shape, columns) = builder.finish();
         let given = self.coefficients.len();
-        self.eliminate(shape, &columns, 0, watch)?;
+        self.eliminate(shape, &columns, 0, guide, watch)?;
         self.coefficients.drain(..given);
         Ok(())
     }
 
     /// Reduces a matrix and adjoins its new rows.
-    fn eliminate(&mut self, shape: Shape, columns: &Columns<W>, sugar: u32, watch: &Watch) -> Result<()> {
-        watch.check_terms(shape.entries.len() + self.coefficients.iter().map(Vec::len).sum::<usize>())?;
+    fn eliminate(
+        &mut self,
+        shape: Shape,
+        columns: &Columns<W>,
+        sugar: u32,
+        guide: &mut dyn Guide,
+        watch: &Watch,
+    ) -> Result<()> {
+        let terms = shape.entries.len() + self.coefficients.iter().map(Vec::len).sum::<usize>();
+        watch.check_terms(terms)?;
+        guide.allow(terms)?;
         watch.check_memory(self.bytes() + shape.bytes())?;
         self.tell(&shape, 0, sugar, watch);
         let echelon = eliminate(&shape, &self.coefficients, self.p, self.way, watch)?;
@@ -240,34 +296,57 @@ impl<'a, const W: usize> Run<'a, W> {
         self.table.bytes() + terms * (4 + size_of::<packing::Key<W>>()) + self.trace.bytes()
     }
 
-    /// The reduced basis: live elements with their tails reduced, smallest lead first.
-    fn finish(mut self, watch: &Watch) -> Result<(Basis<Zp>, Trace)> {
-        let packing = self.running.packing.clone();
-        let mut live = self.running.live();
-        let lead = |element: &u32| packing.rank(&self.running.elements[*element as usize][0]);
-        live.sort_by_key(lead);
-        let mut builder = Builder::new(&self.running, &mut self.table, u32::MAX);
-        builder.take_elements(&live, 1)?;
-        builder.close(watch)?;
-        let (shape, columns) = builder.finish();
-        let tails = normal_forms(&shape, &self.coefficients, self.p, self.way, watch)?;
+    /// The reduced basis: the wanted ones of the live elements with their tails reduced, smallest lead first.
+    fn finish(mut self, guide: &dyn Guide, watch: &Watch) -> Result<(Basis<Zp>, Trace)> {
+        let live = self.wanted(guide);
+        let (tails, columns) = if guide.wants_tails() { self.tails(&live, watch)? } else { Default::default() };
         let mut exponents = vec![0; self.ring.variables().len()];
         let mut term = |key: &packing::Key<W>, coefficient: u32| {
-            packing.unpack(key, &mut exponents);
+            self.running.packing.unpack(key, &mut exponents);
             Ok(Term { coefficient: u64::from(coefficient), monomial: self.ring.monomial(&exponents)? })
         };
         let mut polynomials = Vec::with_capacity(live.len());
-        for (element, tail) in live.iter().zip(&tails) {
+        for (index, element) in live.iter().enumerate() {
             let mut terms = vec![term(&self.running.elements[*element as usize][0], 1)?];
-            for (&column, &coefficient) in tail.columns.iter().zip(&tail.coefficients) {
-                terms.push(term(&columns[column as usize], coefficient)?);
+            if let Some(tail) = tails.get(index) {
+                terms.reserve(tail.columns.len());
+                for (&column, &coefficient) in tail.columns.iter().zip(&tail.coefficients) {
+                    terms.push(term(&columns[column as usize], coefficient)?);
+                }
             }
             polynomials.push(self.ring.descending(terms));
         }
         if !self.way.combinations {
-            self.trace.last = trace::pruned(&shape);
             self.trace.supports = tails.into_iter().map(|tail| tail.columns.into()).collect();
         }
         Ok((Basis { ring: self.ring.clone(), polynomials, cofactors: Vec::new() }, self.trace))
+    }
+
+    /// The live elements that `guide` wants, smallest lead first.
+    fn wanted(&self, guide: &dyn Guide) -> Vec<u32> {
+        let packing = &self.running.packing;
+        let lead = |element: &u32| &self.running.elements[*element as usize][0];
+        let mut live = self.running.live();
+        live.sort_by_key(|element| packing.rank(lead(element)));
+        let exponents = |element: &u32| {
+            let mut exponents = vec![0; self.ring.variables().len()];
+            packing.unpack(lead(element), &mut exponents);
+            exponents
+        };
+        let leads: Vec<Vec<u32>> = live.iter().map(exponents).collect();
+        guide.wanted(&leads).into_iter().map(|index| live[index]).collect()
+    }
+
+    /// The reduced tails of these elements, and the monomials of their columns.
+    fn tails(&mut self, elements: &[u32], watch: &Watch) -> Result<(Vec<Sparse<u32>>, Columns<W>)> {
+        let mut builder = Builder::new(&self.running, &mut self.table, u32::MAX);
+        builder.take_elements(elements, 1)?;
+        builder.close(watch)?;
+        let (shape, columns) = builder.finish();
+        let tails = normal_forms(&shape, &self.coefficients, self.p, self.way, watch)?;
+        if !self.way.combinations {
+            self.trace.last = trace::pruned(&shape);
+        }
+        Ok((tails, columns))
     }
 }

@@ -59,6 +59,11 @@ impl<const W: usize> Running<W> {
         self.leads.iter().map(|lead| lead.element).collect()
     }
 
+    /// The leading monomials of those elements.
+    pub fn lead_keys(&self) -> impl Iterator<Item = &Key<W>> {
+        self.leads.iter().map(|lead| &lead.key)
+    }
+
     /// The first element, in the order of coming, whose leading monomial divides `key` and whose multiple's sugar is at most
     /// `bound`.
     #[inline]

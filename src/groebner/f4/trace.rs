@@ -153,7 +153,7 @@ impl Round {
         }
         let mut order: Vec<usize> = (0..sweep.rows.len()).collect();
         order.sort_unstable_by_key(|&row| std::cmp::Reverse(sweep.rows[row].columns[0]));
-        for &row in &order {
+        for &row in order.iter().filter(|_| order.len() > 1) {
             watch.check()?;
             let lead = sweep.rows[row].columns[0];
             let form = sweep.rows[row].clone();

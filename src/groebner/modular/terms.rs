@@ -51,6 +51,9 @@ impl Common {
     fn new(mut number: BigInt) -> Self {
         let (mut words, mut rest, mut word) = (Vec::new(), BigInt::one(), 1u64);
         for q in primes_below(SMALL) {
+            if number.is_one() {
+                break;
+            }
             let power = take_power(&mut number, q);
             match u64::try_from(&power).map(|power| (power, word.checked_mul(power))) {
                 Ok((_, Some(product))) => word = product,

@@ -4,10 +4,9 @@ use std::collections::VecDeque;
 
 use num_traits::One as _;
 
-use super::lift::defined_image;
-use super::prime::{Prime, Stream};
+use super::on_a_line::Line;
 use super::variables::reduced;
-use super::{Poly, Ring, sequence};
+use super::{Poly, Ring};
 use crate::groebner::Basis;
 use crate::number::{BigInt, BigRational, Rationals, Ring as _, Zp, common_divisor};
 use crate::poly::{Fractions, Monomial, Polynomial, PolynomialRing, Term, gcd};
@@ -85,8 +84,8 @@ pub(super) fn assemble(
     if elements.iter().any(|parts| parts[0].0 == ring.layout().one()) {
         return Ok(Basis { ring: ring.clone(), polynomials: vec![ring.one()], cofactors: Vec::new() });
     }
-    let elements = if are_reduced(ring, &elements) { elements } else { reduce_tails(ring, elements, watch)? };
     let line = Line::new(ring);
+    let elements = if are_reduced(ring, &elements) { elements } else { reduce_tails(ring, &line, elements, watch)? };
     let polynomials = elements.into_iter().map(|parts| line.divide_by_first(ring, parts)).collect();
     Ok(Basis { ring: ring.clone(), polynomials, cofactors: Vec::new() })
 }
@@ -97,27 +96,37 @@ fn embedded(ring: &Ring, parts: Parts) -> Poly {
 
 /// Whether no leading monomial divides one in another tail.
 fn are_reduced(ring: &Ring, elements: &[Parts]) -> bool {
-    let divides = |lead: &Monomial, parts: &Parts| parts[1..].iter().any(|(m, _)| ring.layout().divides(lead, m));
-    elements.iter().enumerate().all(|(index, f)| !elements[..index].iter().any(|g| divides(&g[0].0, f)))
+    elements.iter().enumerate().all(|(index, f)| !elements[..index].iter().any(|g| reduces(ring, g, f)))
+}
+
+/// Whether `g` may reduce the tail of `f`.
+fn reduces(ring: &Ring, g: &Parts, f: &Parts) -> bool {
+    f[1..].iter().any(|(monomial, _)| ring.layout().divides(&g[0].0, monomial))
 }
 
 /// Reduces all tails, smallest element first, on integer coefficients.
-fn reduce_tails(ring: &Ring, elements: Vec<Parts>, watch: &Watch) -> Result<Vec<Parts>> {
+fn reduce_tails(ring: &Ring, line: &Line, elements: Vec<Parts>, watch: &Watch) -> Result<Vec<Parts>> {
     let mut done: Vec<Parts> = Vec::with_capacity(elements.len());
-    for mut parts in elements {
+    let takes_part = |(index, f): (usize, &Parts)| {
+        elements[..index].iter().any(|g| reduces(ring, g, f)) || elements[index..].iter().any(|g| reduces(ring, f, g))
+    };
+    let part: Vec<bool> = elements.iter().enumerate().map(takes_part).collect();
+    for (mut parts, takes_part) in elements.into_iter().zip(part) {
         watch.check()?;
-        make_integral(ring.field().ring(), parts.iter_mut().map(|(_, c)| c).collect());
-        done.push(reduce_tail(ring, parts, &done)?);
+        if takes_part {
+            make_integral(ring.field().ring(), parts.iter_mut().map(|(_, c)| c).collect());
+        }
+        done.push(reduce_tail(ring, line, parts, &done)?);
     }
     Ok(done)
 }
 
 /// Reduces the tail of `f` by the elements `smaller` without fractions: `f` is multiplied instead.
-fn reduce_tail(ring: &Ring, f: Parts, smaller: &[Parts]) -> Result<Parts> {
+fn reduce_tail(ring: &Ring, line: &Line, f: Parts, smaller: &[Parts]) -> Result<Parts> {
     let layout = ring.layout();
     let mut done: Parts = Vec::with_capacity(f.len());
     let mut rest: VecDeque<(Monomial, Ground)> = f.into();
-    let mut is_scaled = false;
+    let mut scales = Vec::new();
     while let Some((monomial, c)) = rest.pop_front() {
         let reducer = smaller.iter().find(|g| layout.divides(&g[0].0, &monomial)).filter(|_| !done.is_empty());
         let Some(reducer) = reducer else {
@@ -125,10 +134,10 @@ fn reduce_tail(ring: &Ring, f: Parts, smaller: &[Parts]) -> Result<Parts> {
             continue;
         };
         let (scale, factor) = cross_factors(ring, &reducer[0].1, c);
-        if let Some(scale) = &scale {
-            let multiply = |(_, c): &mut (Monomial, Ground)| *c = ring.field().ring().mul(c, scale);
+        if let Some(scale) = scale {
+            let multiply = |(_, c): &mut (Monomial, Ground)| *c = ring.field().ring().mul(c, &scale);
             done.iter_mut().chain(&mut rest).for_each(multiply);
-            is_scaled = true;
+            scales.push(scale);
         }
         let shift = layout.checked_div(&monomial, &reducer[0].0).expect("it divides");
         for (other, c) in &reducer[1..] {
@@ -136,7 +145,7 @@ fn reduce_tail(ring: &Ring, f: Parts, smaller: &[Parts]) -> Result<Parts> {
             subtract(ring, &mut rest, product, &ring.field().ring().checked_mul(c, &factor)?);
         }
     }
-    Ok(if is_scaled { without_content(ring, done) } else { done })
+    Ok(if scales.is_empty() { done } else { without_content(ring, line, done, &scales) })
 }
 
 /// What to multiply by, if not one, and how often to subtract a reducer with the coefficient `lead` to make `c` vanish.
@@ -170,97 +179,41 @@ fn subtract(ring: &Ring, parts: &mut VecDeque<(Monomial, Ground)>, monomial: Mon
     }
 }
 
-/// The parts without what divides all of them.
-fn without_content(ring: &Ring, mut parts: Parts) -> Parts {
+/// The parts without what divides all of them, which mostly is a product of these `scales`.
+fn without_content(ring: &Ring, line: &Line, mut parts: Parts, scales: &[Ground]) -> Parts {
     let ground = ring.field().ring();
-    let mut content = parts[0].1.clone();
-    for (_, c) in &parts[1..] {
-        if ground.degree(&content) > 0 {
-            content = gcd(ground, &content, c);
+    let mut bound = line.content_bound(ring, &parts).unwrap_or(usize::MAX);
+    for scale in scales {
+        let degree = ground.degree(scale) as usize;
+        while (1..=bound).contains(&degree)
+            && let Some(quotients) = divided(ground, &parts, scale)
+        {
+            parts.iter_mut().zip(quotients).for_each(|((_, c), quotient)| *c = quotient);
+            bound -= degree;
         }
     }
-    if ground.degree(&content) > 0 {
-        parts.iter_mut().for_each(|(_, c)| *c = ground.exact_div(c, &content).expect("a content divides"));
+    if bound > 0 {
+        let quotients = divided_by_content(ground, &parts);
+        parts.iter_mut().zip(quotients).for_each(|((_, c), quotient)| *c = quotient);
     }
     make_integral(ground, parts.iter_mut().map(|(_, c)| c).collect());
     parts
 }
 
-/// The parameters on a line `offset + t direction` modulo a prime, on which polynomials show that they are coprime.
-struct Line {
-    field: Prime,
-    points: Vec<[u64; 2]>,
+/// All parts divided by `divisor`, if it divides them.
+fn divided(ground: &PolynomialRing<Rationals>, parts: &Parts, divisor: &Ground) -> Option<Vec<Ground>> {
+    parts.iter().map(|(_, c)| ground.exact_div(c, divisor)).collect()
 }
 
-impl Line {
-    fn new(ring: &Ring) -> Self {
-        let field = Prime::new(2_147_483_647);
-        let mut stream = Stream(11);
-        let parameters = ring.field().ring().variables();
-        Line { field, points: parameters.iter().map(|_| [stream.unit(field), stream.unit(field)]).collect() }
-    }
-
-    /// The element over its first coefficient.
-    fn divide_by_first(&self, ring: &Ring, mut parts: Parts) -> Poly {
-        let (field, ground) = (ring.field(), ring.field().ring());
-        let lead = parts[0].1.leading().expect("a leading coefficient is not zero").coefficient.clone();
-        if !ground.field().is_one(&lead) {
-            let inverse = lead.recip();
-            parts.iter_mut().for_each(|(_, c)| *c = ground.scale(c, &inverse));
+/// All parts divided by their greatest common divisor.
+fn divided_by_content(ground: &PolynomialRing<Rationals>, parts: &Parts) -> Vec<Ground> {
+    let mut shortest: Vec<&Ground> = parts.iter().map(|(_, c)| c).collect();
+    shortest.sort_by_key(|c| c.terms().len());
+    let mut content = shortest[0].clone();
+    for c in &shortest[1..] {
+        if ground.degree(&content) > 0 {
+            content = gcd(ground, &content, c);
         }
-        let mut rest = parts.into_iter();
-        let (monomial, divisor) = rest.next().expect("an element is not zero");
-        let restricted = self.restrict(ring, &divisor);
-        let degree = ground.degree(&divisor) as usize;
-        let restricted = restricted.filter(|f| f.len() == degree + 1);
-        let mut terms = vec![Term { coefficient: field.one(), monomial }];
-        for (monomial, c) in rest {
-            let is_coprime = restricted.as_ref().is_some_and(|f| self.are_coprime(f, || self.restrict(ring, &c)));
-            let coefficient = if is_coprime {
-                field.coprime_fraction(c, divisor.clone())
-            } else {
-                field.fraction(&c, &divisor).expect("a leading coefficient is not zero")
-            };
-            terms.push(Term { coefficient, monomial });
-        }
-        ring.descending(terms)
     }
-
-    /// Whether nothing divides both; a common factor of polynomials would show here when `a` keeps its degree on the line.
-    fn are_coprime(&self, a: &[u64], b: impl FnOnce() -> Option<Vec<u64>>) -> bool {
-        if a.len() == 1 {
-            return true;
-        }
-        let gcd = b().and_then(|b| sequence::gcd(self.field, a.to_vec(), b, &Watch::none()).ok());
-        gcd.is_some_and(|gcd| gcd.len() == 1)
-    }
-
-    /// The polynomial in `t` that `f` is on the line; `None` when the prime divides a denominator.
-    fn restrict(&self, ring: &Ring, f: &Ground) -> Option<Vec<u64>> {
-        let ground = ring.field().ring();
-        let mut sum: Vec<u64> = Vec::new();
-        for term in f.terms() {
-            let mut product = vec![defined_image(self.field, &term.coefficient)?];
-            for (variable, &factor) in self.points.iter().enumerate() {
-                for _ in 0..ground.layout().exponent(&term.monomial, variable) {
-                    product = self.times_linear(&product, factor);
-                }
-            }
-            sum.resize(sum.len().max(product.len()), 0);
-            sum.iter_mut().zip(&product).for_each(|(sum, &c)| *sum = self.field.add(*sum, c));
-        }
-        while sum.last() == Some(&0) {
-            sum.pop();
-        }
-        Some(sum)
-    }
-
-    /// `f` times `offset + t direction`.
-    fn times_linear(&self, f: &[u64], [offset, direction]: [u64; 2]) -> Vec<u64> {
-        let coefficient = |k: usize| {
-            let (own, lower) = (f.get(k).map_or(0, |c| c * offset), if k > 0 { f[k - 1] * direction } else { 0 });
-            self.field.reduce(own + lower)
-        };
-        (0..=f.len()).map(coefficient).collect()
-    }
+    divided(ground, parts, &content).expect("a content divides")
 }

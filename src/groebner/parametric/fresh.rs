@@ -8,7 +8,7 @@ use super::lift::{Primes, image};
 use super::modular::{Equations, admit, image_of};
 use super::prime::{Prime, Stream};
 use super::{Ideal, Poly};
-use crate::groebner::f4;
+use crate::groebner::f4::leading_monomials;
 use crate::number::{BigRational, Zp};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
 use crate::{Result, Watch};
@@ -19,7 +19,7 @@ const ATTEMPTS: usize = 10;
 /// Whether the basis at a random point modulo the next prime has the leading monomials `leads`, smallest first; the parameters are free.
 ///
 /// # Errors
-/// Those of [`f4()`].
+/// Those of [`crate::groebner::f4()`].
 pub(super) fn has_leads<'a>(
     ideal: &Ideal<'_>,
     leads: impl Iterator<Item = &'a Monomial> + Clone,
@@ -31,13 +31,10 @@ pub(super) fn has_leads<'a>(
     for _ in 0..ATTEMPTS {
         let field = primes.next_prime();
         let point: Vec<u64> = ring.field().ring().variables().iter().map(|_| stream.unit(field)).collect();
-        let order = ring.layout().order().clone();
-        let target = PolynomialRing::new(Zp::known_prime(field.p), ring.variables(), order)?;
-        let target = target.with_width(ring.layout().width());
+        let target = ring.over(Zp::known_prime(field.p));
         let at_point = |f: &Poly| generator_at(ideal, &target, f, field, &point);
         if let Some(generators) = ideal.generators.iter().map(at_point).collect::<Option<Vec<_>>>() {
-            let basis = f4(&target, &generators, watch)?;
-            return Ok(basis.polynomials.iter().map(|f| &f.terms()[0].monomial).eq(leads));
+            return Ok(leading_monomials(&target, &generators, watch)?.iter().eq(leads));
         }
     }
     Ok(false)
@@ -46,7 +43,7 @@ pub(super) fn has_leads<'a>(
 /// Whether the basis with the parameters as variables has the leading monomials of `basis` modulo the next prime, too.
 ///
 /// # Errors
-/// Those of [`f4()`].
+/// Those of [`crate::groebner::f4()`].
 pub(super) fn has_leads_with_variables(
     ideal: &Ideal<'_>,
     equations: &Equations,
@@ -57,9 +54,8 @@ pub(super) fn has_leads_with_variables(
     let field = primes.next_that(|field| admit(equations, field));
     let flat = flat_ring(ideal.ring, Zp::known_prime(field.p))?;
     let image = image_of(&flat, equations, field).expect("a prime that divides no coefficient");
-    let again = f4(&flat, &image, watch)?;
-    let lead = |f: &Polynomial<u64>| f.terms()[0].monomial.clone();
-    Ok(again.polynomials.iter().map(lead).eq(basis.iter().map(lead)))
+    let again = leading_monomials(&flat, &image, watch)?;
+    Ok(again.iter().eq(basis.iter().map(|f| &f.terms()[0].monomial)))
 }
 
 /// A generator at a point; `None` where a coefficient vanishes or is not defined.

@@ -16,7 +16,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 const SHORTEST: usize = 4;
 const MOST_LINES: usize = 1 << 14;
 /// The most nodes on a line.
-const MOST_NODES: usize = 256;
+pub(super) const MOST_NODES: usize = 256;
 
 /// What the first prime taught: a pattern and its factors for each function.
 #[derive(Clone, Debug)]
@@ -43,23 +43,6 @@ pub(super) fn learn(functions: &impl Functions, watch: &Watch) -> Result<Learned
     }
     let text = "the coefficients are too dense to be interpolated; compute over the fractions instead";
     Err(Error::new(ErrorKind::Unsupported, text))
-}
-
-/// An estimate of the points that interpolation takes: twice the square of those on the first line, for as many lines as a line has points
-/// settle the functions, half of the time with other weights.
-///
-/// # Errors
-/// What `watch` stops with.
-pub(super) fn points(functions: &impl Functions, watch: &Watch) -> Result<usize> {
-    if functions.count() == 0 {
-        return Ok(0);
-    }
-    let [prime, ..] = SmoothPrime::all();
-    let mut search = Search::new(functions, prime, 0);
-    let mut lines = search.lines(weight_vectors(functions.parameters()).swap_remove(0));
-    let is_found = search.find_degrees(&mut lines, watch)?;
-    let count = lines.nodes.filter(|_| is_found).map_or(MOST_NODES, |nodes| nodes.count());
-    Ok(2 * count * count)
 }
 
 /// The sequences of lines with the same weights.
@@ -364,7 +347,7 @@ fn outer_places(quotient: &Quotient) -> Vec<Place> {
 
 /// Weights in the order in which they are tried: single variables when there are few; else different weights for all variables, which
 /// mostly single out a corner of every support; then larger ones at random.
-fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
+pub(super) fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
     let mut stream = Stream(1);
     if parameters <= 2 {
         let unit = |v: usize| (0..parameters).map(|k| u32::from(k == v)).collect();

@@ -100,17 +100,19 @@ pub(super) fn image(field: Prime, q: &BigRational) -> u64 {
 /// A rational number modulo a prime; `None` when that divides its denominator.
 pub(super) fn defined_image(field: Prime, q: &BigRational) -> Option<u64> {
     let integer = |n: &BigInt| {
-        if let Some(small) = n.to_i64() {
-            return small.rem_euclid(field.p as i64) as u64;
-        }
-        let digits = (n.magnitude() % field.p).to_u64_digits();
-        let magnitude = digits.first().copied().unwrap_or(0);
+        let magnitude = match n.magnitude().to_u64() {
+            Some(small) => field.reduce(small),
+            None => (n.magnitude() % field.p).to_u64().expect("a residue of a word"),
+        };
         if n.sign() == Sign::Minus { field.neg(magnitude) } else { magnitude }
     };
-    match (integer(q.numer()), integer(q.denom())) {
-        (_, 0) => None,
-        (numerator, 1) => Some(numerator),
-        (numerator, denominator) => Some(field.mul(numerator, field.inverse(denominator))),
+    let numerator = integer(q.numer());
+    if q.is_integer() {
+        return Some(numerator);
+    }
+    match integer(q.denom()) {
+        0 => None,
+        denominator => Some(field.mul(numerator, field.inverse(denominator))),
     }
 }
 

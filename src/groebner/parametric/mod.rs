@@ -4,13 +4,16 @@
 //! evaluation at many points modulo primes and interpolation of the coefficients. `docs/parametric_bases.md` tells how they work and how one is chosen.
 
 mod assemble;
+mod estimate;
 mod flat;
 mod fresh;
 mod learn;
 mod lift;
 mod line;
 mod modular;
+mod on_a_line;
 mod pattern;
+mod pilot;
 mod prime;
 mod sequence;
 mod system;
@@ -22,6 +25,7 @@ use super::Basis;
 use crate::number::{BigRational, Rationals, Ring as _};
 use crate::poly::{Fraction, Fractions, Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result, Watch};
+use pilot::Pilot;
 
 type Ring = PolynomialRing<Fractions<Rationals>>;
 type Poly = Polynomial<Fraction<BigRational>>;
@@ -94,29 +98,15 @@ fn by_the_fastest(ideal: &Ideal<'_>, watch: &Watch) -> Result<Parametric> {
     if is_refused { by_way(ideal, if free { Way::Direct } else { Way::Variables }, watch) } else { outcome }
 }
 
-/// [`Way::Modular`] within the terms that it is worth, then [`Way::Interpolation`].
+/// [`Way::Modular`] within the terms that it is worth, else [`Way::Interpolation`].
 fn by_points_or_modular(ideal: &Ideal<'_>, watch: &Watch) -> Result<Parametric> {
-    if let Some(found) = modular_within(ideal, FEW_TERMS, watch) {
-        return found;
-    }
-    let system = system::System::new(ideal, watch)?;
-    let worth = learn::points(&system, watch)?.saturating_mul(system.terms()) / TERMS_OF_POINTS;
-    if worth > FEW_TERMS
-        && let Some(found) = modular_within(ideal, worth, watch)
-    {
-        return found;
-    }
-    let basis = at_points(ideal, &system, watch)?;
-    Ok(Parametric { basis, way: Way::Interpolation, exact: false })
-}
-
-/// The outcome of [`Way::Modular`] unless it takes more than `terms` terms and `watch` would allow that.
-fn modular_within(ideal: &Ideal<'_>, terms: usize, watch: &Watch) -> Option<Result<Parametric>> {
-    if watch.check_terms(terms).is_err() {
-        return Some(by_way(ideal, Way::Modular, watch));
-    }
-    let outcome = by_way(ideal, Way::Modular, &watch.clone().with_terms(terms));
-    if ends_with(&outcome, ErrorKind::Budget) { None } else { Some(outcome) }
+    let mut pilot = Pilot::bounded(ideal, watch);
+    let outcome = modular::rebuilt_basis(ideal, &mut pilot, watch);
+    let (basis, way) = match pilot.into_refused() {
+        Some(system) => (at_points(ideal, &system, watch)?, Way::Interpolation),
+        None => (outcome?, Way::Modular),
+    };
+    Ok(Parametric { basis, way, exact: false })
 }
 
 fn ends_with(outcome: &Result<Parametric>, kind: ErrorKind) -> bool {
@@ -127,7 +117,7 @@ fn by_way(ideal: &Ideal<'_>, way: Way, watch: &Watch) -> Result<Parametric> {
     let found = match way {
         Way::Direct => super::basis(ideal.ring, ideal.generators, &super::Options::default(), watch),
         Way::Variables => variables::basis_with_variables(ideal, watch),
-        Way::Modular => modular::rebuilt_basis(ideal, watch),
+        Way::Modular => modular::rebuilt_basis(ideal, &mut Pilot::unbounded(ideal, watch), watch),
         Way::Interpolation => interpolated(ideal, watch),
     };
     Ok(Parametric { basis: found?, way, exact: matches!(way, Way::Direct | Way::Variables) })

@@ -7,8 +7,9 @@
 use super::assemble::{Element, assemble};
 use super::flat::{equations, flat_ring};
 use super::lift::{Primes, Residues, image};
+use super::pilot::Pilot;
 use super::prime::Prime;
-use super::{Ideal, Ring, fresh, is_free};
+use super::{Ideal, fresh, is_free};
 use crate::groebner::Basis;
 use crate::groebner::f4::Trace;
 use crate::number::{BigRational, Rationals, Zp};
@@ -25,23 +26,31 @@ pub(super) type Equations = Vec<Vec<Term<BigRational>>>;
 /// The reduced basis over the rational functions.
 ///
 /// # Errors
-/// Those of F4; [`ErrorKind::Unsupported`] when too many primes are unlucky.
-pub(super) fn rebuilt_basis(ideal: &Ideal<'_>, watch: &Watch) -> Result<Basis<Fractions<Rationals>>> {
+/// Those of F4; [`ErrorKind::Unsupported`] when too many primes are unlucky; what `pilot` stops with.
+pub(super) fn rebuilt_basis(
+    ideal: &Ideal<'_>,
+    pilot: &mut Pilot<'_>,
+    watch: &Watch,
+) -> Result<Basis<Fractions<Rationals>>> {
     let mut primes = Primes::new();
-    let equations = equations(ideal, &flat_ring(ideal.ring, Rationals)?)?;
+    let rational = flat_ring(ideal.ring, Rationals)?;
+    let equations = equations(ideal, &rational)?;
     for _ in 0..TEACHERS {
         let teacher = primes.next_that(|field| admit(&equations, field));
-        let flat = flat_ring(ideal.ring, Zp::known_prime(teacher.p))?;
+        let flat = rational.over(Zp::known_prime(teacher.p));
         let image = image_of(&flat, &equations, teacher).expect("a prime that divides no coefficient");
-        let (basis, trace) = Trace::learn(&flat, &image, watch)?;
-        let chosen = minimal_elements(ideal.ring, &flat, &basis.polynomials);
+        let (basis, trace) = Trace::learn_guided(&flat, &image, pilot, watch)?;
+        let leads = basis.polynomials.iter().map(|f| flat.layout().exponents(&f.terms()[0].monomial));
+        let chosen = minimal(ideal.ring.variables().len(), &leads.collect::<Vec<_>>());
         let seen = coefficients(&chosen, &basis.polynomials);
         if let Some(values) = rebuild(&equations, &trace, &chosen, (teacher, &seen), &mut primes, watch)? {
             let elements = chosen.iter().map(|&index| &basis.polynomials[index]);
             let elements = elements.map(|f| Element::new(ideal.ring, &flat, f));
             let found = assemble(ideal.ring, elements, values, watch)?;
-            let is_confirmed = if is_free(ideal) {
-                let leads = found.polynomials.iter().map(|f| &f.terms()[0].monomial);
+            let leads = found.polynomials.iter().map(|f| &f.terms()[0].monomial);
+            let is_confirmed = if let Some(known) = pilot.leads() {
+                known.eq(leads)
+            } else if is_free(ideal) {
                 fresh::has_leads(ideal, leads, &mut primes, watch)?
             } else {
                 fresh::has_leads_with_variables(ideal, &equations, &basis.polynomials, &mut primes, watch)?
@@ -64,20 +73,17 @@ pub(super) fn image_of(flat: &PolynomialRing<Zp>, equations: &Equations, field: 
     equations.iter().map(image).collect()
 }
 
-/// The elements without unknowns, which relations of the parameters reduce to zero or which make the ideal the whole ring, and of the
-/// others those whose leading monomial in the unknowns no smaller one divides.
-fn minimal_elements(ring: &Ring, flat: &PolynomialRing<Zp>, basis: &[Polynomial<u64>]) -> Vec<usize> {
-    let mut leads: Vec<Vec<u32>> = Vec::with_capacity(basis.len());
-    let mut chosen = Vec::with_capacity(basis.len());
-    for (index, f) in basis.iter().enumerate() {
-        let mut lead = flat.layout().exponents(&f.terms()[0].monomial);
-        lead.truncate(ring.variables().len());
-        let is_free = lead.iter().all(|&e| e == 0);
-        if is_free || !leads.iter().any(|other| other.iter().zip(&lead).all(|(a, b)| a <= b)) {
+/// Of elements with leading monomials of these exponents, smallest first: those without any of the `unknowns` first variables, which relations
+/// of the parameters reduce to zero or which make the ideal the whole ring, and of the others those whose leading monomial in the
+/// unknowns no smaller one divides.
+pub(super) fn minimal(unknowns: usize, leads: &[Vec<u32>]) -> Vec<usize> {
+    let mut chosen: Vec<usize> = Vec::with_capacity(leads.len());
+    for (index, lead) in leads.iter().enumerate() {
+        let part = |index: usize| &leads[index][..unknowns];
+        let is_constant = |index: usize| part(index).iter().all(|&e| e == 0);
+        let divides = |&other: &usize| !is_constant(other) && part(other).iter().zip(lead).all(|(a, b)| a <= b);
+        if is_constant(index) || !chosen.iter().any(divides) {
             chosen.push(index);
-            if !is_free {
-                leads.push(lead);
-            }
         }
     }
     chosen

@@ -6,7 +6,7 @@ use super::prime::{Prime, Stream};
 use super::{Ideal, Ring, fresh};
 use crate::groebner::f4::Trace;
 use crate::number::{BigRational, Ring as _, Zp};
-use crate::poly::{Monomial, Polynomial, PolynomialRing, gcd};
+use crate::poly::{Monomial, Polynomial, gcd};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// How many points are evaluated at once.
@@ -61,6 +61,11 @@ impl System {
 }
 
 impl System {
+    /// The leading monomials of the basis, smallest first.
+    pub fn leads(&self) -> impl Iterator<Item = &Monomial> + Clone {
+        self.supports.iter().map(|support| &support[0])
+    }
+
     /// The terms that the basis at one point takes.
     pub fn terms(&self) -> usize {
         self.trace.terms()
@@ -106,9 +111,7 @@ fn learn(
     field: Prime,
     watch: &Watch,
 ) -> Result<Option<(Trace, Vec<Vec<Monomial>>)>> {
-    let zp = Zp::new(field.p)?;
-    let target =
-        PolynomialRing::new(zp, ring.variables(), ring.layout().order().clone())?.with_width(ring.layout().width());
+    let target = ring.over(Zp::known_prime(field.p));
     let mut images = Vec::new();
     for (f, values) in generators.iter().zip(values) {
         if values.iter().any(|lanes| lanes[0] == 0) {

@@ -1,0 +1,81 @@
+//! An estimate of the points that interpolation takes, as far as the caller wants to know it.
+
+use super::learn::{MOST_NODES, weight_vectors};
+use super::line::Nodes;
+use super::pattern::{Functions, distinct_units, points_on_lines};
+use super::prime::{Prime, SmoothPrime, Stream};
+use crate::{Result, Watch};
+
+/// Nodes that are looked at together.
+const STEP: usize = 8;
+
+/// The values of all functions on one line, at as many nodes as were asked for.
+pub(super) struct Estimate {
+    field: Prime,
+    nodes: Vec<u64>,
+    weights: Vec<u32>,
+    direction: Vec<u64>,
+    values: Vec<Vec<u64>>,
+    /// The function that showed last that there were not enough nodes.
+    hardest: usize,
+    /// The nodes that all functions need, when it is known.
+    needed: Option<usize>,
+}
+
+impl Estimate {
+    /// Nothing is known yet of functions of so many parameters.
+    pub fn new(parameters: usize) -> Self {
+        let [prime, ..] = SmoothPrime::all();
+        let (field, mut stream) = (prime.field, Stream(0));
+        let nodes = distinct_units(field, &mut stream, MOST_NODES);
+        let direction = (0..parameters).map(|_| stream.unit(field)).collect();
+        let weights = weight_vectors(parameters).swap_remove(0);
+        Estimate { field, nodes, weights, direction, values: Vec::new(), hardest: 0, needed: None }
+    }
+
+    /// Twice the square of the nodes that one line takes, for as many lines as a line has nodes settle the functions, half of the time
+    /// with other weights. Where that is `enough` or more: at least so many.
+    ///
+    /// # Errors
+    /// What `watch` stops with.
+    pub fn points(&mut self, functions: &impl Functions, enough: usize, watch: &Watch) -> Result<usize> {
+        let most = enough.div_ceil(2).isqrt().saturating_add(1).min(MOST_NODES);
+        while self.needed.is_none() && self.values.len() < most && functions.count() > 0 {
+            if !self.extend(functions, watch)? {
+                break;
+            }
+        }
+        let count = if functions.count() == 0 { 0 } else { self.needed.unwrap_or(most.max(self.values.len())) };
+        Ok(2 * count * count)
+    }
+
+    /// Looks at more nodes; `false` where a function has no value.
+    fn extend(&mut self, functions: &impl Functions, watch: &Watch) -> Result<bool> {
+        let (first, ones) = (self.values.len(), vec![1; self.weights.len()]);
+        let next = if first < 4 * STEP { first + STEP } else { 2 * first };
+        let nodes = &self.nodes[first..next.min(MOST_NODES)];
+        let points = points_on_lines(nodes, self.field, &self.weights, (&self.direction, &ones), 0..1);
+        for row in functions.values(self.field, &points, watch)? {
+            let Some(row) = row else { return Ok(false) };
+            self.values.push(row);
+        }
+        self.needed = self.nodes_needed(functions.count());
+        Ok(true)
+    }
+
+    /// The nodes that all functions need; `None` when there are not enough.
+    fn nodes_needed(&mut self, count: usize) -> Option<usize> {
+        let nodes = Nodes::new(self.field, self.nodes[..self.values.len()].to_vec());
+        let mut needed = 1;
+        for f in (self.hardest..count).chain(0..self.hardest) {
+            let values: Vec<u64> = self.values.iter().map(|row| row[f]).collect();
+            let Some(quotient) = nodes.quotient(&values) else {
+                self.hardest = f;
+                return None;
+            };
+            let (top, bottom) = quotient.degrees();
+            needed = needed.max(top + bottom + 1);
+        }
+        Some(needed)
+    }
+}
