@@ -25,7 +25,7 @@ pub struct Arguments {
     input: PathBuf,
     #[command(flatten)]
     ends: EndArguments,
-    /// LaTeX, an article that needs amsmath only, instead of Markdown
+    /// LaTeX, an article that needs no package beyond amsmath and geometry, instead of Markdown
     #[arg(long)]
     latex: bool,
     /// The file to write to, instead of standard output

@@ -67,8 +67,9 @@ impl Ends {
         let mut ends = Ends { base: name("base")?, tip: name("tip")?, given: read_given(root)?, ..Ends::default() };
         ends.snap = root.optional("snap").map(|node| node.exact()).transpose()?;
         if let Some(node) = root.optional("task") {
-            let (task, direction) = read_task(node.table()?)?;
-            (ends.task, ends.direction) = (Some(task), task.aims().then_some(direction));
+            let table = node.table()?;
+            let (task, direction) = read_task(table)?;
+            (ends.task, ends.direction) = (Some(task), table.optional("direction").map(|_| direction));
         }
         Ok(ends)
     }

@@ -1,5 +1,6 @@
 //! The program itself, as a person or a script runs it.
 
+mod asked;
 mod basis;
 mod check;
 mod derive;

@@ -57,8 +57,7 @@ fn every_task_file_is_read_as_it_was_written() {
     for task in tasks {
         let snap = Some(groebot::number::parse_rational("1e-5").unwrap());
         let ends = Ends { base: Some("a \"b\" \\".into()), task: Some(task), snap, ..Ends::default() };
-        let read = Ends::from_toml(&ends.to_toml()).unwrap();
-        assert_eq!((read.base, read.task, read.snap), (ends.base, ends.task, ends.snap));
+        assert_eq!(Ends::from_toml(&ends.to_toml()).unwrap(), ends);
     }
     assert_eq!(Ends::from_toml("").unwrap(), Ends::default());
     assert_eq!(Ends::default().to_toml(), "");

@@ -1,5 +1,7 @@
 //! Real solutions of systems: numbers of real solutions from elsewhere, planted solutions, exact signs.
 
+mod sixteen;
+
 use std::cmp::Ordering;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;

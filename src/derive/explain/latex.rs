@@ -1,17 +1,22 @@
-//! A [`Document`] as a LaTeX article that needs amsmath only.
+//! A [`Document`] as a LaTeX article that needs no package beyond amsmath and geometry.
 
 use super::document::{Document, Line, Part, Span, broken};
 use crate::poly::latex_name;
 
 /// The longest line of a formula that stands alone, in typeset characters.
-const WIDTH: usize = 62;
+const WIDTH: usize = 74;
+/// The widest table whose last column needs no breaks, in characters.
+const TABLE_WIDTH: usize = 88;
+/// The narrowest last column, in characters.
+const COLUMN: usize = 20;
 
 impl Document {
     /// The report as LaTeX: a whole article.
     pub fn to_latex(&self) -> String {
         let mut text = String::from(
-            "\\documentclass[11pt,a4paper]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n\
-             \\usepackage{amsmath}\n\\allowdisplaybreaks\n\\emergencystretch=3em\n\n",
+            "\\documentclass[11pt,a4paper]{article}\n\\usepackage[margin=25mm]{geometry}\n\\usepackage[T1]{fontenc}\n\
+             \\usepackage[utf8]{inputenc}\n\\IfFileExists{lmodern.sty}{\\usepackage{lmodern}}{}\n\\usepackage{amsmath}\n\
+             \\allowdisplaybreaks\n\\emergencystretch=3em\n\n",
         );
         text += &format!(
             "\\title{{{}}}\n\\author{{}}\n\\date{{}}\n\n\\begin{{document}}\n\\maketitle\n",
@@ -57,23 +62,44 @@ fn equation(number: &str, formula: &str) -> String {
     }
 }
 
-/// Under a rule below the head.
+/// With a rule below the head.
 fn table(rows: &[Vec<Line>]) -> String {
-    let columns = "l".repeat(rows.first().map_or(0, Vec::len));
     let row = |cells: &Vec<Line>| cells.iter().map(line).collect::<Vec<_>>().join(" & ") + " \\\\\n";
+    let columns = columns(rows);
     let mut rows: Vec<String> = rows.iter().map(row).collect();
-    rows.insert(rows.len().min(1), "\\hline\n".to_owned());
+    rows.insert(rows.len().min(1), "\\hline\\noalign{\\smallskip}\n".to_owned());
     format!(
         "\\begin{{center}}\n\\small\n\\begin{{tabular}}{{{columns}}}\n{}\\end{{tabular}}\n\\end{{center}}",
         rows.concat()
     )
 }
 
+/// As wide as their cells; of a table that would be too wide, the last one takes what the others leave, and breaks its lines.
+fn columns(rows: &[Vec<Line>]) -> String {
+    let count = rows.first().map_or(0, Vec::len);
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(seen).max().unwrap_or(0) + 2;
+    let others: usize = (0..count.saturating_sub(1)).map(width).sum();
+    if count == 0 || others + width(count - 1) <= TABLE_WIDTH {
+        return "l".repeat(count);
+    }
+    let share = TABLE_WIDTH.saturating_sub(others).max(COLUMN) as f64 / TABLE_WIDTH as f64;
+    format!("{}p{{{share:.2}\\textwidth}}", "l".repeat(count - 1))
+}
+
+/// About how many characters of a line are seen.
+fn seen(line: &Line) -> usize {
+    let span = |span: &Span| match span {
+        Span::Words(text) | Span::Name(text) => text.chars().count(),
+        Span::Formula(text) => visible(text),
+    };
+    line.0.iter().map(span).sum()
+}
+
 fn line(line: &Line) -> String {
     let span = |span: &Span| match span {
         Span::Words(text) => escaped(text),
         Span::Name(text) => format!("\\texttt{{{}}}", escaped(text)),
-        Span::Formula(text) => format!("${}$", typeset(text)),
+        Span::Formula(text) => format!("${}$", typeset(text).replace(", ", ", \\allowbreak ")),
     };
     line.0.iter().map(span).collect()
 }
@@ -130,6 +156,7 @@ fn token(rest: &str, c: char) -> (usize, String) {
             let digits = rest[1 + sign..].find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len() - 1 - sign);
             (1 + sign + digits, format!("^{{{}}}", &rest[1..1 + sign + digits]))
         }
+        '*' if rest[1..].starts_with(|c: char| c.is_ascii_digit()) => (1, " \\cdot ".to_owned()),
         '*' => (1, "\\,".to_owned()),
         '{' | '}' | '_' | '%' | '&' | '#' | '$' => (1, format!("\\{c}")),
         '\\' => (1, "\\backslash ".to_owned()),

@@ -1,0 +1,216 @@
+//! What is asked of a URDF on the command line, `--base`, `--tip`, `--task`, `--direction`, `--free` and `--snap`: derived, kept in the
+//! folder, and solved as the screw solver of `groebot ik` solves it.
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use tempfile::{TempDir, tempdir};
+
+use super::{content, refused, root, run, succeed, text};
+
+fn urdf(name: &str) -> String {
+    text(&root("tests/corpus/urdf").join(name)).to_owned()
+}
+
+/// A seven-joint arm like KUKA's LBR iiwa 14 (R820) whose three axes meet in the shoulder, in the elbow and in the wrist.
+const SEVEN: &str = r#"<robot name="seven"><link name="base"/>
+<link name="l1"/><joint name="A1" type="continuous"><parent link="base"/><child link="l1"/><origin xyz="0 0 0.36"/><axis xyz="0 0 1"/></joint>
+<link name="l2"/><joint name="A2" type="continuous"><parent link="l1"/><child link="l2"/><axis xyz="0 1 0"/></joint>
+<link name="l3"/><joint name="A3" type="continuous"><parent link="l2"/><child link="l3"/><axis xyz="0 0 1"/></joint>
+<link name="l4"/><joint name="A4" type="continuous"><parent link="l3"/><child link="l4"/><origin xyz="0 0 0.42"/><axis xyz="0 -1 0"/></joint>
+<link name="l5"/><joint name="A5" type="continuous"><parent link="l4"/><child link="l5"/><axis xyz="0 0 1"/></joint>
+<link name="l6"/><joint name="A6" type="continuous"><parent link="l5"/><child link="l6"/><origin xyz="0 0 0.4"/><axis xyz="0 1 0"/></joint>
+<link name="l7"/><joint name="A7" type="continuous"><parent link="l6"/><child link="l7"/><axis xyz="0 0 1"/></joint>
+<link name="tool"/><joint name="flange" type="fixed"><parent link="l7"/><child link="tool"/><origin xyz="0 0 0.126"/></joint></robot>"#;
+
+/// What is asked, as both commands take it.
+struct Asked<'a> {
+    robot: &'a str,
+    ends: &'a [&'a str],
+}
+
+impl Asked<'_> {
+    /// Derives into a fresh folder, which `check` must pass.
+    fn derive(&self) -> TempDir {
+        let folder = tempdir().unwrap();
+        let out = ["--quiet", "--out", text(folder.path())];
+        assert_eq!(succeed(&[&["derive", self.robot], self.ends, &out].concat()), "");
+        succeed(&["check", text(folder.path())]);
+        folder
+    }
+
+    /// The answers of the derived program to `target` are those of the screw solver, `count` of them.
+    fn assert_solves(&self, folder: &Path, target: &str, count: usize) {
+        let derived = solutions(&succeed(&["solve", text(folder), "--json", "--target", target]));
+        let screw = solutions(&succeed(&[&["ik", self.robot, "--json", "--target", target], self.ends].concat()));
+        assert_eq!((derived.len(), screw.len()), (count, count), "{target}");
+        for q in &derived {
+            assert_eq!(screw.iter().filter(|other| distance(q, other) < 1e-9).count(), 1, "{q:?} in {screw:?}");
+        }
+    }
+}
+
+/// The joint vectors of an answer in JSON \[rad\].
+fn solutions(page: &str) -> Vec<Vec<f64>> {
+    let answer: Value = serde_json::from_str(page).unwrap();
+    let joints = |solution: &Value| solution["q"].as_array().unwrap().iter().map(|q| q.as_f64().unwrap()).collect();
+    answer["solutions"].as_array().unwrap().iter().map(joints).collect()
+}
+
+/// The greatest difference of two joint vectors, whole turns apart.
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let difference = |(a, b): (&f64, &f64)| (a - b - TAU * ((a - b) / TAU).round()).abs();
+    a.iter().zip(b).map(difference).fold(0.0, f64::max)
+}
+
+fn task_file(folder: &TempDir) -> String {
+    fs::read_to_string(folder.path().join("0_task.toml")).unwrap()
+}
+
+#[test]
+fn a_leg_between_two_links() {
+    let robot = urdf("nao.urdf");
+    let leg = Asked { robot: &robot, ends: &["--base", "torso", "--tip", "l_sole"] };
+    let folder = leg.derive();
+    assert_eq!(task_file(&folder), "base = \"torso\"\ntip = \"l_sole\"\n");
+    leg.assert_solves(folder.path(), "0.02,0.06,-0.29,0,0.1,0,0.99498743710662", 8);
+    leg.assert_solves(folder.path(), "0,0.05,1,0,0,0,1", 0);
+}
+
+#[test]
+fn a_robot_of_one_chain_needs_no_task_file() {
+    let robot = urdf("ur5.urdf");
+    let arm = Asked { robot: &robot, ends: &[] };
+    let folder = arm.derive();
+    assert!(!content(folder.path()).contains_key("0_task.toml"));
+    arm.assert_solves(folder.path(), "0.3,0.2,0.4,0,0.6,0,0.8", 8);
+}
+
+/// The robot that [`SEVEN`] describes, in a folder of its own.
+fn seven() -> (TempDir, String) {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("seven.urdf");
+    fs::write(&file, SEVEN).unwrap();
+    let name = text(&file).to_owned();
+    (folder, name)
+}
+
+#[test]
+fn a_ray_along_the_direction_that_is_asked() {
+    let (_kept, robot) = seven();
+    let ends = ["--tip", "l6", "--task", "ray", "--direction", "1/2,0,1", "--free", "A3"];
+    let arm = Asked { robot: &robot, ends: &ends };
+    let folder = arm.derive();
+    let asked = "given = [\"A3\"]\n\n[task]\nkind = \"ray\"\ndirection = [\"1/2\", \"0\", \"1\"]\n";
+    assert_eq!(task_file(&folder), format!("tip = \"l6\"\n{asked}"));
+    arm.assert_solves(folder.path(), "0.3,0.2,0.7,0.6,0,0.8,0.3", 8);
+}
+
+#[test]
+fn a_position_with_given_joints() {
+    let robot = urdf("nao.urdf");
+    let ends =
+        ["--base", "torso", "--tip", "l_hand", "--task", "position", "--given", "LElbowYaw", "--given", "LWristYaw"];
+    let arm = Asked { robot: &robot, ends: &ends };
+    let folder = arm.derive();
+    assert!(task_file(&folder).contains("given = [\"LElbowYaw\", \"LWristYaw\"]\n\n[task]\nkind = \"position\"\n"));
+    arm.assert_solves(folder.path(), "0.1,0.15,0.1,-0.4,0.2", 4);
+}
+
+#[test]
+fn seven_joints_with_one_of_them_free() {
+    let (_kept, robot) = seven();
+    let arm = Asked { robot: &robot, ends: &["--free", "A3"] };
+    arm.assert_solves(arm.derive().path(), "0.4,0.1,0.6,0,0.6,0,0.8,0.3", 8);
+    let out = tempdir().unwrap();
+    let error = refused(&["derive", &robot, "--out", text(out.path())]);
+    assert!(error.contains("some of the 7 unknown joints free") && error.contains("`A3`"), "{error}");
+}
+
+/// The elbow of a UR5 turned by 1e-5 rad has nothing in common with its neighbours; the ideal robot is the UR5 itself.
+#[test]
+fn axes_that_almost_meet_do_so_within_the_tolerance() {
+    let folder = tempdir().unwrap();
+    let exact = fs::read_to_string(urdf("ur5.urdf")).unwrap();
+    let (head, elbow) = exact.split_at(exact.find("name=\"elbow\"").unwrap());
+    let file = folder.path().join("rounded.urdf");
+    fs::write(&file, head.to_owned() + &elbow.replacen("xyz=\"0 0 1\"", "xyz=\"0 0.00001 1\"", 1)).unwrap();
+    for more in [&[][..], &["--snap", "1e-9"]] {
+        let error = refused(&[&["derive", text(&file), "--out", text(folder.path())], more].concat());
+        assert!(error.contains("16 complex solutions") && error.contains("joints 1-2-3, 2-3-4"), "{error}");
+    }
+    let page = succeed(&["info", text(&file), "--snap", "5e-5"]);
+    assert!(
+        page.contains("joints 2-3 are almost parallel")
+            && page.contains("2-4  shoulder_lift, elbow, wrist_1  parallel axes"),
+        "{page}"
+    );
+    let robot = urdf("ur5.urdf");
+    let arm = Asked { robot: &robot, ends: &["--snap", "5e-5"] };
+    let folder = arm.derive();
+    assert_eq!(task_file(&folder), "snap = \"1/20000\"\n");
+    let solved = solutions(&succeed(&["solve", text(folder.path()), "--json", "--target", "0.3,0.2,0.4,0,0.6,0,0.8"]));
+    assert_eq!(solved.len(), 8);
+}
+
+/// A folder keeps what was asked: deriving it again asks the same, and writes the same bytes.
+#[test]
+fn the_folder_is_derived_again_as_it_was_asked() {
+    let robot = urdf("nao.urdf");
+    let folder = Asked { robot: &robot, ends: &["--tip", "Head", "--base", "torso", "--task", "direction"] }.derive();
+    let before = content(folder.path());
+    assert_eq!(succeed(&["derive", text(folder.path()), "--quiet"]), "");
+    assert_eq!(content(folder.path()), before);
+}
+
+#[test]
+fn what_the_robot_does_not_have_is_refused() {
+    let robot = urdf("nao.urdf");
+    let out = tempdir().unwrap();
+    let derive = |ends: &[&str]| refused(&[&["derive", &robot, "--out", text(out.path())], ends].concat());
+    let arm = ["--base", "torso", "--tip", "l_hand"];
+    let with = |more: &[&str]| derive(&[&arm, more].concat());
+    let cases = [
+        (derive(&["--tip", "nose"]), &["`nose`"][..]),
+        (derive(&["--base", "torso", "--tip", "torso"]), &["torso"]),
+        (derive(&[]), &["several ends", "choose a tip link"]),
+        (with(&["--free", "LElbow"]), &["`LElbow`", "`LElbowYaw`"]),
+        (with(&["--free", "LElbowYaw", "--free", "LElbowYaw"]), &["`LElbowYaw`", "twice"]),
+        (with(&["--direction", "1,0,0"]), &["`pose`", "aims no direction"]),
+        (with(&["--task", "ray", "--direction", "0,0,0"]), &["direction"]),
+        (with(&["--snap", "0.2"]), &["tolerance", "from 0 to 0.1"]),
+        (with(&["--snap=-1"]), &["tolerance", "from 0 to 0.1"]),
+    ];
+    for (error, words) in cases {
+        assert!(words.iter().all(|word| error.contains(word)), "{words:?}: {error}");
+    }
+    assert!(content(out.path()).is_empty(), "nothing is written");
+}
+
+#[test]
+fn what_is_no_option_ends_with_the_usage() {
+    let robot = urdf("ur5.urdf");
+    for wrong in [
+        ["--task", "dance"],
+        ["--task", "planar_pose"],
+        ["--direction", "1,0"],
+        ["--direction", "1,0,up"],
+        ["--snap", "little"],
+        ["--snap", "inf"],
+    ] {
+        let ran = run(&[&["derive", &robot], &wrong[..]].concat());
+        assert!(ran.code == 2 && ran.out.is_empty() && ran.err.contains(wrong[0]), "{wrong:?}: {}", ran.err);
+    }
+}
+
+#[test]
+fn only_a_urdf_has_links_and_a_system_has_its_own_task() {
+    let leg = root("derivations/nao_leg_sagittal");
+    let error = refused(&["derive", text(&leg), "--tip", "foot"]);
+    assert!(error.contains("only a URDF has links"), "{error}");
+    let arm = root("derivations/nao_arm_planar");
+    let error = refused(&["derive", text(&arm), "--task", "position"]);
+    assert!(error.contains("a system of equations states its own"), "{error}");
+}
