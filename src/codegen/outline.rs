@@ -8,8 +8,8 @@ use super::demand::{Demand, ParameterDemand};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use crate::solver::{
-    ACCEPT, ADRIFT, APART, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, MERGE, NEAR, Operand, PIVOT,
-    POLISH_STEPS, POLISHED, Program, ROUNDING, STAGES, Step, TINY, Unit,
+    ACCEPT, ADRIFT, APART, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, LEAPS, LEVER, MERGE, NEAR,
+    Operand, PIVOT, POLISH_STEPS, POLISHED, Program, RETURNS, ROUNDING, STAGES, STIFF, Step, TINY, Unit,
 };
 
 /// Everything that the skeletons name.
@@ -29,6 +29,7 @@ pub(super) struct Outline {
     scale: String,
     tolerances: Tolerances,
     dampings: Vec<String>,
+    leaps: Vec<String>,
     parameters: Parameters,
     conditions: Vec<ConditionText>,
     /// Names of the unknowns that go from block to block.
@@ -65,6 +66,9 @@ struct Tolerances {
     adrift: String,
     aside: String,
     apart: String,
+    lever: String,
+    returns: usize,
+    stiff: String,
     stages: usize,
     consistent: String,
 }
@@ -139,6 +143,7 @@ impl Outline {
             scale: number(program.scale),
             tolerances: Tolerances::new(),
             dampings: DAMPINGS.iter().map(|&damping| number(damping)).collect(),
+            leaps: LEAPS.iter().map(|&way| number(way)).collect(),
             parameters: Parameters::new(&scene, &needs),
             conditions: program.conditions.iter().map(ConditionText::new).collect(),
             passed: scene.passed().into_iter().map(|unknown| scene.names.unknowns[unknown].clone()).collect(),
@@ -185,6 +190,9 @@ impl Tolerances {
             adrift: number(ADRIFT),
             aside: number(ASIDE),
             apart: number(APART),
+            lever: number(LEVER),
+            returns: RETURNS,
+            stiff: number(STIFF),
             stages: STAGES,
             consistent: number(CONSISTENT),
         }

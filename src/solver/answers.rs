@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, APART, ASIDE, BLUR, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
+use super::{ADRIFT, APART, ASIDE, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
 
 /// A solution with the largest share of an equation's value in its scale.
 struct Answer {
@@ -54,26 +54,13 @@ impl<'a> Answers<'a> {
         let (mut least, mut worse) = (f64::INFINITY, 0);
         for (second, b) in self.list.iter().enumerate().filter(|(_, b)| b.is_isolated()) {
             for (first, a) in self.list[..second].iter().enumerate().filter(|(_, a)| a.is_isolated()) {
-                let distance = self.distance(&a.solution, &b.solution);
+                let distance = self.way(&a.solution.q, &b.solution.q);
                 if distance < least {
                     (least, worse) = (distance, if a.relative > b.relative { first } else { second });
                 }
             }
         }
         worse
-    }
-
-    /// The greatest difference of a joint: of an angle, or as a share of a length's size.
-    fn distance(&self, a: &Solution, b: &Solution) -> f64 {
-        let mut greatest = 0.0_f64;
-        for (joint, parts) in self.program.joints.iter().enumerate() {
-            let size = match parts.value {
-                JointValue::Angle { .. } => 1.0,
-                JointValue::Plain(_) => self.program.scale.max(a.q[joint].abs()),
-            };
-            greatest = greatest.max(difference(self.program, joint, &a.q, &b.q).abs() / size);
-        }
-        greatest
     }
 
     /// Turns the unknowns into joints, polishes them, and keeps what solves the equations.
@@ -86,13 +73,25 @@ impl<'a> Answers<'a> {
         if path.free != NONE_FREE {
             return self.propose_member(path, q);
         }
-        let mut fit = refine::measure(self.program, &q, &mut self.frame);
-        refine::polish(self.program, &mut q, &mut fit, &NONE_FREE, &mut self.frame);
-        self.around(path, &q, &fit);
-        self.keep(path, &q, &fit);
+        self.settle(path, q);
     }
 
-    /// Keeps a member of a family. It is not moved along it; and an isolated answer may stand where it was looked for.
+    /// Polishes a candidate and keeps it. Where two answers all but meet, it ends at one of them or at none: the points around it are
+    /// tried as well.
+    fn settle(&mut self, path: &Path, q: Joints) {
+        let (mut end, mut fit) = (q, refine::measure(self.program, &q, &mut self.frame));
+        let missed = fit.relative;
+        refine::polish(self.program, &mut end, &mut fit, &NONE_FREE, &mut self.frame);
+        if (ROUNDING..=NEAR).contains(&fit.relative) {
+            self.around(path, &end, &fit, fit.relative);
+        } else if (ROUNDING..=NEAR).contains(&missed) && self.way(&q, &end) > LEVER * missed.sqrt() {
+            self.around(path, &end, &fit, missed);
+        }
+        self.keep(path, &end, &fit);
+    }
+
+    /// Keeps a member of a family. It is moved along it only where it misses the equations by more than rounding: where the family
+    /// goes round a part of the circle, or where there is none and an isolated answer stands near the place.
     fn propose_member(&mut self, path: &Path, mut q: Joints) {
         let free = self.free_joints(path);
         let settles = |a: &Answer| a.is_exact() && a.solution.branch == path.branch && a.solution.free == free;
@@ -103,29 +102,53 @@ impl<'a> Answers<'a> {
         if !fit.accepted && fit.relative <= ADRIFT {
             refine::polish(self.program, &mut q, &mut fit, &path.free, &mut self.frame);
         }
-        self.miss(&q, &fit);
-        if fit.accepted && self.lies_on_family(&q[..self.program.joints.len()], &free, fit.relative) {
-            self.keep(path, &q, &fit);
+        if !self.keep_member(path, &q, &fit) {
+            refine::polish(self.program, &mut q, &mut fit, &NONE_FREE, &mut self.frame);
+            if !self.keep_member(path, &q, &fit) {
+                let mut alone = *path;
+                alone.free = NONE_FREE;
+                self.keep(&alone, &q, &fit);
+            }
         }
+    }
+
+    /// Keeps a candidate if it is a member of a family whose free joints are those of `path`; whether it is.
+    fn keep_member(&mut self, path: &Path, q: &Joints, fit: &Fit) -> bool {
+        let free = self.free_joints(path);
+        let is_member = fit.accepted && self.lies_on_family(&q[..self.program.joints.len()], &free, fit.relative);
+        if is_member {
+            self.keep(path, q, fit);
+        }
+        is_member
     }
 
     /// Where a candidate stands at a singular configuration and misses the equations by little, it is a double root that rounding
     /// made of two: starts again from points to either side of it, as far as the square root of the miss leads. Where it misses by more
     /// than an answer may, an angle that matters little, as of a point next to its axis, is moved farther.
-    fn around(&mut self, path: &Path, q: &Joints, fit: &Fit) {
-        if !(ROUNDING..=NEAR).contains(&fit.relative) {
-            return;
-        }
+    fn around(&mut self, path: &Path, q: &Joints, fit: &Fit, missed: f64) {
         let weights = refine::weights(self.program, q, &mut self.frame);
         for (joint, sign) in (0..self.program.joints.len()).flat_map(|joint| [(joint, -1.0), (joint, 1.0)]) {
             let mut start = *q;
             let weight = if fit.accepted { 1.0 } else { weights[joint] };
-            let way = (fit.relative / weight).sqrt().min(APART);
+            let way = (missed / weight).sqrt().min(APART);
             start[joint] = self.displaced(q[joint], joint, 2.0 * sign * way);
             let mut fit = refine::measure(self.program, &start, &mut self.frame);
             refine::polish(self.program, &mut start, &mut fit, &NONE_FREE, &mut self.frame);
             self.keep(path, &start, &fit);
         }
+    }
+
+    /// The farthest that a joint is moved from `a` to `b`: an angle, or a share of a length's size.
+    fn way(&self, a: &[f64], b: &[f64]) -> f64 {
+        let mut farthest = 0.0_f64;
+        for (joint, parts) in self.program.joints.iter().enumerate() {
+            let size = match parts.value {
+                JointValue::Angle { .. } => 1.0,
+                JointValue::Plain(_) => self.program.scale.max(a[joint].abs()),
+            };
+            farthest = farthest.max(difference(self.program, joint, a, b).abs() / size);
+        }
+        farthest
     }
 
     /// Remembers a candidate that is no answer if it comes nearest so far.
@@ -207,12 +230,16 @@ impl<'a> Answers<'a> {
     }
 
     /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are a little elsewhere and the others
-    /// follow.
+    /// follow, and back again: an isolated answer may be led to a family next to it, but not back.
     fn lies_on_family(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
-        let mut start = [0.0; MAX_JOINTS];
-        start[..q.len()].copy_from_slice(q);
-        free.iter().for_each(|&joint| start[joint] = self.displaced(q[joint], joint, ASIDE));
-        self.follow(&mut start, free).relative <= bound.max(ROUNDING)
+        let mut moved = [0.0; MAX_JOINTS];
+        moved[..q.len()].copy_from_slice(q);
+        free.iter().for_each(|&joint| moved[joint] = self.displaced(q[joint], joint, ASIDE));
+        if self.follow(&mut moved, free).relative > bound.max(ROUNDING) {
+            return false;
+        }
+        free.iter().for_each(|&joint| moved[joint] = q[joint]);
+        self.follow(&mut moved, free).accepted && (0..q.len()).all(|joint| self.is_near(joint, &moved, q, BLUR))
     }
 
     /// Whether the family of the answer with this index has `member`, another with the same free joints: as these move there in
@@ -249,7 +276,8 @@ impl<'a> Answers<'a> {
     }
 
     /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open
-    /// beyond [`MERGE`]: half-way between them the equations hold as well as at the worse of the two, or within rounding.
+    /// beyond [`MERGE`]: half-way between them, on a way that may be bent, the equations hold as well as at the worse of the two, or
+    /// within rounding.
     fn blurred(&mut self, other: usize, answer: &Answer) -> bool {
         let (other, program) = (&self.list[other], self.program);
         let (a, b) = (&other.solution, &answer.solution);
@@ -261,7 +289,7 @@ impl<'a> Answers<'a> {
             *slot = b.q[joint] + 0.5 * difference(program, joint, &a.q, &b.q);
         }
         let bound = ROUNDING.max(other.relative).max(answer.relative);
-        refine::measure(program, &middle, &mut self.frame).relative <= bound
+        refine::nearly_holds(program, &middle, bound, &mut self.frame)
     }
 
     fn close(&self, a: &Solution, b: &Solution, tolerance: f64) -> bool {

@@ -40,6 +40,12 @@ pub const PIVOT: f64 = 1e-9;
 pub const POLISH_STEPS: usize = 32;
 /// Shares of the squared Jacobian's size that are added to it where a plain Newton step fails, as at a singular configuration.
 pub const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 1e-3];
+/// Where no step halves the miss, the joints leap: by at most these ways (rad, or relative to the length scale), the first that helps.
+pub const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
+/// The most damped steps back behind a leap.
+pub const RETURNS: usize = 4;
+/// The share of the squared Jacobian's size by which steps back are damped: a direction in which the equations hardly change stays.
+pub const STIFF: f64 = 1e-6;
 /// An answer whose relative residual is this or less is not polished.
 pub const POLISHED: f64 = 1e-15;
 /// A member of a family that misses the equations by no more than this share of their size, by rounding in the blocks before, is
@@ -50,6 +56,8 @@ pub const ASIDE: f64 = 0.1;
 /// Half of the farthest (rad) that an angle is moved in search of the two roots of a double one, where it hardly matters to the
 /// equations.
 pub const APART: f64 = 0.7;
+/// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
+pub const LEVER: f64 = 0.1;
 /// In how many stages a family is followed from one member to another.
 pub const STAGES: usize = 4;
 /// A target's rotation or unit vector may be this far from one.

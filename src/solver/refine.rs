@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Checks, JointValue, Program};
-use super::{ACCEPT, DAMPINGS, MAX_JOINTS, POLISH_STEPS, POLISHED};
+use super::{ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, STIFF};
 
 /// Joint values; places behind the program's joints are zero.
 pub(super) type Joints = [f64; MAX_JOINTS];
@@ -56,7 +56,7 @@ pub(super) fn measure(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> F
 }
 
 /// Up to [`POLISH_STEPS`] Gauss-Newton steps from `q`, whose `fit` was measured last, damped where that is needed (Levenberg 1944,
-/// Marquardt 1963); each is taken only if the relative residual falls. Joints that are `held` stay.
+/// Marquardt 1963); each is taken only if the relative residual falls, at once or after a leap. Joints that are `held` stay.
 pub(super) fn polish(
     program: &Program,
     q: &mut Joints,
@@ -73,7 +73,7 @@ pub(super) fn polish(
     }
 }
 
-/// The least damped step that lowers the relative residual.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
 fn improved(
     program: &Program,
     q: &Joints,
@@ -81,6 +81,9 @@ fn improved(
     held: &[bool; MAX_JOINTS],
     frame: &mut Frame<'_>,
 ) -> Option<(Joints, Fit)> {
+    let leaps = (ROUNDING..=NEAR).contains(&fit.relative);
+    let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
+    let mut fallen = None;
     for (index, damping) in DAMPINGS.iter().enumerate() {
         if index > 0 {
             measure(program, q, frame);
@@ -88,11 +91,73 @@ fn improved(
         let Some(step) = newton_step(program, *damping, held, frame) else { continue };
         let candidate = moved(program, q, &step);
         let next = measure(program, &candidate, frame);
-        if next.relative < fit.relative {
+        if next.relative < enough {
             return Some((candidate, next));
+        }
+        if next.relative < fit.relative && fallen.is_none() {
+            fallen = Some((candidate, next));
+        }
+    }
+    let leap = if leaps { leap(program, q, enough, held, frame) } else { None };
+    leap.or(fallen)
+}
+
+/// A Newton step, or a part of it, and behind it damped steps back to where the equations nearly hold, until they hold within `enough`.
+/// Next to a family the miss hardly changes along a bent way, and rises on each straight one: the watchdog technique (Chamberlain,
+/// Powell, Lemarechal, Pedersen 1982).
+fn leap(
+    program: &Program,
+    q: &Joints,
+    enough: f64,
+    held: &[bool; MAX_JOINTS],
+    frame: &mut Frame<'_>,
+) -> Option<(Joints, Fit)> {
+    measure(program, q, frame);
+    let step = newton_step(program, 0.0, held, frame)?;
+    let longest = length(program, &step);
+    if !longest.is_finite() {
+        return None;
+    }
+    for most in LEAPS {
+        let share = (most / longest).min(1.0);
+        let mut candidate = moved(program, q, &step.map(|way| share * way));
+        measure(program, &candidate, frame);
+        for _ in 0..RETURNS {
+            let Some(back) = newton_step(program, STIFF, held, frame) else { break };
+            candidate = moved(program, &candidate, &back);
+            let next = measure(program, &candidate, frame);
+            if next.relative < enough {
+                return Some((candidate, next));
+            }
         }
     }
     None
+}
+
+/// Whether the equations hold within `bound` at `q`, or where a few damped steps lead from there, which leave alone in what direction the
+/// equations hardly change.
+pub(super) fn nearly_holds(program: &Program, q: &Joints, bound: f64, frame: &mut Frame<'_>) -> bool {
+    let mut at = *q;
+    let mut fit = measure(program, &at, frame);
+    for _ in 0..RETURNS {
+        if fit.relative <= bound {
+            return true;
+        }
+        let Some(back) = newton_step(program, STIFF, &NONE_FREE, frame) else { return false };
+        at = moved(program, &at, &back);
+        fit = measure(program, &at, frame);
+    }
+    fit.relative <= bound
+}
+
+/// The longest way of a joint in a step: an angle, or a share of the program's scale.
+fn length(program: &Program, step: &Joints) -> f64 {
+    let mut longest = 0.0_f64;
+    for (joint, way) in program.joints.iter().zip(step) {
+        let size = if matches!(joint.value, JointValue::Plain(_)) { program.scale } else { 1.0 };
+        longest = longest.max(way.abs() / size);
+    }
+    longest
 }
 
 /// How much each joint matters to the equations at `q`: the greatest derivative as a share of its equation's scale, at most one; one

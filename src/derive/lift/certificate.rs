@@ -8,6 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::charts::Slack;
 use super::eliminate::{self, Elimination};
 use super::half_angle::{self, HalfAngles};
 use super::shape::{eliminated, shape};
@@ -92,7 +93,7 @@ pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
     if templates.iter().map(|template| template.form).ne(needed) {
         return Err(refused("the templates are not those of the plan's forms, in their order".to_owned()));
     }
-    Derived::assemble(chain, &mechanism, Parts { plan: record.plan, steps, templates, half_angles })
+    Derived::assemble(chain, &mechanism, Parts { plan: record.plan, steps, templates, half_angles }, Slack::NONE)
 }
 
 fn prove_template(proof: &Proof) -> Result<Template> {

@@ -12,6 +12,7 @@ use crate::derive::tree::{Node, Outcome, Solved, collect_denominators};
 use crate::derive::triangular::Stair;
 use crate::number::{Rationals, Ring, Style};
 use crate::poly::PolynomialRing;
+use crate::roots::TANGENT;
 use crate::solver::{Chart, Guard, JointValue, NEAR, Operand, Pivot, Step, TINY};
 use crate::{Error, ErrorKind, Result};
 
@@ -23,6 +24,38 @@ const LOST: f64 = 4e-15;
 /// The same for the leading coefficient of an angle's quartic, against the sum of all symbols' sizes: an elimination multiplies symbols,
 /// so that near a singular configuration little is left of it that is still right.
 const FAINT: f64 = 1e-18;
+
+/// What a later block's roots are looked for by, where a joint before is free: so far out that each polynomial has at least one place
+/// where it comes nearest to zero. The joint's samples may all miss the part of the circle on which there are solutions.
+const OUT: f64 = 1e6;
+/// How many times the difference of a chain and its ideal the symbols may be off.
+const OFF: f64 = 20.0;
+
+/// How far the formulas may be off, beyond rounding: where they are those of an ideal chain, by the tolerance \[rad, or m\] within which
+/// it is the one that answers are measured on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Slack(f64);
+
+impl Slack {
+    /// The formulas are exact.
+    pub const NONE: Slack = Slack(0.0);
+
+    /// The formulas are those of an ideal chain within `tolerance`.
+    pub fn within(tolerance: f64) -> Self {
+        Slack(OFF * tolerance)
+    }
+
+    /// The share of a size below which what is told by `least` is nothing.
+    pub fn share(self, least: f64) -> f64 {
+        least.max(self.0)
+    }
+
+    /// By how much an unknown's typical size is multiplied, so that a polynomial of this degree that misses the axis by this slack has
+    /// a double root.
+    fn typical(self, degree: usize) -> f64 {
+        (self.0 / TANGENT).powf(1.0 / degree as f64).max(1.0)
+    }
+}
 
 /// The value of a symbol and the sum of its terms' magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +82,18 @@ pub(super) struct Place {
     pub symbols: Vec<Sized>,
     /// The values that a free joint is put at.
     pub samples: Vec<f64>,
+    /// How far the symbols may be off.
+    pub slack: Slack,
+    /// The unknowns that earlier blocks tell by whether their joint is free: one where it is not, else far more.
+    pub spreads: Vec<usize>,
+}
+
+/// Tells later blocks by the unknown `spread` whether this one has left its joint free.
+pub(super) fn tell_spread(charts: &mut [Chart], spread: usize) {
+    for chart in charts {
+        let value = Operand::Constant(if chart.free.is_empty() { 1.0 } else { OUT });
+        chart.steps.insert(0, Step::Set { unknown: spread, value });
+    }
 }
 
 impl Place {
@@ -95,7 +140,7 @@ pub(super) fn quartic(half_angles: &HalfAngles, place: &Place, assembler: &Assem
     }
     let mut free = Builder::new(Form::Quartic, place, assembler, &[]);
     for (symbol, name) in place.symbols.iter().zip(Form::Quartic.symbols()) {
-        let scale = free.assembler.mul(Operand::Constant(CLOSE / NEAR), symbol.size);
+        let scale = free.assembler.mul(Operand::Constant(place.slack.share(CLOSE) / NEAR), symbol.size);
         free.guards.push(Guard { text: (*name).to_owned(), value: symbol.value, scale, near: true });
     }
     list.push(free.free("A = B = C = D = E = 0"));
@@ -183,8 +228,8 @@ impl<'a> Builder<'a> {
         let size = sizes.into_iter().fold(Operand::Constant(0.0), |sum, size| self.assembler.add(sum, size));
         let scale = self.assembler.mul(Operand::Constant(FAINT / TINY), size);
         self.guards.push(Guard { text: "leading coefficient".to_owned(), value: lead, scale, near: false });
+        let typical = Some(self.spread(Operand::Constant(1.0), quartic.len() - 1));
         let guard_code = self.assembler.take();
-        let typical = Some(Operand::Constant(1.0));
         let mut steps = vec![Step::Roots { unknown, polynomials: vec![quartic], typical }];
         let sine = self.coefficients(ring, half.stair(1)?, 1, Operand::Unknown(unknown));
         let sine = self.root(&sine)?;
@@ -254,7 +299,8 @@ impl<'a> Builder<'a> {
         terms.iter_mut().for_each(|term| term.coefficient = term.coefficient.abs());
         let size = self.assembler.horner(&terms, &sizes);
         let degree = ground.degree(factor) as i32;
-        let share = if near { CLOSE.powi(degree) / NEAR } else { LOST.powi(degree) / TINY };
+        let close = self.place.slack.share(CLOSE);
+        let share = if near { close.powi(degree) / NEAR } else { LOST.powi(degree) / TINY };
         let scale = self.assembler.mul(Operand::Constant(share), size);
         self.guards.push(Guard { text: ground.format(factor, Style::Text), value, scale, near });
         Ok(true)
@@ -298,6 +344,7 @@ impl<'a> Builder<'a> {
             }
             _ => {
                 let typical = if self.form == Form::Lengths { None } else { Some(self.typical()?) };
+                let typical = typical.map(|size| self.spread(size, coefficients.len() - 1));
                 push_code(steps, &mut self.assembler);
                 steps.push(Step::Roots { unknown, polynomials: vec![coefficients], typical });
             }
@@ -318,6 +365,13 @@ impl<'a> Builder<'a> {
             assembler.add(sum, product)
         });
         Ok(self.assembler.sqrt(sum))
+    }
+
+    /// An unknown's typical size where polynomials of this degree may miss the axis by more than rounding.
+    fn spread(&mut self, typical: Operand, degree: usize) -> Operand {
+        let factors = self.place.spreads.iter().map(|&spread| Operand::Unknown(spread));
+        let factors: Vec<Operand> = factors.chain([Operand::Constant(self.place.slack.typical(degree))]).collect();
+        factors.into_iter().fold(typical, |size, factor| self.assembler.mul(factor, size))
     }
 
     /// Puts the joint's values, a cosine and a sine on the circle.

@@ -23,6 +23,8 @@ pub(super) use shape::{Symbolic, TargetPoly};
 pub(super) use stages::{joint_unknowns, name};
 pub use template::{Form, Template};
 
+use charts::Slack;
+
 use super::closure::{Mechanism, Relation};
 use super::planner::{self, Plan, PlanStep};
 use crate::kinematics::Chain;
@@ -85,11 +87,15 @@ impl Derived {
     /// differ. Every answer of the closed form is polished by Newton's method on `truth`, and measured there.
     ///
     /// # Errors
-    /// As [`Mechanism::new`].
-    pub fn polished_on(mut self, truth: &Chain, report: SnapReport) -> Result<Self> {
-        self.program.checks = program::checks_on(truth)?;
-        self.truth = Some((truth.clone(), report));
-        Ok(self)
+    /// As [`Mechanism::new`]; [`crate::ErrorKind::Unsupported`] for what a program cannot hold.
+    pub fn polished_on(self, truth: &Chain, report: SnapReport) -> Result<Self> {
+        let Derived { chain, plan, steps, templates, half_angles, .. } = self;
+        let parts = Parts { plan, steps, templates, half_angles };
+        let mechanism = Mechanism::new(&chain)?;
+        let mut derived = Derived::assemble(&chain, &mechanism, parts, Slack::within(report.tolerance))?;
+        derived.program.checks = program::checks_on(truth)?;
+        derived.truth = Some((truth.clone(), report));
+        Ok(derived)
     }
 
     /// The chain that answers are measured on.
@@ -109,11 +115,11 @@ impl Derived {
         let half_angles = quartic.then(|| HalfAngles::derive(watch)).transpose()?;
         let forms = Template::needed(&steps);
         let templates = forms.into_iter().map(|form| Template::derive(form, watch)).collect::<Result<_>>()?;
-        Derived::assemble(chain, mechanism, Parts { plan, steps, templates, half_angles })
+        Derived::assemble(chain, mechanism, Parts { plan, steps, templates, half_angles }, Slack::NONE)
     }
 
-    fn assemble(chain: &Chain, mechanism: &Mechanism, parts: Parts) -> Result<Self> {
-        let program = program::compile(chain, mechanism, &parts)?;
+    fn assemble(chain: &Chain, mechanism: &Mechanism, parts: Parts, slack: Slack) -> Result<Self> {
+        let program = program::compile(chain, mechanism, &parts, slack)?;
         let Parts { plan, steps, templates, half_angles } = parts;
         Ok(Derived { chain: chain.clone(), truth: None, plan, steps, templates, half_angles, program })
     }

@@ -2,7 +2,7 @@
 
 use num_traits::{Signed, ToPrimitive};
 
-use super::charts::{Place, Sized, charts, quartic};
+use super::charts::{Place, Sized, Slack, charts, quartic, tell_spread};
 use super::checks::checks;
 use super::eliminate::{Elimination, SymbolPlace};
 use super::emit::{Emitted, Emitter, Sizes};
@@ -19,27 +19,40 @@ use crate::number::BigRational;
 use crate::solver::{Block, Chart, Checks, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
 use crate::{Error, ErrorKind, Result};
 
-/// A free angle is put at eight places round the circle, none of them one that a solution is likely to have by itself.
+/// A free angle is put at places round the circle, none of them one that a solution is likely to have by itself.
 const FIRST_SAMPLE: f64 = 0.4;
+/// At so many places: one that is a member of the family is enough.
+const SAMPLES: i32 = 8;
+/// At so many where the formulas are those of an ideal chain: the chain that is meant has a few answers there instead of a family, and
+/// each is looked for from the places next to it.
+const MANY_SAMPLES: i32 = 32;
 
 /// Two linear equations are nearly dependent when their determinant is below this share of its size.
 const DEPENDENT: f64 = 1e-6;
 
-/// The program of a chain whose plan has been lifted.
+/// The program of a chain whose plan has been lifted. Its formulas are off by `slack` on the chain that answers are measured on.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for what a program cannot hold.
-pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts) -> Result<Program> {
+pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack: Slack) -> Result<Program> {
     let templates = parts.templates.as_slice();
     let mut layout = Layout::new(mechanism, chain.length_unit());
     let reach = reach(chain);
     let mut known = mechanism.given().to_vec();
     let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
     blocks.extend(layout.across.map(ray::across));
+    let mut spreads = Vec::new();
     for (index, step) in parts.steps.iter().enumerate() {
         let free = free(mechanism, &parts.steps[index..]);
-        let context = Context { mechanism, known: &known, step, free, reach };
-        blocks.push(context.block(&mut layout, templates, parts.half_angles.as_ref())?);
+        let context = Context { mechanism, known: &known, step, free, reach, slack, spreads: &spreads };
+        let mut block = context.block(&mut layout, templates, parts.half_angles.as_ref())?;
+        let has_roots = parts.steps[index + 1..].iter().any(|later| later.shape.form.degree() > 1);
+        if has_roots && block.charts.iter().any(|chart| !chart.free.is_empty()) {
+            let spread = layout.unknown(&format!("f{}", mechanism.joints()[step.joint].symbol));
+            tell_spread(&mut block.charts, spread);
+            spreads.push(spread);
+        }
+        blocks.push(block);
         known.push(step.joint);
     }
     let program = Program {
@@ -134,6 +147,9 @@ struct Context<'a> {
     /// The joint that is told as free where the step's is.
     free: usize,
     reach: f64,
+    slack: Slack,
+    /// The unknowns that tell whether joints are free.
+    spreads: &'a [usize],
 }
 
 impl Context<'_> {
@@ -155,6 +171,8 @@ impl Context<'_> {
             auxiliary,
             symbols,
             samples: self.samples(layout.joints[joint]),
+            slack: self.slack,
+            spreads: self.spreads.to_vec(),
         };
         match (self.step.shape.form, half_angles) {
             (Form::Pair, _) => {}
@@ -172,7 +190,7 @@ impl Context<'_> {
             return Err(Error::new(ErrorKind::Unsupported, "a pair has six symbols"));
         };
         let singles = [vec![a, b, x.negated(&mut assembler)], vec![e, f, y.negated(&mut assembler)]];
-        let guard = dependent([a, b, e, f], &mut assembler);
+        let guard = dependent([a, b, e, f], self.slack, &mut assembler);
         let code = [code, assembler.take()].concat();
         let mut list = charts(both, &place(symbols), &assembler, &[])?;
         for symbols in singles {
@@ -184,7 +202,9 @@ impl Context<'_> {
     fn samples(&self, value: JointValue) -> Vec<f64> {
         match value {
             JointValue::Angle { .. } => {
-                (0..8).map(|k| FIRST_SAMPLE + f64::from(k - 4) * std::f64::consts::FRAC_PI_4).collect()
+                let count = if self.slack == Slack::NONE { SAMPLES } else { MANY_SAMPLES };
+                let step = std::f64::consts::TAU / f64::from(count);
+                (0..count).map(|k| FIRST_SAMPLE + f64::from(k - count / 2) * step).collect()
             }
             JointValue::Plain(_) => (0..5).map(|k| self.reach * (f64::from(k - 2) / 2.0 + 0.1)).collect(),
         }
@@ -330,13 +350,13 @@ fn derivatives(q: &BigRational, powers: &[u32]) -> Vec<FlatTerm> {
 }
 
 /// The guard that two linear equations are nearly dependent, so that each is solved alone as well: answers are measured in the end.
-fn dependent([a, b, e, f]: [Sized; 4], assembler: &mut Assembler) -> Guard {
+fn dependent([a, b, e, f]: [Sized; 4], slack: Slack, assembler: &mut Assembler) -> Guard {
     let mut determinant = |part: fn(&Sized) -> Operand, sum: bool| {
         let (left, right) = (assembler.mul(part(&a), part(&f)), assembler.mul(part(&b), part(&e)));
         if sum { assembler.add(left, right) } else { assembler.sub(left, right) }
     };
     let (value, size) = (determinant(|s| s.value, false), determinant(|s| s.size, true));
-    let scale = assembler.mul(Operand::Constant(DEPENDENT / NEAR), size);
+    let scale = assembler.mul(Operand::Constant(slack.share(DEPENDENT) / NEAR), size);
     Guard { text: "A*F - B*E".to_owned(), value, scale, near: true }
 }
 
