@@ -20,6 +20,8 @@ pub(super) struct Layout {
     pub joints: Vec<JointValue>,
     /// By joint: the parameters that are its value when it is given: a cosine and a sine, or a length.
     pub given: Vec<Vec<usize>>,
+    /// The first parameter of the target.
+    pub first: usize,
 }
 
 impl Layout {
@@ -32,6 +34,7 @@ impl Layout {
             unknowns: Vec::new(),
             joints: Vec::new(),
             given: vec![Vec::new(); mechanism.joints().len()],
+            first: 0,
         };
         let length = match unit {
             LengthUnit::Metre => Unit::Metre,
@@ -94,6 +97,16 @@ impl Layout {
         };
     }
 
+    /// Leaves out all joints but the first `count`.
+    pub fn keep_joints(&mut self, count: usize) {
+        self.joints.truncate(count);
+        let last = self.joints.last().map_or(0, |value| match *value {
+            JointValue::Angle { cosine, sine } => cosine.max(sine) + 1,
+            JointValue::Plain(unknown) => unknown + 1,
+        });
+        self.unknowns.truncate(last);
+    }
+
     /// A new unknown.
     pub fn unknown(&mut self, name: &str) -> usize {
         self.unknowns.push(name.to_owned());
@@ -116,7 +129,7 @@ impl Layout {
             _ => 0..0,
         };
         let parameter = |index: usize| {
-            let value = Operand::Parameter(index);
+            let value = Operand::Parameter(self.first + index);
             let factor = Operand::Constant(if aimed.contains(&index) { aim } else { 1.0 });
             Emitted::Code(emitter.0.mul(factor, value))
         };

@@ -4,6 +4,8 @@
 pub mod certificate;
 mod charts;
 mod checks;
+mod coupled;
+mod determinant;
 mod eliminate;
 mod emit;
 mod half_angle;
@@ -15,6 +17,8 @@ mod stages;
 mod target;
 mod template;
 
+pub use coupled::{Coupled, Side};
+pub(super) use coupled::Stored as StoredCoupled;
 pub use eliminate::{Elimination, SymbolPlace};
 pub use half_angle::{HalfAngle, HalfAngles};
 pub use shape::Shape;

@@ -12,7 +12,8 @@ mod derived;
 mod explain;
 mod model;
 mod reader;
+mod stages;
 
 pub use derived::{DerivedLimbs, LimbStage};
-pub use explain::Explanation;
+pub use explain::{Disagreement, Explanation};
 pub use model::{JointPlace, Limb, Limbs, LimbsParts, Motor};

@@ -1,0 +1,85 @@
+//! The numbered files of a derivation of limbs, as text: what each limb's own derivation says, limb after limb.
+
+use std::fmt::Write;
+
+use super::derived::{DerivedLimbs, LimbStage};
+use crate::Result;
+use crate::derive::closure::Mechanism;
+use crate::derive::stages::{MARK, PAGE, STAGES};
+
+impl DerivedLimbs {
+    /// The stage files with their names: the same bytes at every run.
+    ///
+    /// # Errors
+    /// When a field cannot be built: never for a derivation that was made by this crate.
+    pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
+        let mut texts = [const { String::new() }; 4];
+        for stage in &self.stages {
+            let parts = stage.derived.stage_texts(&Mechanism::new(&stage.derived.chain)?)?;
+            for (text, part) in texts.iter_mut().zip(parts) {
+                let _ = write!(text, "{}{}\n\n{part}", if text.is_empty() { "" } else { "\n\n" }, self.title(stage));
+            }
+        }
+        let [equations, plan, basis, triangular] = texts;
+        let texts = [equations, plan, basis, triangular, self.program.to_json(), self.certificate()?];
+        let mut files: Vec<(String, Vec<u8>)> =
+            STAGES.iter().zip(texts).map(|(name, text)| ((*name).to_owned(), text.into_bytes())).collect();
+        files.push((PAGE.to_owned(), self.readme()?.into_bytes()));
+        Ok(files)
+    }
+
+    /// `limb 2: right, with HipYawPitch where the limbs before it have put it`.
+    pub fn title(&self, stage: &LimbStage) -> String {
+        let number = self.stages.iter().position(|other| other.limb == stage.limb).map_or(0, |index| index + 1);
+        let found: Vec<&str> = self.shared(stage).collect();
+        let shared = match found.is_empty() {
+            true => String::new(),
+            false => format!(", with {} where the limbs before it have put it", found.join(", ")),
+        };
+        format!("limb {number}: {}{shared}", self.limbs.limbs()[stage.limb].name)
+    }
+
+    /// The names of the motors that limbs before have found for a limb.
+    fn shared<'a>(&'a self, stage: &'a LimbStage) -> impl Iterator<Item = &'a str> {
+        stage.found().map(|joint| self.program.joints[joint].name.as_str())
+    }
+
+    fn readme(&self) -> Result<String> {
+        let parts = self.limbs.parts();
+        let mut text = format!("# {}\n\n", parts.name);
+        for line in [&parts.description, &parts.source].into_iter().flatten() {
+            let _ = writeln!(text, "{line}\n");
+        }
+        let unit = self.limbs.limbs()[0].chain.length_unit().symbol();
+        let inputs: Vec<&str> = self.program.inputs.iter().map(|input| input.name.as_str()).collect();
+        let joints: Vec<&str> = self.program.joints.iter().map(|joint| joint.name.as_str()).collect();
+        let (inputs_list, joints_list) = (inputs.join(", "), joints.join(", "));
+        let _ = writeln!(text, "Lengths in {unit}, angles in rad. Target: {inputs_list}. Joints: {joints_list}.\n");
+        let _ = writeln!(
+            text,
+            "Up to {} solutions. The limbs are solved one after the other; a joint that a limb has found is given for those behind it.\n\
+             Every way of one limb is continued by all ways of the next, so none is lost; the answers are polished on the equations of\n\
+             all limbs together and measured by them.\n",
+            self.dimension()
+        );
+        for stage in &self.stages {
+            let chain = &stage.derived.chain;
+            let _ = writeln!(text, "## {}\n", capitalised(&self.title(stage)));
+            for line in [&chain.parts().description, &chain.parts().source].into_iter().flatten() {
+                let _ = writeln!(text, "{line}\n");
+            }
+            let _ = writeln!(text, "Task: {}.\n", chain.asked());
+            let _ = writeln!(text, "{}", stage.derived.steps_text(&Mechanism::new(chain)?));
+        }
+        text += MARK;
+        text += "; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
+        let example = vec!["..."; inputs.len()].join(",");
+        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", parts.name);
+        Ok(text)
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
