@@ -3,6 +3,7 @@
 use super::chain;
 use super::document::{Document, Line};
 use crate::Result;
+use crate::derive::closure::Mechanism;
 use crate::derive::limbs::DerivedLimbs;
 
 /// The report of `derived`.
@@ -23,11 +24,35 @@ pub fn document(derived: &DerivedLimbs) -> Result<Document> {
          equations of all limbs together.",
         derived.dimension()
     ));
+    shared(&mut page, derived)?;
     for stage in &derived.stages {
         page.section(Line::default().name(&derived.title(stage)));
         page.parts.extend(chain::document(&stage.derived)?.parts);
     }
     Ok(page)
+}
+
+/// How shared joints are found from both limbs at once.
+fn shared(page: &mut Document, derived: &DerivedLimbs) -> Result<()> {
+    let Some(coupled) = &derived.coupled else { return Ok(()) };
+    page.section(Line::default().name(&derived.coupled_names().join(", ")).and(": from both limbs at once"));
+    page.say(
+        "Of each limb an equation is taken that holds no unknown joint but shared ones. What is measured stays the same on the arc whose \
+         joints drop out, which has been computed; so the equation follows from the limb's loop.",
+    );
+    for (index, (limb, relation)) in derived.limbs.limbs().iter().zip(coupled.relations()?).enumerate() {
+        let meaning = relation.meaning(&Mechanism::new(&limb.chain)?);
+        page.paragraph(Line::default().name(&limb.name).and(&format!(": {meaning}.")));
+        page.equation(&format!("0.{}", index + 2), relation.to_string());
+    }
+    page.say(match coupled.steps.as_slice() {
+        [_] => "Both are linear in the cosine and sine of the joint, and each is solved alone where the other says nothing.",
+        _ => {
+            "Both are linear in the cosine and sine of the second joint. Their determinant is an equation in the first joint, of \
+             degree two in its cosine and sine; its cofactors are multiplied out in the proof."
+        }
+    });
+    Ok(())
 }
 
 /// Which motor moves which joints.

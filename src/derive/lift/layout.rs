@@ -97,10 +97,9 @@ impl Layout {
         };
     }
 
-    /// Leaves out all joints but the first `count`.
+    /// Leaves out the unknowns of all joints but the first `count`.
     pub fn keep_joints(&mut self, count: usize) {
-        self.joints.truncate(count);
-        let last = self.joints.last().map_or(0, |value| match *value {
+        let last = self.joints[..count].last().map_or(0, |value| match *value {
             JointValue::Angle { cosine, sine } => cosine.max(sine) + 1,
             JointValue::Plain(unknown) => unknown + 1,
         });

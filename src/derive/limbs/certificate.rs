@@ -70,7 +70,8 @@ impl DerivedLimbs {
         };
         let coupled = match (coupling(limbs)?, &record.coupled) {
             (Some((sides, shared)), Some(stored)) => Some(Coupled::again(sides, shared, stored)?),
-            (None, None) => None,
+            // Where no relations of shared joints fit, the limbs are solved one after the other.
+            (_, None) => None,
             _ => return Err(refused("the proof of the shared joints is missing or left over".to_owned())),
         };
         let derived = DerivedLimbs::assemble(limbs, coupled, &mut prove)?;

@@ -56,7 +56,7 @@ impl DerivedLimbs {
     /// [`Coupled::derive`].
     pub fn of_limbs(limbs: &Limbs, watch: &Watch) -> Result<Self> {
         let coupled = match coupling(limbs)? {
-            Some((sides, shared)) => Some(Coupled::derive(sides, shared, watch)?),
+            Some((sides, shared)) => found_together(Coupled::derive(sides, shared, watch), limbs)?,
             None => None,
         };
         DerivedLimbs::assemble(limbs, coupled, &mut |_, chain| Derived::of_chain(chain, watch))
@@ -129,7 +129,19 @@ impl DerivedLimbs {
         for stage in &self.stages {
             stage.write(&stage.derived.reached(&self.joints_of(stage.limb, q)?)?, &mut target);
         }
+        self.write_given(q, &mut target);
         Ok(target)
+    }
+
+    /// Writes the values of joints that the user gives to both limbs alike into a target of the solver.
+    pub fn write_given(&self, q: &[f64], target: &mut [f64]) {
+        let (Some(_), Limb { prefix, chain, .. }) = (&self.coupled, &self.limbs.limbs()[0]) else { return };
+        for joint in chain.given() {
+            let name = format!("{prefix}{}", chain.joints()[joint].name);
+            if let Some(place) = self.program.inputs.iter().position(|input| input.name == name) {
+                target[place] = q[joint];
+            }
+        }
     }
 }
 
@@ -162,6 +174,13 @@ impl LimbStage {
         let joints: Vec<usize> = found.iter().filter_map(|found| found.or_else(|| fresh.next())).collect();
         let inputs = origins(&derived, &own.inputs, &program.inputs, &found);
         Ok(LimbStage { limb, derived, program, joints, inputs })
+    }
+
+    /// The limb's joints `own` among `count` joints of the solver, others at zero.
+    pub(super) fn put(&self, own: &[f64], count: usize) -> Vec<f64> {
+        let mut q = vec![0.0; count];
+        self.joints.iter().zip(own).for_each(|(&place, &value)| q[place] = value);
+        q
     }
 
     /// Writes what the limb's own solver is asked into a target of the solver; what other limbs find has no place there.
@@ -262,14 +281,28 @@ impl Found<'_> {
     }
 }
 
-/// Two limbs neither of which determines its joints, but both together do, and the number of joints that stand first in both and are
-/// shared; none where some limb can be solved alone, or the limbs are more than two.
+/// The derivation of shared joints; none where no relations fit, but a limb determines its joints alone.
+///
+/// # Errors
+/// Those of the derivation.
+fn found_together(coupled: Result<Coupled>, limbs: &Limbs) -> Result<Option<Coupled>> {
+    match coupled {
+        Err(error) if error.kind() == ErrorKind::Unsupported => {
+            let alone = Found { limbs, coupled: None, stages: Vec::new() }.next_limb();
+            alone.map(|_| None).map_err(|_| error)
+        }
+        coupled => coupled.map(Some),
+    }
+}
+
+/// Two limbs and the number of joints that stand first in both and are shared, where these joints are found from both limbs at once:
+/// two that neither limb determines alone, or one on which both must agree.
 ///
 /// # Errors
 /// [`ErrorKind::PositiveDimensional`] when both together do not determine their joints either.
 pub(super) fn coupling(limbs: &Limbs) -> Result<Option<([Side<'_>; 2], usize)>> {
     let found = Found { limbs, coupled: None, stages: Vec::new() };
-    let (Err(error), [first, second]) = (found.next_limb(), limbs.limbs()) else { return Ok(None) };
+    let [first, second] = limbs.limbs() else { return Ok(None) };
     let is_shared = |joint: &usize| {
         let motor = limbs.motor_of(JointPlace { limb: 0, joint: *joint }).map(|motor| &limbs.motors()[motor]);
         motor.is_some_and(|motor| motor.joints.contains(&JointPlace { limb: 1, joint: *joint }))
@@ -277,9 +310,11 @@ pub(super) fn coupling(limbs: &Limbs) -> Result<Option<([Side<'_>; 2], usize)>> 
     let shared = (0..first.chain.joints().len()).take_while(is_shared).count();
     let given = first.chain.given();
     let common = (0..shared).filter(|joint| !given.contains(joint)).count();
-    let freedoms = first.chain.task().freedoms() + second.chain.task().freedoms();
-    if found.open(0) + found.open(1) > freedoms + common || common != 2 {
-        return Err(error);
+    let excess = |limb: usize| found.open(limb) as isize - limbs.limbs()[limb].chain.task().freedoms() as isize;
+    let sides = Some(([first, second].map(|limb| Side { chain: &limb.chain, prefix: &limb.prefix }), shared));
+    match (common, excess(0), excess(1)) {
+        (1, ..=0, ..=0) | (2, 1, 1) => Ok(sides),
+        (_, 1.., 1..) => found.next_limb().map(|_| None),
+        _ => Ok(None),
     }
-    Ok(Some(([first, second].map(|limb| Side { chain: &limb.chain, prefix: &limb.prefix }), shared)))
 }

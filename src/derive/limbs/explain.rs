@@ -54,6 +54,14 @@ impl DerivedLimbs {
         if !self.program.solve(target)?.is_empty() {
             return Ok(None);
         }
+        match &self.coupled {
+            Some(_) => self.together(target, watch).map(Some),
+            None => self.in_turn(target, watch),
+        }
+    }
+
+    /// Where the limbs are solved one after the other.
+    fn in_turn(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
         let mut before = vec![Vec::new()];
         for stage in &self.stages {
             let answers = stage.program.solve(&target[..stage.program.inputs.len()])?;
@@ -63,7 +71,10 @@ impl DerivedLimbs {
                 let nearest = nearest.into_iter().flatten().min_by(|a, b| a.relative.total_cmp(&b.relative));
                 let ways = if stage == &self.stages[0] { 0 } else { before.len() };
                 let limb = self.limbs.limbs()[stage.limb].name.clone();
-                let disagreement = self.disagreement(stage, target, &before, watch)?;
+                let disagreement = match self.alone(stage, watch)? {
+                    Some(alone) => self.disagreement(stage, &before, &alone.program.solve(&stage.own_target(target))?),
+                    None => None,
+                };
                 return Ok(Some(Explanation { limb, before: ways, disagreement, nearest }));
             }
             before = answers.into_iter().map(|answer| answer.q).collect();
@@ -71,22 +82,44 @@ impl DerivedLimbs {
         Ok(None)
     }
 
-    /// How far a limb's ways to reach its target alone are from the ways `before` of the limbs before it, by the shared motors; none
-    /// when it shares none with them, cannot be solved alone, or does not reach its target.
-    fn disagreement(
-        &self,
-        stage: &LimbStage,
-        target: &[f64],
-        before: &[Vec<f64>],
-        watch: &Watch,
-    ) -> Result<Option<Disagreement>> {
-        let shared: Vec<usize> = stage.found().collect();
+    /// Where the shared joints are found from both limbs at once: which limb does not reach its target alone, or by how much the
+    /// two need a shared joint at different values; both limbs when neither can be solved alone.
+    fn together(&self, target: &[f64], watch: &Watch) -> Result<Explanation> {
+        let mut before: Vec<Vec<f64>> = Vec::new();
+        let mut disagreement = None;
+        for stage in &self.stages {
+            let Some(alone) = self.alone(stage, watch)? else { break };
+            let own = stage.own_target(target);
+            let answers = alone.program.solve(&own)?;
+            let limb = self.limbs.limbs()[stage.limb].name.clone();
+            if answers.is_empty() {
+                return Ok(Explanation { limb, before: 0, disagreement: None, nearest: alone.program.nearest(&own)? });
+            }
+            if !before.is_empty() {
+                disagreement = self.disagreement(stage, &before, &answers);
+                return Ok(Explanation { limb, before: before.len(), disagreement, nearest: None });
+            }
+            before = answers.iter().map(|answer| stage.put(&answer.q, self.program.joints.len())).collect();
+        }
+        let names: Vec<&str> = self.limbs.limbs().iter().map(|limb| limb.name.as_str()).collect();
+        Ok(Explanation { limb: names.join("` and `"), before: 0, disagreement, nearest: self.program.nearest(target)? })
+    }
+
+    /// The derivation of a limb that shares joints with those before it, as if it shared none; none where its task does not determine
+    /// them, or the user gives joints.
+    fn alone(&self, stage: &LimbStage, watch: &Watch) -> Result<Option<Derived>> {
         let chain = &self.limbs.limbs()[stage.limb].chain;
-        if shared.is_empty() || chain.joints().len() - chain.given().len() > chain.task().freedoms() {
+        let is_open = chain.joints().len() > chain.task().freedoms() || !chain.given().is_empty();
+        if is_open || stage.found().next().is_none() {
             return Ok(None);
         }
-        let alone = Derived::of_chain(chain, watch)?;
-        let answers = alone.program.solve(&stage.own_target(target))?;
+        Derived::of_chain(chain, watch).map(Some)
+    }
+
+    /// How far a limb's own ways `answers` to reach its target are from the ways `before` of the limbs before it, by the shared motors;
+    /// none when there are no such ways.
+    fn disagreement(&self, stage: &LimbStage, before: &[Vec<f64>], answers: &[Solution]) -> Option<Disagreement> {
+        let shared: Vec<usize> = stage.found().collect();
         let one = |way: &Vec<f64>, answer: &Solution, motor: usize| Disagreement {
             motor: self.program.joints[motor].name.clone(),
             unit: self.program.joints[motor].unit,
@@ -96,7 +129,7 @@ impl DerivedLimbs {
         let larger = |a: &Disagreement, b: &Disagreement| a.off().abs().total_cmp(&b.off().abs());
         let pairs = before.iter().flat_map(|way| answers.iter().map(move |answer| (way, answer)));
         let worst = pairs.filter_map(|(way, answer)| shared.iter().map(|&motor| one(way, answer, motor)).max_by(larger));
-        Ok(worst.min_by(larger))
+        worst.min_by(larger)
     }
 }
 

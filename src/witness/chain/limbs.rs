@@ -1,6 +1,7 @@
 //! The check of a solver of limbs that share motors, by the witnesses of a chain: forward kinematics of every limb, the joint values
 //! that made the targets, the exact number of solutions of all equations together, and the screw solver and the numeric oracle
-//! limb by limb, each with the shared motors where the limbs before it have put them.
+//! limb by limb, each with the shared motors where the limbs before it have put them. Where shared joints are found from both limbs
+//! at once, no limb can be solved first: these two are not asked then.
 
 use nalgebra::DMatrix;
 
@@ -10,6 +11,7 @@ use super::rational::Rationals;
 use super::targets::{Target, Targets};
 use super::{Check, Solver};
 use crate::derive::limbs::{DerivedLimbs, LimbStage};
+use crate::kinematics::Chain;
 use crate::solver::Solution;
 use crate::witness::screws::Screws;
 use crate::witness::{Options, Report};
@@ -21,14 +23,19 @@ use crate::{Error, ErrorKind, Result, Watch};
 /// As [`Check::run`].
 pub fn check(derived: &DerivedLimbs, options: &Options, watch: &Watch) -> Result<Report> {
     let model = Limbs::new(derived);
-    let mut targets = Draws::new(&model, options.seed);
-    let mut rationals = model.counter().map(|counter| Rationals::new(counter, options.seed));
+    let leading = derived.stages.iter().map(|stage| leading(derived, stage)).collect::<Result<Vec<Chain>>>()?;
+    let leading: Vec<Model<'_>> = leading.iter().map(Model::new).collect();
+    let mut targets = Draws::new(&model, &leading, options.seed);
+    // Two shared joints more than a limb determines make the equations of both limbs too large to be counted by.
+    let counts = derived.coupled.as_ref().is_none_or(|coupled| coupled.steps.len() < 2);
+    let counter = if counts { model.counter() } else { None };
+    let mut rationals = counter.map(|counter| Rationals::new(counter, options.seed));
     let check = Check {
         model: &model,
         solver: &derived.program,
         bound: Some(derived.dimension()),
         screws: ByScrews::new(&model).map(|screws| Box::new(screws) as Box<dyn Solver>),
-        options: *options,
+        options: Options { oracle: if derived.coupled.is_some() { 0 } else { options.oracle }, ..*options },
         watch,
     };
     let rows = check.rows(&mut |number| match &mut rationals {
@@ -38,6 +45,18 @@ pub fn check(derived: &DerivedLimbs, options: &Options, watch: &Watch) -> Result
     let inputs = derived.program.inputs.iter().map(|input| input.name.clone());
     let joints = derived.program.joints.iter().map(|joint| joint.name.clone());
     Ok(Report { inputs: inputs.collect(), joints: joints.collect(), rows })
+}
+
+/// The limb's chain with joints given so that its task determines the others: those that limbs before it find, but where both limbs find
+/// them together as few as that takes.
+fn leading(derived: &DerivedLimbs, stage: &LimbStage) -> Result<Chain> {
+    let chain = &stage.derived.chain;
+    let mut given = chain.parts().given.clone();
+    let least = chain.joints().len().saturating_sub(chain.task().freedoms());
+    if derived.coupled.is_some() {
+        given.truncate(least.max(derived.limbs.limbs()[stage.limb].chain.given().len()));
+    }
+    chain.with_task(chain.task(), chain.direction().clone(), given)
 }
 
 /// A limb in floating point.
@@ -51,10 +70,10 @@ struct Limb<'a> {
 
 /// Limbs that share motors; the joints are those of their solver.
 struct Limbs<'a> {
+    derived: &'a DerivedLimbs,
     limbs: Vec<Limb<'a>>,
     unknown: Vec<usize>,
     count: usize,
-    inputs: usize,
 }
 
 impl<'a> Limbs<'a> {
@@ -68,7 +87,7 @@ impl<'a> Limbs<'a> {
         let count = derived.program.joints.len();
         let is_given = |motor: &usize| limbs.iter().any(|limb| limb.is_given(*motor));
         let unknown = (0..count).filter(|motor| !is_given(motor)).collect();
-        Limbs { limbs, unknown, count, inputs: derived.program.inputs.len() }
+        Limbs { derived, limbs, unknown, count }
     }
 
     /// The counter of all equations together.
@@ -148,10 +167,11 @@ impl Configuration for Limbs<'_> {
     }
 
     fn target(&self, q: &[f64]) -> Vec<f64> {
-        let mut target = vec![0.0; self.inputs];
+        let mut target = vec![0.0; self.derived.program.inputs.len()];
         for limb in &self.limbs {
             limb.stage.write(&limb.own.target(&limb.of(q)), &mut target);
         }
+        self.derived.write_given(q, &mut target);
         target
     }
 
@@ -203,8 +223,11 @@ struct ByScrews<'a> {
 }
 
 impl<'a> ByScrews<'a> {
-    /// `None` when screw theory does not solve each limb.
+    /// `None` when screw theory does not solve each limb, one after the other.
     fn new(limbs: &'a Limbs<'a>) -> Option<Self> {
+        if limbs.derived.coupled.is_some() {
+            return None;
+        }
         let screws: Option<Vec<Screws>> = limbs.limbs.iter().map(|limb| Screws::new(limb.own.chain)).collect();
         screws.map(|screws| ByScrews { limbs, screws })
     }
@@ -230,14 +253,15 @@ impl Solver for ByScrews<'_> {
 /// The source of targets: those of one limb in turn, with random joints of the others.
 struct Draws<'a> {
     limbs: &'a Limbs<'a>,
+    leading: &'a [Model<'a>],
     /// One for each limb.
     sources: Vec<Targets<'a>>,
 }
 
 impl<'a> Draws<'a> {
-    fn new(limbs: &'a Limbs<'a>, seed: u64) -> Self {
-        let source = |(index, limb): (usize, &'a Limb<'a>)| Targets::new(&limb.own, seed + index as u64);
-        Draws { limbs, sources: limbs.limbs.iter().enumerate().map(source).collect() }
+    fn new(limbs: &'a Limbs<'a>, leading: &'a [Model<'a>], seed: u64) -> Self {
+        let source = |(index, model): (usize, &'a Model<'a>)| Targets::new(model, seed + index as u64);
+        Draws { limbs, leading, sources: leading.iter().enumerate().map(source).collect() }
     }
 
     fn draw(&mut self, number: usize) -> Target {
@@ -245,12 +269,12 @@ impl<'a> Draws<'a> {
         let turn = number % count;
         let Target { kind, inputs, joints } = self.sources[turn].draw(number / count);
         let mut motors: Vec<Option<f64>> = vec![None; self.limbs.count];
-        let leading = &self.limbs.limbs[turn];
+        let (leading, given) = (&self.limbs.limbs[turn], &self.leading[turn].given);
         match &joints {
             Some(values) => leading.stage.joints.iter().zip(values).for_each(|(&motor, &q)| motors[motor] = Some(q)),
             None => {
-                let values = &inputs[inputs.len() - leading.own.given.len()..];
-                let given = leading.own.given.iter().map(|&joint| leading.stage.joints[joint]);
+                let values = &inputs[inputs.len() - given.len()..];
+                let given = given.iter().map(|&joint| leading.stage.joints[joint]);
                 given.zip(values).for_each(|(motor, &q)| motors[motor] = Some(q));
             }
         }
