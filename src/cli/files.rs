@@ -65,8 +65,13 @@ pub fn assemble_files(
     }
     files.extend(source.task_file());
     files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
-    if let (Proved::Chain(_) | Proved::Limbs(_), Some((_, page))) = (derivation, files.iter_mut().find(|(name, _)| name == stages::PAGE)) {
+    if let (Proved::Chain(_) | Proved::Limbs(_), Some((_, page))) =
+        (derivation, files.iter_mut().find(|(name, _)| name == stages::PAGE))
+    {
         page.extend(accuracy(checked).into_bytes());
+        if let Proved::Limbs(_) = derivation {
+            page.extend(format!("\nWitnesses: {}.\n", checked.summary()).into_bytes());
+        }
     }
     files.extend(printed_solvers(derivation.program()));
     files.push((CHECKS.to_owned(), checked.to_csv().into_bytes()));

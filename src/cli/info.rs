@@ -191,7 +191,8 @@ fn limbs_page(limbs: &Limbs, paint: Paint) -> String {
         format!("{}.{}", limb.name, limb.chain.joints()[place.joint].name)
     };
     let moved = |joints: &[JointPlace]| joints.iter().map(joint).collect::<Vec<_>>().join(", ");
-    page += &table(&limbs.motors().iter().map(|motor| vec![motor.name.clone(), moved(&motor.joints)]).collect::<Vec<_>>());
+    page +=
+        &table(&limbs.motors().iter().map(|motor| vec![motor.name.clone(), moved(&motor.joints)]).collect::<Vec<_>>());
     for limb in limbs.limbs() {
         page += &format!("\n{}\n{}", paint.bold(&format!("limb {}", limb.name)), chain_page(&limb.chain, &[], paint));
     }

@@ -4,8 +4,8 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use super::answers::{Angles, Answer, csv_header, csv_rows, json, text};
-use super::forms::Forms;
 use super::check::{is_derived, reprove};
+use super::forms::Forms;
 use super::targets::{self, Row};
 use super::{Outcome, console};
 use crate::derive::input::LIMBS_NAME;

@@ -87,9 +87,9 @@ impl InputFile {
             Description::System(_) if ends != Ends::default() => bad(
                 "a task is chosen, but a system of equations states its own; leave task, direction and given joints out",
             ),
-            Description::Limbs(_) if ends != Ends::default() => {
-                bad("a task is chosen, but each limb states its own; leave task, direction, given joints and tolerance out")
-            }
+            Description::Limbs(_) if ends != Ends::default() => bad(
+                "a task is chosen, but each limb states its own; leave task, direction, given joints and tolerance out",
+            ),
             Description::System(_) | Description::Limbs(_) => Ok(None),
         };
         let asked = chain.and_then(|chain| chain.map(|chain| ends.ask(chain)).transpose());

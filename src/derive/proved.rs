@@ -81,6 +81,7 @@ impl Proved {
 }
 
 fn equations(source: &Source) -> Result<&super::System> {
-    let none = || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no limbs").in_file(&source.path);
+    let none =
+        || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no limbs").in_file(&source.path);
     source.system.as_ref().ok_or_else(none)
 }

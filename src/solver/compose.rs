@@ -33,7 +33,9 @@ impl Program {
     pub fn followed_by(&self, next: &Program, shared: &[(usize, usize)]) -> Result<Program> {
         let places = Places::new(self, next, shared)?;
         let mut program = self.clone();
-        program.inputs.extend(own(&next.inputs, |index| places.inputs[index].is_some_and(|place| place >= self.inputs.len())));
+        program
+            .inputs
+            .extend(own(&next.inputs, |index| places.inputs[index].is_some_and(|place| place >= self.inputs.len())));
         program.unknowns.extend(own(&next.unknowns, |index| places.unknowns[index] >= self.unknowns.len()));
         for &condition in &next.conditions {
             let condition = places.condition(condition)?;
@@ -110,8 +112,13 @@ impl Places {
             *place = first.inputs.iter().position(|other| other == input).map(Some);
         }
         for (parameter, place) in next.parameters.iter().zip(&mut parameters).filter(|(_, place)| place.is_none()) {
-            let known = first.parameters.iter().position(|other| other.name == parameter.name);
-            *place = known.map(Operand::Parameter);
+            let same = |other: &ParameterRule| match (&other.rule, &parameter.rule) {
+                (Rule::Input(a), Rule::Input(b))
+                | (Rule::Cosine(a), Rule::Cosine(b))
+                | (Rule::Sine(a), Rule::Sine(b)) => used[*b] == Some(Some(*a)),
+                _ => false,
+            };
+            *place = first.parameters.iter().position(same).map(Operand::Parameter);
         }
         Ok(Places {
             inputs: counted(used, first.inputs.len(), Some),
@@ -293,7 +300,36 @@ fn both(first: &Checks, next: Checks, joints: usize) -> Checks {
     checks.residuals.extend(next.residuals);
     checks.scales.extend(next.scales);
     checks.jacobian.extend(next.jacobian);
-    checks
+    without_repeats(&checks)
+}
+
+/// The same equations with each value computed once: what mechanisms on one base have in common.
+fn without_repeats(checks: &Checks) -> Checks {
+    let mut code: Vec<Instruction> = Vec::with_capacity(checks.code.len());
+    let mut places: Vec<usize> = Vec::with_capacity(checks.code.len());
+    for line in &checks.code {
+        let operation = mapped(line.operation, &|operand| placed(operand, &places));
+        let known = code.iter().position(|other| other.operation == operation);
+        places.push(known.unwrap_or(code.len()));
+        if known.is_none() {
+            code.push(Instruction { target: code.len(), operation });
+        }
+    }
+    let all = |list: &[Operand]| list.iter().map(|&entry| placed(entry, &places)).collect();
+    Checks {
+        residuals: all(&checks.residuals),
+        scales: all(&checks.scales),
+        jacobian: checks.jacobian.iter().map(|row| all(row)).collect(),
+        code,
+    }
+}
+
+/// The operand with its register where `places` puts it.
+fn placed(operand: Operand, places: &[usize]) -> Operand {
+    match operand {
+        Operand::Register(index) => Operand::Register(places[index]),
+        other => other,
+    }
 }
 
 /// The same equations with other registers.

@@ -11,9 +11,8 @@ use super::{content, refused, root, succeed, text};
 
 /// An arm of links of length one in the plane.
 fn arm(name: &str, joints: usize) -> String {
-    let joint = |k: usize| {
-        format!("[[joint]]\nname = \"j{k}\"\ntype = \"revolute\"\naxis = [0, 0, 1]\npoint = [{k}, 0, 0]\n")
-    };
+    let joint =
+        |k: usize| format!("[[joint]]\nname = \"j{k}\"\ntype = \"revolute\"\naxis = [0, 0, 1]\npoint = [{k}, 0, 0]\n");
     let joints_text: String = (0..joints).map(joint).collect();
     format!(
         "name = \"{name}\"\ntask = {{ kind = \"planar_position\", plane = \"xy\" }}\n{joints_text}[tip]\npoint = [{joints}, 0, 0]\n"
@@ -59,22 +58,41 @@ fn has(page: &str, words: &[&str]) {
 #[test]
 fn derive_writes_every_stage_and_tells_of_each_limb() {
     let (folder, report) = arms();
-    has(report, &["arms: 4 solutions at most", "limb 1: a", "limb 2: b, with j0 where the limbs before it have put it"]);
+    has(
+        report,
+        &["arms: 4 solutions at most", "limb 1: a", "limb 2: b, with j0 where the limbs before it have put it"],
+    );
     has(report, &["of them: the screw solver", "Written to"]);
     let files = content(folder.path());
     let names: Vec<&str> = files.keys().map(String::as_str).collect();
     assert_eq!(
         names,
         [
-            "0_limbs.toml", "1_equations.txt", "2_plan.txt", "3_basis.txt", "4_triangular.txt", "5_program.json", "5_solver.c",
-            "5_solver.rs", "6_check.csv", "README.md", "a.toml", "b.toml", "certificate.json"
+            "0_limbs.toml",
+            "1_equations.txt",
+            "2_plan.txt",
+            "3_basis.txt",
+            "4_triangular.txt",
+            "5_program.json",
+            "5_solver.c",
+            "5_solver.rs",
+            "6_check.csv",
+            "README.md",
+            "a.toml",
+            "b.toml",
+            "certificate.json"
         ]
     );
     let page = String::from_utf8(files["README.md"].clone()).unwrap();
-    has(&page, &["# arms", "two arms on one shoulder", "## Limb 2: b", "## Accuracy, measured", "a_px, a_py, b_px, b_py"]);
+    has(
+        &page,
+        &["# arms", "two arms on one shoulder", "## Limb 2: b", "## Accuracy, measured", "a_px, a_py, b_px, b_py"],
+    );
     let rows = String::from_utf8(files["6_check.csv"].clone()).unwrap();
     assert!(rows.lines().skip(1).all(|row| row.ends_with(",pass")), "{rows}");
-    assert!(rows.lines().any(|row| row.starts_with("rational,")) && rows.lines().any(|row| row.starts_with("singular,")));
+    assert!(
+        rows.lines().any(|row| row.starts_with("rational,")) && rows.lines().any(|row| row.starts_with("singular,"))
+    );
 }
 
 #[test]
@@ -111,7 +129,10 @@ fn solve_finds_all_ways_and_says_which_limb_fails() {
     assert_eq!(answer["solutions"].as_array().unwrap().len(), 4, "{answer}");
     assert_eq!(answer.get("reason"), None);
     let far = succeed(&["solve", text(folder.path()), "--target", "1,1,9,1", "--target", "5,1,1,1"]);
-    has(&far, &["no solution: the equations of limb `b` fail in each of the 2 ways", "the equations of limb `a` fail;"]);
+    has(
+        &far,
+        &["no solution: the equations of limb `b` fail in each of the 2 ways", "the equations of limb `a` fail;"],
+    );
     let far: Value =
         serde_json::from_str(&succeed(&["solve", text(folder.path()), "--json", "--target", "1,1,9,1"])).unwrap();
     assert!(far["reason"].as_str().unwrap().contains("limb `b`"), "{far}");
@@ -166,6 +187,9 @@ fn poses_that_disagree_on_the_hip_are_refused_by_name() {
     let agreeing = succeed(&["solve", text(&folder), "--target", &poses(one.0, one.1)]);
     has(&agreeing, &[" solutions"]);
     let told = succeed(&["solve", text(&folder), "--target", &poses(one.0, other.1)]);
-    has(&told, &["no solution: the limbs' targets contradict each other: limb `right` needs `HipYawPitch` at", "rad off"]);
+    has(
+        &told,
+        &["no solution: the limbs' targets contradict each other: limb `right` needs `HipYawPitch` at", "rad off"],
+    );
     assert_ne!(random[0][hip], random[1][hip]);
 }

@@ -7,6 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Lifted;
 use super::certificate::{Proof, prove_template, template_proofs};
 use super::eliminate::{self, Elimination};
 use super::half_angle::{self, HalfAngles};
@@ -14,7 +15,6 @@ use super::layout::Layout;
 use super::program::{Context, given, reach};
 use super::shape::{Shape, Symbolic, eliminated};
 use super::template::{Form, Template};
-use super::Lifted;
 use crate::derive::certificate::refused;
 use crate::derive::closure::{Mechanism, Relation, Word, prove};
 use crate::derive::planner::{PlanStep, Way};
@@ -158,10 +158,13 @@ impl<'a> Common<'a> {
     fn new(sides: [Side<'a>; 2], shared: usize) -> Result<Self> {
         let unsupported = |text: &str| Err(Error::new(ErrorKind::Unsupported, text.to_owned()));
         let mechanisms = [Mechanism::new(sides[0].chain)?, Mechanism::new(sides[1].chain)?];
-        let [first, second] = mechanisms.each_ref().map(|mechanism| mechanism.joints().get(..shared).unwrap_or_default());
+        let [first, second] =
+            mechanisms.each_ref().map(|mechanism| mechanism.joints().get(..shared).unwrap_or_default());
         let alike = first.iter().zip(second).all(|(a, b)| a.is_revolute() && b.is_revolute() && a.square == b.square);
         if first.len() != shared || second.len() != shared || !alike {
-            return unsupported("shared joints must stand first in both chains, and turn about axes that are vectors of one length");
+            return unsupported(
+                "shared joints must stand first in both chains, and turn about axes that are vectors of one length",
+            );
         }
         let given = mechanisms[0].given().to_vec();
         if given != mechanisms[1].given() || given.iter().any(|joint| *joint >= shared) {
@@ -178,7 +181,8 @@ impl<'a> Common<'a> {
     fn search(&self, watch: &Watch) -> Result<Vec<Lifted>> {
         let [first, second] = [self.candidates(0)?, self.candidates(1)?];
         let pairs = || first.iter().flat_map(|f| second.iter().map(move |g| [f.clone(), g.clone()]));
-        let text = "the joints that two limbs share do not follow from one relation of each; give the value of one of them";
+        let text =
+            "the joints that two limbs share do not follow from one relation of each; give the value of one of them";
         let unsupported = || Error::new(ErrorKind::Unsupported, text);
         let &[a, b] = self.unknown.as_slice() else {
             return self.steps(&self.unknown, pairs().next().ok_or_else(unsupported)?, None);
@@ -220,7 +224,12 @@ impl<'a> Common<'a> {
     }
 
     /// The steps for `joints`, proved.
-    fn steps(&self, joints: &[usize], relations: [Relation; 2], elimination: Option<Elimination>) -> Result<Vec<Lifted>> {
+    fn steps(
+        &self,
+        joints: &[usize],
+        relations: [Relation; 2],
+        elimination: Option<Elimination>,
+    ) -> Result<Vec<Lifted>> {
         for (mechanism, relation) in self.sides(&relations) {
             if let Some(joint) = relation.joints().into_iter().find(|joint| *joint >= self.shared) {
                 return Err(refused(format!("`{relation}` holds joint {}, which is not shared", joint + 1)));
@@ -246,7 +255,12 @@ impl<'a> Common<'a> {
         Ok(vec![Lifted { joint: leading, relations, elimination: Some(elimination), shape }, by_pair(following)])
     }
 
-    fn assemble(&self, steps: Vec<Lifted>, templates: Vec<Template>, half_angles: Option<HalfAngles>) -> Result<Coupled> {
+    fn assemble(
+        &self,
+        steps: Vec<Lifted>,
+        templates: Vec<Template>,
+        half_angles: Option<HalfAngles>,
+    ) -> Result<Coupled> {
         let unit = self.sides[0].chain.length_unit();
         let [mechanism, partner] = &self.mechanisms;
         let (mut layout, mut other) = (Layout::new(mechanism, unit), Layout::new(partner, unit));
@@ -284,10 +298,8 @@ impl<'a> Common<'a> {
         }
         .prefixed(self.sides[0].prefix);
         let (first, prefix) = (program.inputs.len(), self.sides[1].prefix);
-        let (inputs, parameters) = (
-            other.inputs.len() - self.mechanisms[1].given().len(),
-            self.mechanisms[1].parameters().len(),
-        );
+        let (inputs, parameters) =
+            (other.inputs.len() - self.mechanisms[1].given().len(), self.mechanisms[1].parameters().len());
         for mut input in other.inputs.into_iter().take(inputs) {
             input.name.insert_str(0, prefix);
             program.inputs.push(input);

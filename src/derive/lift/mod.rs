@@ -17,8 +17,8 @@ mod stages;
 mod target;
 mod template;
 
-pub use coupled::{Coupled, Side};
 pub(super) use coupled::Stored as StoredCoupled;
+pub use coupled::{Coupled, Side};
 pub use eliminate::{Elimination, SymbolPlace};
 pub use half_angle::{HalfAngle, HalfAngles};
 pub use shape::Shape;

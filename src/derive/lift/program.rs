@@ -126,7 +126,12 @@ pub(super) struct Context<'a> {
 
 impl Context<'_> {
     /// The block of the step.
-    pub fn block(&self, layout: &mut Layout, templates: &[Template], half_angles: Option<&HalfAngles>) -> Result<Block> {
+    pub fn block(
+        &self,
+        layout: &mut Layout,
+        templates: &[Template],
+        half_angles: Option<&HalfAngles>,
+    ) -> Result<Block> {
         let joint = self.step.joint;
         let screw = &self.mechanism.joints()[joint];
         let auxiliary = match self.step.shape.form {

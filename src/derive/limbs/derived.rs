@@ -157,8 +157,7 @@ impl LimbStage {
                 // The user gives it to both limbs alike.
                 (true, Some(_)) => {}
                 (true, None) => {
-                    let text =
-                        format!("`{}` is given, but a limb before it finds its motor; leave it out", joint.name);
+                    let text = format!("`{}` is given, but a limb before it finds its motor; leave it out", joint.name);
                     return Err(Error::new(ErrorKind::BadValue, text));
                 }
             }

@@ -128,7 +128,8 @@ impl DerivedLimbs {
         };
         let larger = |a: &Disagreement, b: &Disagreement| a.off().abs().total_cmp(&b.off().abs());
         let pairs = before.iter().flat_map(|way| answers.iter().map(move |answer| (way, answer)));
-        let worst = pairs.filter_map(|(way, answer)| shared.iter().map(|&motor| one(way, answer, motor)).max_by(larger));
+        let worst =
+            pairs.filter_map(|(way, answer)| shared.iter().map(|&motor| one(way, answer, motor)).max_by(larger));
         worst.min_by(larger)
     }
 }

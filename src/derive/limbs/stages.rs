@@ -73,9 +73,10 @@ impl DerivedLimbs {
     pub fn title(&self, stage: &LimbStage) -> String {
         let number = self.stages.iter().position(|other| other.limb == stage.limb).map_or(0, |index| index + 1);
         let found: Vec<&str> = self.shared(stage).collect();
-        let shared = match found.is_empty() {
-            true => String::new(),
-            false => format!(", with {} where the limbs before it have put it", found.join(", ")),
+        let shared = match (found.is_empty(), &self.coupled) {
+            (true, _) => String::new(),
+            (false, None) => format!(", with {} where the limbs before it have put it", found.join(", ")),
+            (false, Some(_)) => format!(", with {} known", found.join(", ")),
         };
         format!("limb {number}: {}{shared}", self.limbs.limbs()[stage.limb].name)
     }
@@ -117,7 +118,7 @@ impl DerivedLimbs {
         let _ = writeln!(text, "Lengths in {unit}, angles in rad. Target: {inputs_list}. Joints: {joints_list}.\n");
         let _ = writeln!(
             text,
-            "Up to {} solutions. The limbs are solved one after the other; a joint that a limb has found is given for those behind it.\n\
+            "Up to {} solutions. The limbs are solved one after the other; a joint that is found already is given for those behind it.\n\
              Every way of one limb is continued by all ways of the next, so none is lost; the answers are polished on the equations of\n\
              all limbs together and measured by them.\n",
             self.dimension()

@@ -79,7 +79,8 @@ impl Counter {
     /// For chains whose joints have these motors; `None` where the axes of a motor's joints are vectors of different lengths, so that
     /// it has no common unknowns.
     pub fn of_limbs(limbs: &[(&Chain, &[usize])], given: &[usize]) -> Option<Self> {
-        let part = |(chain, motors): &(&Chain, &[usize])| Part { exact: ExactChain::new(chain), motors: motors.to_vec() };
+        let part =
+            |(chain, motors): &(&Chain, &[usize])| Part { exact: ExactChain::new(chain), motors: motors.to_vec() };
         let parts: Vec<Part> = limbs.iter().map(part).collect();
         let square = |(part, joint): (&Part, usize)| part.exact.square(joint).clone();
         let alike = |motor: usize| {

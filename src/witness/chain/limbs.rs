@@ -192,7 +192,8 @@ impl Configuration for Limbs<'_> {
         for (limb, block) in self.limbs.iter().zip(&blocks) {
             for (column, &joint) in limb.whole.unknown.iter().enumerate() {
                 let motor = self.unknown.iter().position(|motor| *motor == limb.stage.joints[joint]);
-                for (place, row) in motor.into_iter().flat_map(|motor| (0..block.nrows()).map(move |row| (motor, row))) {
+                for (place, row) in motor.into_iter().flat_map(|motor| (0..block.nrows()).map(move |row| (motor, row)))
+                {
                     whole[(first + row, place)] = block[(row, column)];
                 }
             }

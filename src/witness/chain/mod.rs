@@ -20,9 +20,9 @@ use super::{DUPLICATE, ORACLE, Options, SEEDS, SINGULAR, TIE};
 use crate::kinematics::Chain;
 use crate::solver::{Program, Solution};
 use crate::{ErrorKind, Result, Watch};
+use count::Counter;
 use family::Families;
 use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL};
-use count::Counter;
 use rational::Rationals;
 use targets::{Target, Targets};
 
@@ -88,9 +88,8 @@ impl<'a> Check<'a> {
         let mut rationals = Rationals::new(Counter::new(chain, &model.given), options.seed);
         let mut targets = Targets::new(&model, options.seed);
         let check = Check { model: &model, solver, bound, screws, options: *options, watch };
-        let rows = check.rows(&mut |number| {
-            rationals.in_place_of(&model, targets.draw(number), options.exact, watch)
-        })?;
+        let rows =
+            check.rows(&mut |number| rationals.in_place_of(&model, targets.draw(number), options.exact, watch))?;
         Ok(Report {
             inputs: model.input_names(),
             joints: chain.joints().iter().map(|joint| joint.name.clone()).collect(),
