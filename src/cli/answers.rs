@@ -46,6 +46,8 @@ pub struct Answer<'a> {
     pub target: Vec<f64>,
     /// All solutions.
     pub solutions: Vec<Solution>,
+    /// Why there is none, where that is known.
+    pub reason: Option<String>,
     /// The unit of angles in the target, in JSON and in CSV.
     pub angles: Angles,
 }
@@ -70,7 +72,8 @@ pub fn text(answer: &Answer<'_>) -> String {
     });
     let title = format!("{} at {}", program.name, target.collect::<Vec<_>>().join(", "));
     if answer.solutions.is_empty() {
-        return format!("{title}: unreachable: no solution\n");
+        let reason = answer.reason.as_ref().map(|reason| format!(": {reason}")).unwrap_or_default();
+        return format!("{title}: unreachable: no solution{reason}\n");
     }
     let plural = if answer.solutions.len() == 1 { "solution" } else { "solutions" };
     let mut text = format!("{title}: {} {plural}\n", answer.solutions.len());
@@ -132,6 +135,9 @@ struct Page<'a> {
     unit: Units<'a>,
     joints: Vec<&'a str>,
     solutions: Vec<Entry<'a>>,
+    /// Why there is no solution, where that is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'a str>,
 }
 
 /// The unit of each number of the target and of each joint.
@@ -170,6 +176,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
         },
         joints: program.joints.iter().map(|joint| joint.name.as_str()).collect(),
         solutions: answer.solutions.iter().map(entry).collect(),
+        reason: answer.reason.as_deref(),
     };
     let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
     text.expect("an answer holds nothing that JSON cannot say") + "\n"

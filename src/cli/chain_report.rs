@@ -1,7 +1,22 @@
-//! What the derivation of a chain found, for a person to read.
+//! What the derivation of a chain, or of limbs that share motors, found, for a person to read.
 
 use super::report::Page;
 use crate::derive::lift::{Derived, Form};
+use crate::derive::limbs::DerivedLimbs;
+
+/// Tells about each limb in the order in which they are solved.
+pub fn describe_limbs(page: &mut Page, derived: &DerivedLimbs) {
+    let parts = derived.limbs.parts();
+    page.heading(&format!("{}: {} solutions at most", parts.name, derived.dimension()));
+    for text in [&parts.description, &parts.source].into_iter().flatten() {
+        page.line(text);
+    }
+    for stage in &derived.stages {
+        page.heading(&derived.title(stage));
+        page.line(&format!("task {}", stage.derived.chain.asked()));
+        describe(page, &stage.derived);
+    }
+}
 
 /// Tells about the plan, its steps and the proofs.
 pub fn describe(page: &mut Page, derived: &Derived) {

@@ -8,6 +8,7 @@ use super::ends::EndArguments;
 use super::files::{CHECKS, is_ours, printed_solvers};
 use super::{Halt, Outcome};
 use crate::derive::lift::Derived;
+use crate::derive::limbs::LimbStage;
 use crate::derive::{Derivation, Proved, Source, stages};
 use crate::document::read_text;
 use crate::solver::Program;
@@ -72,9 +73,10 @@ pub fn reprove(folder: &Path, source: &Source) -> Result<Proved> {
 }
 
 fn read(source: &Source) -> Finding {
-    let text = match (source.chain_by_steps(), &source.system) {
-        (None, Some(system)) => format!("{} equations in {}", system.equations.len(), system.order.join(", ")),
-        (chain, _) => format!("a chain of {} joints", chain.map_or(0, |chain| chain.joints().len())),
+    let text = match (source.chain_by_steps(), &source.system, &source.limbs) {
+        (None, Some(system), _) => format!("{} equations in {}", system.equations.len(), system.order.join(", ")),
+        (None, None, Some(limbs)) => format!("{} limbs on {} motors", limbs.limbs().len(), limbs.motors().len()),
+        (chain, ..) => format!("a chain of {} joints", chain.map_or(0, |chain| chain.joints().len())),
     };
     Finding { what: source.name.to_owned(), verdict: Ok(text) }
 }
@@ -83,6 +85,12 @@ fn proved(proved: &Proved) -> String {
     match proved {
         Proved::Equations(derivation) => proved_equations(derivation),
         Proved::Chain(derived) => proved_chain(derived),
+        Proved::Limbs(derived) => {
+            let limb = |stage: &LimbStage| {
+                format!("{}: {}", derived.limbs.limbs()[stage.limb].name, proved_chain(&stage.derived))
+            };
+            derived.stages.iter().map(limb).collect::<Vec<_>>().join("; ")
+        }
     }
 }
 

@@ -11,24 +11,27 @@ use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
 use crate::derive::{Proved, Source};
 use crate::files::write_folder_atomically;
-use crate::witness::{self, Check, Options, chain};
+use crate::witness::chain::{self, limbs};
+use crate::witness::{self, Check, Options};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// How much is checked of a chain.
 const CHAIN: Options = Options { targets: 240, oracle: 2, exact: 20, seed: 1 };
+/// How much is checked of limbs that share motors.
+const LIMBS: Options = Options { targets: 120, oracle: 1, exact: 6, seed: 1 };
 
 const EXAMPLES: &str = "Examples:
   groebot derive derivations/nao_leg_sagittal          files beside its 0_chain.toml
   groebot derive arm.toml                              files in the folder arm
   groebot derive arm.toml --out /tmp/arm --time 60     files in /tmp/arm, or an error after a minute";
 
-/// Derives, proves and writes the closed-form inverse kinematics of a chain or a system of equations
+/// Derives, proves and writes the closed-form inverse kinematics of a chain, of limbs or of a system of equations
 ///
 /// Writes one numbered file for each stage. Ctrl-C stops the work and leaves the folder as it was.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder with its 0_chain.toml, 0_system.toml or 0_robot.urdf, or an input file
+    /// A mechanism's folder with its 0_chain.toml, 0_system.toml, 0_robot.urdf or 0_limbs.toml, or an input file
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
@@ -79,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// The numeric checks of a derivation.
 ///
 /// # Errors
-/// As [`Check::run`] and [`chain::Check::run`].
+/// As [`Check::run`], [`chain::Check::run`] and [`limbs::check`].
 pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness::Report> {
     match proved {
         Proved::Equations(derivation) => Check::run(source, &derivation.program, &Options::default(), watch),
@@ -88,6 +91,7 @@ pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness:
             let most = derived.truth.is_none().then_some(derived.plan.dimension);
             chain::Check::run(derived.measured(), &derived.program, most, &CHAIN, watch)
         }
+        Proved::Limbs(derived) => limbs::check(derived, &LIMBS, watch),
     }
 }
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::codegen;
 use crate::derive::input::INPUT_NAMES;
 use crate::derive::{Proved, Source, stages};
+use crate::document::{TEXT_LIMIT, read_text};
 use crate::solver::Program;
 use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
@@ -41,11 +42,11 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
     }
 }
 
-/// Every file of a derivation with its name: the stages, the printed solvers, the numeric checks, and the input itself when `folder`
-/// does not hold it yet.
+/// Every file of a derivation with its name: the stages, the printed solvers, the numeric checks, and the input itself with the files
+/// that it refers to when `folder` does not hold them yet.
 ///
 /// # Errors
-/// As [`Proved::stage_files`].
+/// As [`Proved::stage_files`] and [`read_text`].
 pub fn assemble_files(
     source: &Source,
     derivation: &Proved,
@@ -56,10 +57,21 @@ pub fn assemble_files(
     if !is_same_file(&source.path, &folder.join(source.name)) {
         files.push((source.name.to_owned(), source.text.clone().into_bytes()));
     }
+    for name in source.beside() {
+        let path = source.path.with_file_name(name);
+        if !is_same_file(&path, &folder.join(name)) {
+            files.push((name.to_owned(), read_text(&path, TEXT_LIMIT)?.into_bytes()));
+        }
+    }
     files.extend(source.task_file());
     files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
-    if let (Proved::Chain(_), Some((_, page))) = (derivation, files.iter_mut().find(|(name, _)| name == stages::PAGE)) {
+    if let (Proved::Chain(_) | Proved::Limbs(_), Some((_, page))) =
+        (derivation, files.iter_mut().find(|(name, _)| name == stages::PAGE))
+    {
         page.extend(accuracy(checked).into_bytes());
+        if let Proved::Limbs(_) = derivation {
+            page.extend(format!("\nWitnesses: {}.\n", checked.summary()).into_bytes());
+        }
     }
     files.extend(printed_solvers(derivation.program()));
     files.push((CHECKS.to_owned(), checked.to_csv().into_bytes()));
@@ -67,7 +79,7 @@ pub fn assemble_files(
     Ok(files)
 }
 
-/// What the page of a chain says about measured accuracy, behind what follows from the proof.
+/// What the page of a chain or of limbs says about measured accuracy, behind what follows from the proof.
 fn accuracy(checked: &Report) -> String {
     format!(
         "\n## Accuracy, measured\n\nResiduals by forward kinematics (shares of the reach, radians), and how far the joints that made the \

@@ -1,10 +1,11 @@
-//! `groebot info`: a chain with its geometry, a robot with its links, or a system, in words.
+//! `groebot info`: a chain with its geometry, limbs with their motors, a robot with its links, or a system, in words.
 
 use std::path::PathBuf;
 
 use super::console::{self, Paint};
 use super::ends::{EndArguments, SnapArgument};
 use super::{Halt, Outcome};
+use crate::derive::limbs::{JointPlace, Limbs};
 use crate::derive::{Description, Ends, InputFile, formulate};
 use crate::kinematics::snap::near_misses;
 use crate::kinematics::tree::TreeJointKind;
@@ -17,7 +18,7 @@ const EXAMPLES: &str = "Examples:
   groebot info robot.urdf                        a robot: its links and the ends of its limbs
   groebot info robot.urdf --tip tool0            the chain from the root to that link";
 
-/// Prints a chain and how its axes lie, a robot's links, or a system of equations
+/// Prints a chain and how its axes lie, limbs and their motors, a robot's links, or a system of equations
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -40,6 +41,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             console::print(&robot_page(tree, paint))
         }
         Description::System(system) if ends == Ends::default() => console::print(&system.to_string()),
+        Description::Limbs(limbs) if ends == Ends::default() => console::print(&limbs_page(limbs, paint)),
         description => {
             let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
             let chain = input.chain(&ends)?.ok_or_else(none)?;
@@ -173,6 +175,28 @@ fn table(rows: &[Vec<String>]) -> String {
         cells.collect::<String>().trim_end().to_owned() + "\n"
     };
     rows.iter().map(line).collect()
+}
+
+/// The motors of limbs with the joints that they move, then each limb's chain.
+fn limbs_page(limbs: &Limbs, paint: Paint) -> String {
+    let parts = limbs.parts();
+    let (count, motors) = (parts.limbs.len(), limbs.motors().len());
+    let mut page = format!("{}: {count} limbs on {motors} motors\n", paint.bold(&parts.name));
+    for text in [&parts.description, &parts.source].into_iter().flatten() {
+        page += &format!("{}\n", paint.dim(text));
+    }
+    page += &format!("\n{}\n", paint.bold("motors"));
+    let joint = |place: &JointPlace| {
+        let limb = &limbs.limbs()[place.limb];
+        format!("{}.{}", limb.name, limb.chain.joints()[place.joint].name)
+    };
+    let moved = |joints: &[JointPlace]| joints.iter().map(joint).collect::<Vec<_>>().join(", ");
+    page +=
+        &table(&limbs.motors().iter().map(|motor| vec![motor.name.clone(), moved(&motor.joints)]).collect::<Vec<_>>());
+    for limb in limbs.limbs() {
+        page += &format!("\n{}\n{}", paint.bold(&format!("limb {}", limb.name)), chain_page(&limb.chain, &[], paint));
+    }
+    page
 }
 
 fn robot_page(tree: &Tree, paint: Paint) -> String {

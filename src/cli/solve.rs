@@ -4,12 +4,15 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use super::answers::{Angles, Answer, csv_header, csv_rows, json, text};
+use super::check::{is_derived, reprove};
 use super::forms::Forms;
 use super::targets::{self, Row};
 use super::{Outcome, console};
+use crate::derive::input::LIMBS_NAME;
+use crate::derive::{Proved, Source};
 use crate::document::read_text;
 use crate::solver::Program;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest program that is read, in bytes.
 const PROGRAM_LIMIT: u64 = 64_000_000;
@@ -23,7 +26,7 @@ const EXAMPLES: &str = "Examples:
 Targets are numbers in the order and units of the derivation's inputs; a rotation may be given as a quaternion x, y, z, w (of length
 one, within 1e-6) instead of its nine elements by rows: a pose is 12 numbers or 7. A CSV may start with a line of their names, which then says
 the order of its columns. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
-solutions (JSON), or a row with 0 solutions (CSV).";
+solutions (JSON), or a row with 0 solutions (CSV); of limbs that share motors, text and JSON of a --target say which limb fails, and how.";
 
 /// Finds all solutions for targets with a derived solver
 #[derive(clap::Args)]
@@ -53,7 +56,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
         [] => stream(&program, angles, arguments.json),
         [dash] if dash == "-" => stream(&program, angles, arguments.json),
-        given => listed(&program, given, angles, arguments.json),
+        given => listed(&program, given, angles, arguments),
     }
 }
 
@@ -69,21 +72,39 @@ fn read_program(path: &Path) -> Result<Program> {
 fn answer<'a>(program: &'a Program, forms: &Forms, numbers: Vec<f64>, angles: Angles) -> Result<Answer<'a>> {
     let target = forms.inputs(numbers)?;
     let solutions = program.solve(&angles.to_radians(program, &target))?;
-    Ok(Answer { program, target, solutions, angles })
+    Ok(Answer { program, target, solutions, reason: None, angles })
+}
+
+/// Why `target`, in radians, has no solution, as the folder of a derivation of limbs that share motors tells.
+///
+/// # Errors
+/// As [`Source::read`] and [`reprove`].
+fn reason(folder: &Path, target: &[f64]) -> Result<Option<String>> {
+    if !folder.is_dir() || !is_derived(folder) || !folder.join(LIMBS_NAME).is_file() {
+        return Ok(None);
+    }
+    let explained = match reprove(folder, &Source::read(folder)?)? {
+        Proved::Limbs(derived) => derived.explain(target, &Watch::none())?,
+        _ => None,
+    };
+    Ok(explained.map(|explanation| explanation.to_string()))
 }
 
 /// Targets from the command line: a page of text, or JSON.
-fn listed(program: &Program, given: &[String], angles: Angles, as_json: bool) -> Outcome {
+fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Arguments) -> Outcome {
     let mut page = String::new();
     let forms = Forms::new(program);
     for (index, target) in given.iter().enumerate() {
         let count = target.split(',').count();
         let lists = forms.names();
         let names = lists.iter().find(|names| names.len() == count).unwrap_or(&lists[0]);
-        let answer = targets::parse(names, target)
+        let mut answer = targets::parse(names, target)
             .and_then(|numbers| answer(program, &forms, numbers, angles))
             .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;
-        if as_json {
+        if answer.solutions.is_empty() {
+            answer.reason = reason(&arguments.derivation, &angles.to_radians(program, &answer.target))?;
+        }
+        if arguments.json {
             page += &json(&answer, given.len() == 1);
         } else {
             page += if index > 0 { "\n" } else { "" };

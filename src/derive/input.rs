@@ -1,16 +1,19 @@
-//! Reading what a derivation starts from: a chain, a robot or a system of equations, from a file or a mechanism's folder.
+//! Reading what a derivation starts from: a chain, limbs, a robot or a system of equations, from a file or a mechanism's folder.
 
 use std::path::{Path, PathBuf};
 
 use super::ends::{Ends, TASK_NAME};
+use super::limbs::Limbs;
 use super::{System, formulate};
 use crate::document::{Document, TEXT_LIMIT, read_text};
 use crate::kinematics::urdf::URDF_LIMIT;
 use crate::kinematics::{Chain, Tree};
 use crate::{Error, ErrorKind, Result};
 
-/// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot.
-pub const INPUT_NAMES: [&str; 3] = ["0_chain.toml", "0_system.toml", "0_robot.urdf"];
+/// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot, limbs that share motors.
+pub const INPUT_NAMES: [&str; 4] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", LIMBS_NAME];
+/// The name of the description of limbs that share motors, in a mechanism's folder.
+pub const LIMBS_NAME: &str = "0_limbs.toml";
 
 /// What a file describes.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +24,8 @@ pub enum Description {
     System(System),
     /// A robot with any number of limbs: URDF.
     Tree(Tree),
+    /// Limbs that share motors.
+    Limbs(Box<Limbs>),
 }
 
 /// A file as it was read.
@@ -39,34 +44,37 @@ pub struct InputFile {
 }
 
 impl InputFile {
-    /// Reads a mechanism's folder or an input file, in a folder with its [`TASK_NAME`]. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot; one with a
-    /// `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
+    /// Reads a mechanism's folder or an input file, in a folder with its [`TASK_NAME`]. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot; one with
+    /// `[[limb]]` limbs, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; as
-    /// [`Tree::from_urdf`], [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
+    /// [`Tree::from_urdf`], [`Limbs::from_toml`], [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file
+    /// and line.
     pub fn read(path: &Path) -> Result<InputFile> {
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
         let is_xml =
             file.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf") || end.eq_ignore_ascii_case("xml"));
         let text = read_text(&file, if is_xml { URDF_LIMIT } else { TEXT_LIMIT })?;
         let is_xml = is_xml || text.trim_start_matches('\u{feff}').trim_start().starts_with('<');
-        let described = if is_xml { Tree::from_urdf(&text).map(Description::Tree) } else { from_toml(&text) };
+        let described = if is_xml { Tree::from_urdf(&text).map(Description::Tree) } else { from_toml(&text, &file) };
         let description = described.map_err(|error| error.in_file(&file))?;
         let name = match description {
             Description::Chain(_) => INPUT_NAMES[0],
             Description::System(_) => INPUT_NAMES[1],
             Description::Tree(_) => INPUT_NAMES[2],
+            Description::Limbs(_) => LIMBS_NAME,
         };
         let ends = read_ends(&file)?;
         Ok(InputFile { path: file, name, text, description, ends })
     }
 
-    /// The chain of this input for what `ends` asks, and for the rest the folder's task file; none when it is a system.
+    /// The chain of this input for what `ends` asks, and for the rest the folder's task file; none when it is a system,
+    /// or limbs.
     ///
     /// # Errors
     /// As [`Tree::chain`] and [`Chain::with_task`]; [`ErrorKind::BadValue`] for ends of an input that has no links, and for a task
-    /// of a system. All name the file.
+    /// of a system or of limbs. All name the file.
     pub fn chain(&self, ends: &Ends) -> Result<Option<Chain>> {
         let ends = ends.or(&self.ends);
         let bad = |text| Err(Error::new(ErrorKind::BadValue, text));
@@ -79,7 +87,10 @@ impl InputFile {
             Description::System(_) if ends != Ends::default() => bad(
                 "a task is chosen, but a system of equations states its own; leave task, direction and given joints out",
             ),
-            Description::System(_) => Ok(None),
+            Description::Limbs(_) if ends != Ends::default() => bad(
+                "a task is chosen, but each limb states its own; leave task, direction, given joints and tolerance out",
+            ),
+            Description::System(_) | Description::Limbs(_) => Ok(None),
         };
         let asked = chain.and_then(|chain| chain.map(|chain| ends.ask(chain)).transpose());
         asked.map_err(|error| error.in_file(&self.path))
@@ -93,15 +104,18 @@ fn read_ends(file: &Path) -> Result<Ends> {
     if is_named && beside.is_file() { Ends::read(&beside) } else { Ok(Ends::default()) }
 }
 
-fn from_toml(text: &str) -> Result<Description> {
+/// What the text of `file` describes.
+fn from_toml(text: &str, file: &Path) -> Result<Description> {
     let has = {
         let document = Document::parse(text)?;
-        ["dh", "tip", "task"].map(|key| document.root().optional(key).is_some())
+        ["limb", "dh", "tip", "task"].map(|key| document.root().optional(key).is_some())
     };
     let boxed = |chain| Description::Chain(Box::new(chain));
+    let folder = file.parent().unwrap_or(Path::new(""));
     match has {
-        [true, ..] => Chain::from_dh_toml(text).map(boxed),
-        [false, false, false] => System::from_toml(text).map(Description::System),
+        [true, ..] => Limbs::from_toml(text, folder).map(|limbs| Description::Limbs(Box::new(limbs))),
+        [_, true, ..] => Chain::from_dh_toml(text).map(boxed),
+        [_, _, false, false] => System::from_toml(text).map(Description::System),
         _ => Chain::from_toml(text).map(boxed),
     }
 }
@@ -117,8 +131,10 @@ pub struct Source {
     pub text: String,
     /// The chain, when it describes one.
     pub chain: Option<Chain>,
-    /// The equations; none for a chain whose task is only solved joint by joint.
+    /// The equations; none for limbs, and for a chain whose task is only solved joint by joint.
     pub system: Option<System>,
+    /// The limbs, when it describes limbs that share motors.
+    pub limbs: Option<Limbs>,
     /// What was asked of it, when not all by default.
     pub ends: Ends,
 }
@@ -142,12 +158,18 @@ impl Source {
         let chain = input.chain(ends)?;
         let ends = ends.or(&input.ends);
         let InputFile { path, name, text, description, .. } = input;
-        let system = match (&chain, description) {
-            (Some(chain), _) => formulated(chain).map_err(|error| error.in_file(&path))?,
-            (None, Description::System(system)) => Some(system),
+        let (system, limbs) = match (&chain, description) {
+            (Some(chain), _) => (formulated(chain).map_err(|error| error.in_file(&path))?, None),
+            (None, Description::System(system)) => (Some(system), None),
+            (None, Description::Limbs(limbs)) => (None, Some(*limbs)),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
-        Ok(Source { path, name, text, chain, system, ends })
+        Ok(Source { path, name, text, chain, system, limbs, ends })
+    }
+
+    /// The names of the files beside the input that it refers to: those of limbs' chains.
+    pub fn beside(&self) -> impl Iterator<Item = &str> {
+        self.limbs.iter().flat_map(Limbs::limbs).filter_map(|limb| limb.file.as_deref())
     }
 
     /// The file that keeps in a derivation's folder what was asked of the input: its name, [`TASK_NAME`], and its text.
@@ -177,7 +199,7 @@ fn input_in(folder: &Path) -> Result<PathBuf> {
     match present.as_slice() {
         [file] => Ok(folder.join(file)),
         [] => {
-            let text = "this folder has no input; put a `0_chain.toml`, a `0_system.toml` or a `0_robot.urdf` in it";
+            let text = "this folder has no input; put a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_limbs.toml` in it";
             Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
         }
         [first, second, ..] => {

@@ -1,6 +1,7 @@
-//! A derivation of either kind, from a [`Source`]: [`Proved`].
+//! A derivation of any kind, from a [`Source`]: [`Proved`].
 
 use super::lift::{self, Derived};
+use super::limbs::DerivedLimbs;
 use super::{Derivation, Source, certificate};
 use crate::kinematics::Chain;
 use crate::solver::Program;
@@ -13,17 +14,20 @@ pub enum Proved {
     Equations(Box<Derivation>),
     /// Of a chain, one joint at a time.
     Chain(Box<Derived>),
+    /// Of limbs that share motors, one limb after the other.
+    Limbs(Box<DerivedLimbs>),
 }
 
 impl Proved {
     /// Derives and proves `source`.
     ///
     /// # Errors
-    /// As [`Derivation::new`] and [`Derived::of_chain`].
+    /// As [`Derivation::new`], [`Derived::of_chain`] and [`DerivedLimbs::of_limbs`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
-        match source.chain_by_steps() {
-            Some(chain) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch)),
-            None => {
+        match (source.chain_by_steps(), &source.limbs) {
+            (Some(chain), _) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch)),
+            (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::of_limbs(limbs, watch)?))),
+            (None, None) => {
                 let derivation = Derivation::new(equations(source)?.clone(), watch)?;
                 Ok(Proved::Equations(Box::new(derivation)))
             }
@@ -33,11 +37,12 @@ impl Proved {
     /// Proves the derivation of `source` anew from the text of its certificate, without the Groebner engine.
     ///
     /// # Errors
-    /// As [`certificate::prove`] and [`lift::certificate::prove`].
+    /// As [`certificate::prove`], [`lift::certificate::prove`] and [`DerivedLimbs::prove`].
     pub fn again(source: &Source, text: &str) -> Result<Self> {
-        match source.chain_by_steps() {
-            Some(chain) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
-            None => {
+        match (source.chain_by_steps(), &source.limbs) {
+            (Some(chain), _) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
+            (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::prove(limbs, text)?))),
+            (None, None) => {
                 let derivation = certificate::prove(equations(source)?, text)?;
                 Ok(Proved::Equations(Box::new(derivation)))
             }
@@ -58,6 +63,7 @@ impl Proved {
         match self {
             Proved::Equations(derivation) => &derivation.program,
             Proved::Chain(derived) => &derived.program,
+            Proved::Limbs(derived) => &derived.program,
         }
     }
 
@@ -69,11 +75,13 @@ impl Proved {
         match self {
             Proved::Equations(derivation) => derivation.stage_files(),
             Proved::Chain(derived) => derived.stage_files(),
+            Proved::Limbs(derived) => derived.stage_files(),
         }
     }
 }
 
 fn equations(source: &Source) -> Result<&super::System> {
-    let none = || Error::new(ErrorKind::BadValue, "the source has neither equations nor a chain").in_file(&source.path);
+    let none =
+        || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no limbs").in_file(&source.path);
     source.system.as_ref().ok_or_else(none)
 }

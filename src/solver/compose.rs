@@ -24,21 +24,27 @@ impl Program {
     }
 
     /// The program that solves this one and then `next`. In each pair of `shared`, a joint of this program and one that `next`
-    /// takes as given are one motor: it stands once among the joints, and is no input of `next` any more. Inputs and joints of
-    /// `next` stand behind this program's; name, version and preference are this program's.
+    /// takes as given are one motor: it stands once among the joints, and is no input of `next` any more. Inputs of one name are one
+    /// input. Other inputs and joints of `next` stand behind this program's; name, version and preference are this program's.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a shared joint that is not there, that moves otherwise, or that `next` does not take as given;
-    /// for more than 12 joints and what else [`Program::validate`] refuses.
+    /// for more than [`super::MAX_JOINTS`] joints and what else [`Program::validate`] refuses.
     pub fn followed_by(&self, next: &Program, shared: &[(usize, usize)]) -> Result<Program> {
         let places = Places::new(self, next, shared)?;
         let mut program = self.clone();
-        program.inputs.extend(own(&next.inputs, |index| places.inputs[index].is_some()));
+        program
+            .inputs
+            .extend(own(&next.inputs, |index| places.inputs[index].is_some_and(|place| place >= self.inputs.len())));
         program.unknowns.extend(own(&next.unknowns, |index| places.unknowns[index] >= self.unknowns.len()));
         for &condition in &next.conditions {
-            program.conditions.push(places.condition(condition)?);
+            let condition = places.condition(condition)?;
+            if !program.conditions.contains(&condition) {
+                program.conditions.push(condition);
+            }
         }
-        for parameter in own(&next.parameters, |index| matches!(places.parameters[index], Operand::Parameter(_))) {
+        let is_new = |index: usize| matches!(places.parameters[index], Operand::Parameter(place) if place >= self.parameters.len());
+        for parameter in own(&next.parameters, is_new) {
             program.parameters.push(places.parameter(parameter)?);
         }
         let joints = own(&next.joints, |index| places.joints[index] >= self.joints.len());
@@ -102,6 +108,18 @@ impl Places {
             if let Rule::Input(input) | Rule::Cosine(input) | Rule::Sine(input) = next.parameters[parameter].rule {
                 used[input] = Some(None);
             }
+        }
+        for (input, place) in next.inputs.iter().zip(&mut used).filter(|(_, place)| place.is_none()) {
+            *place = first.inputs.iter().position(|other| other == input).map(Some);
+        }
+        for (parameter, place) in next.parameters.iter().zip(&mut parameters).filter(|(_, place)| place.is_none()) {
+            let same = |other: &ParameterRule| match (&other.rule, &parameter.rule) {
+                (Rule::Input(a), Rule::Input(b))
+                | (Rule::Cosine(a), Rule::Cosine(b))
+                | (Rule::Sine(a), Rule::Sine(b)) => used[*b] == Some(Some(*a)),
+                _ => false,
+            };
+            *place = first.parameters.iter().position(same).map(Operand::Parameter);
         }
         Ok(Places {
             inputs: counted(used, first.inputs.len(), Some),
@@ -283,7 +301,36 @@ fn both(first: &Checks, next: Checks, joints: usize) -> Checks {
     checks.residuals.extend(next.residuals);
     checks.scales.extend(next.scales);
     checks.jacobian.extend(next.jacobian);
-    checks
+    without_repeats(&checks)
+}
+
+/// The same equations with each value computed once: what mechanisms on one base have in common.
+fn without_repeats(checks: &Checks) -> Checks {
+    let mut code: Vec<Instruction> = Vec::with_capacity(checks.code.len());
+    let mut places: Vec<usize> = Vec::with_capacity(checks.code.len());
+    for line in &checks.code {
+        let operation = mapped(line.operation, &|operand| placed(operand, &places));
+        let known = code.iter().position(|other| other.operation == operation);
+        places.push(known.unwrap_or(code.len()));
+        if known.is_none() {
+            code.push(Instruction { target: code.len(), operation });
+        }
+    }
+    let all = |list: &[Operand]| list.iter().map(|&entry| placed(entry, &places)).collect();
+    Checks {
+        residuals: all(&checks.residuals),
+        scales: all(&checks.scales),
+        jacobian: checks.jacobian.iter().map(|row| all(row)).collect(),
+        code,
+    }
+}
+
+/// The operand with its register where `places` puts it.
+fn placed(operand: Operand, places: &[usize]) -> Operand {
+    match operand {
+        Operand::Register(index) => Operand::Register(places[index]),
+        other => other,
+    }
 }
 
 /// The same equations with other registers.

@@ -63,4 +63,4 @@ pub const STAGES: usize = 4;
 /// A target's rotation or unit vector may be this far from one.
 pub const CONSISTENT: f64 = 1e-9;
 /// The most joints that a program may have.
-pub const MAX_JOINTS: usize = 12;
+pub const MAX_JOINTS: usize = 16;

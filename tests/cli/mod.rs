@@ -9,6 +9,7 @@ mod fk;
 mod ik;
 mod info;
 mod interrupted;
+mod limbs;
 mod plan;
 mod refused;
 mod solve;

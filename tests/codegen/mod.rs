@@ -3,6 +3,7 @@
 pub mod builder;
 mod derivations;
 pub mod harness;
+mod limbs;
 mod names;
 pub mod samples;
 mod text;

@@ -92,6 +92,21 @@ fn a_free_shared_joint_stays_free() {
     assert_eq!(answers[0].free, [0]);
 }
 
+/// Two slides on one motor at one `x`.
+#[test]
+fn inputs_of_one_name_are_one_input() {
+    let mut next = slide().prefixed("b_");
+    next.inputs[1].name = "x".into();
+    let program = slide().followed_by(&next, &[(0, 0)]).unwrap();
+    let inputs: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
+    assert_eq!(inputs, ["pan", "x"]);
+    assert_eq!((program.parameters.len(), program.joints.len()), (3, 3));
+    let answers = program.solve(&[0.3, 0.5]).unwrap();
+    assert_eq!(answers.len(), 1, "{answers:?}");
+    let reach = 0.5 * 0.3_f64.cos();
+    assert_joints(&answers[0], &[0.3, reach, reach], 1e-15);
+}
+
 /// Without a shared motor all answers of one go with all of the other.
 #[test]
 fn without_shared_joints_the_answers_are_all_pairs() {

@@ -9,6 +9,7 @@ mod document;
 mod forms;
 mod geometry;
 mod latex;
+mod limbs;
 mod markdown;
 mod step;
 mod strata;
@@ -27,5 +28,6 @@ pub fn explain(proved: &Proved) -> Result<Document> {
     match proved {
         Proved::Equations(derivation) => system::document(derivation),
         Proved::Chain(derived) => chain::document(derived),
+        Proved::Limbs(derived) => limbs::document(derived),
     }
 }

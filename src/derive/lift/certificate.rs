@@ -41,7 +41,7 @@ struct Record {
 /// What is claimed about a form.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Proof {
+pub(super) struct Proof {
     form: Form,
     strata: Vec<Entry>,
 }
@@ -51,13 +51,12 @@ struct Proof {
 /// # Errors
 /// When a template's field cannot be built: never for a derivation that was made by this crate.
 pub fn write(derived: &Derived) -> Result<String> {
-    let proof = |template: &Template| Ok(Proof { form: template.form, strata: entries(&template.tree)? });
     let record = Record {
         format: FORMAT,
         groebot: env!("CARGO_PKG_VERSION").to_owned(),
         name: derived.chain.name().to_owned(),
         plan: derived.plan.clone(),
-        templates: derived.templates.iter().map(proof).collect::<Result<_>>()?,
+        templates: template_proofs(&derived.templates)?,
         eliminations: derived
             .steps
             .iter()
@@ -96,7 +95,16 @@ pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
     Derived::assemble(chain, &mechanism, Parts { plan: record.plan, steps, templates, half_angles }, Slack::NONE)
 }
 
-fn prove_template(proof: &Proof) -> Result<Template> {
+/// What is claimed about templates.
+///
+/// # Errors
+/// When a template's field cannot be built: never for a derivation that was made by this crate.
+pub(super) fn template_proofs(templates: &[Template]) -> Result<Vec<Proof>> {
+    let proof = |template: &Template| Ok(Proof { form: template.form, strata: entries(&template.tree)? });
+    templates.iter().map(proof).collect()
+}
+
+pub(super) fn prove_template(proof: &Proof) -> Result<Template> {
     let system = proof.form.system()?;
     let tree = replay(&system, &proof.strata)
         .map_err(|error| refused(format!("template `{}`: {}", proof.form.name(), error.message())))?;

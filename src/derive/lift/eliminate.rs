@@ -9,9 +9,10 @@ use std::collections::BTreeMap;
 use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 
+use super::determinant::by_determinant;
 use super::shape::{Symbolic, TargetPoly};
 use super::squares::by_squares;
-use crate::derive::closure::{Factor, Mechanism};
+use crate::derive::closure::{Factor, Mechanism, Relation};
 use crate::derive::planner::PlanStep;
 use crate::groebner::{Options, Strategy, basis, divide};
 use crate::number::{BigRational, Rationals, Ring, Style};
@@ -68,7 +69,7 @@ impl Elimination {
     /// # Errors
     /// [`ErrorKind::Unsupported`] when nothing of use is left; what `watch` stops with.
     pub(super) fn derive(mechanism: &Mechanism, step: &PlanStep, away: &[usize], watch: &Watch) -> Result<Self> {
-        let mut elimination = Setting::new(mechanism, step, away)?.finish()?;
+        let mut elimination = Setting::of_step(mechanism, step, away)?.finish()?;
         if let Some((member, cofactors)) = elimination.by_squares(mechanism, step, away) {
             (elimination.member, elimination.cofactors) = (member, cofactors);
             return elimination.proved();
@@ -125,12 +126,48 @@ impl Elimination {
     /// # Errors
     /// [`ErrorKind::Certificate`] when it does not hold.
     pub(super) fn again(mechanism: &Mechanism, step: &PlanStep, away: &[usize], stored: &Stored) -> Result<Self> {
-        let mut elimination = Setting::new(mechanism, step, away)?.finish()?;
+        Setting::of_step(mechanism, step, away)?.finish()?.replayed(stored)
+    }
+
+    /// Eliminates the joint `away` from a relation of each of two mechanisms that share it and the joint `own` at the same places, with
+    /// axes of the same length, where both relations are linear and homogeneous in its cosine and sine.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] when they are not, or nothing of use is left.
+    pub(super) fn of_two(sides: &[(&Mechanism, &Relation); 2], [away, own]: [usize; 2]) -> Result<Self> {
+        let mut elimination = Setting::new(sides, vec![away, own])?.finish()?;
+        let found = match elimination.generators.as_slice() {
+            [f, g, ..] => by_determinant(&elimination.ring, [f, g], &sides[0].0.joints()[away].square),
+            _ => None,
+        };
+        let unfit = || Error::new(ErrorKind::Unsupported, "the relations are not linear in the joint that they share");
+        let (member, [first, second, circle]) = found.ok_or_else(unfit)?;
+        let mut cofactors = vec![first, second, circle, elimination.ring.zero()];
+        let reduced = cofactors.last_mut().and_then(|cofactor| elimination.without_square(&member, cofactor));
+        (elimination.member, elimination.cofactors) = (reduced.ok_or_else(unfit)?, cofactors);
+        elimination.proved()
+    }
+
+    /// Proves a stored elimination of [`Elimination::of_two`] anew.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Certificate`] when it does not hold.
+    pub(super) fn of_two_again(
+        sides: &[(&Mechanism, &Relation); 2],
+        [away, own]: [usize; 2],
+        stored: &Stored,
+    ) -> Result<Self> {
+        Setting::new(sides, vec![away, own])?.finish()?.replayed(stored)
+    }
+
+    /// The elimination with the member and the cofactors that are stored, proved.
+    fn replayed(mut self, stored: &Stored) -> Result<Self> {
+        let elimination = &mut self;
         let read = |text: &String| -> Result<Poly> { parse(text)?.evaluate(&elimination.ring) };
         let member = read(&stored.member)?;
         let cofactors = stored.cofactors.iter().map(read).collect::<Result<_>>()?;
         (elimination.member, elimination.cofactors) = (member, cofactors);
-        elimination.proved()
+        self.proved()
     }
 
     /// The text of the proof.
@@ -186,20 +223,33 @@ impl Elimination {
 
 /// The equations of an elimination in the making.
 struct Setting<'a> {
+    /// A mechanism that has the joints; where there are two, the first.
     mechanism: &'a Mechanism,
     /// The joints that go, then the step's own.
     joints: Vec<usize>,
     /// By relation: the coefficients as a multiple of a symbol or a number.
     relations: Vec<Vec<Entry>>,
     symbols: Vec<(SymbolPlace, Coefficient)>,
+    /// The first symbol of the mechanism at hand.
+    first: usize,
 }
 
 impl<'a> Setting<'a> {
-    fn new(mechanism: &'a Mechanism, step: &PlanStep, away: &[usize]) -> Result<Self> {
-        let joints = [away, &[step.joint]].concat();
-        let mut setting = Setting { mechanism, joints, relations: Vec::new(), symbols: Vec::new() };
+    fn of_step(mechanism: &'a Mechanism, step: &PlanStep, away: &[usize]) -> Result<Self> {
+        let sides: Vec<_> = step.way.relations().iter().map(|relation| (mechanism, relation)).collect();
+        Setting::new(&sides, [away, &[step.joint]].concat())
+    }
+
+    /// The equations of relations, each of its mechanism. A mechanism's coefficients are told apart from those of another.
+    fn new(sides: &[(&'a Mechanism, &Relation)], joints: Vec<usize>) -> Result<Self> {
+        let none = || Error::new(ErrorKind::Unsupported, "there is no relation to eliminate from");
+        let mut mechanism = sides.first().ok_or_else(none)?.0;
+        let mut setting = Setting { mechanism, joints, relations: Vec::new(), symbols: Vec::new(), first: 0 };
         let mut symbolic = Symbolic::new(mechanism)?;
-        for (relation, words) in step.way.relations().iter().enumerate() {
+        for (relation, &(own, words)) in sides.iter().enumerate() {
+            if !std::ptr::eq(own, mechanism) {
+                (mechanism, symbolic, setting.first) = (own, Symbolic::new(own)?, setting.symbols.len());
+            }
             let polynomial = symbolic.polynomial(mechanism, words)?;
             let mut parts: BTreeMap<Vec<Factor>, Coefficient> = BTreeMap::new();
             for (product, value) in polynomial.terms() {
@@ -218,14 +268,15 @@ impl<'a> Setting<'a> {
     /// A coefficient by numbers and the symbols so far, or as a new symbol.
     fn entry(&mut self, symbolic: &Symbolic, relation: usize, factors: Vec<Factor>, coefficient: Coefficient) -> Entry {
         let one = Coefficient::from([(Vec::new(), symbolic.ring.one())]);
-        let basis = [&one].into_iter().chain(self.symbols.iter().map(|(_, known)| known));
+        let basis = [&one].into_iter().chain(self.symbols[self.first..].iter().map(|(_, known)| known));
         let row = |coefficient: &Coefficient| -> BTreeMap<(Vec<Factor>, Vec<u32>), BigRational> {
             let terms = coefficient.iter().flat_map(|(product, f)| f.terms().iter().map(move |term| (product, term)));
             let place = |monomial| symbolic.ring.layout().exponents(monomial);
             terms.map(|(product, term)| ((product.clone(), place(&term.monomial)), term.coefficient.clone())).collect()
         };
         if let Some(numbers) = combination(&row(&coefficient), &basis.map(row).collect::<Vec<_>>()) {
-            let parts = numbers.into_iter().enumerate().map(|(index, number)| (number, index.checked_sub(1)));
+            let symbol = |index: usize| index.checked_sub(1).map(|place| self.first + place);
+            let parts = numbers.into_iter().enumerate().map(|(index, number)| (number, symbol(index)));
             return (factors, parts.filter(|(number, _)| !number.is_zero()).collect());
         }
         self.symbols.push((SymbolPlace { relation, factors: factors.clone() }, coefficient));

@@ -23,6 +23,8 @@ pub(super) struct Layout {
     pub across: Option<[[usize; 3]; 2]>,
     /// By joint: the parameters that are its value when it is given: a cosine and a sine, or a length.
     pub given: Vec<Vec<usize>>,
+    /// The first parameter of the target.
+    pub first: usize,
 }
 
 impl Layout {
@@ -36,6 +38,7 @@ impl Layout {
             joints: Vec::new(),
             across: None,
             given: vec![Vec::new(); mechanism.joints().len()],
+            first: 0,
         };
         let length = match unit {
             LengthUnit::Metre => Unit::Metre,
@@ -101,6 +104,15 @@ impl Layout {
         };
     }
 
+    /// Leaves out the unknowns of all joints but the first `count`.
+    pub fn keep_joints(&mut self, count: usize) {
+        let last = self.joints[..count].last().map_or(0, |value| match *value {
+            JointValue::Angle { cosine, sine } => cosine.max(sine) + 1,
+            JointValue::Plain(unknown) => unknown + 1,
+        });
+        self.unknowns.truncate(last);
+    }
+
     /// A new unknown.
     pub fn unknown(&mut self, name: &str) -> usize {
         self.unknowns.push(name.to_owned());
@@ -121,7 +133,8 @@ impl Layout {
                 let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
                 let factor =
                     if mechanism.task() == Task::Direction { square.to_f64().unwrap_or(1.0).sqrt() } else { 1.0 };
-                let value = |index| Emitted::Code(emitter.0.mul(Operand::Constant(factor), Operand::Parameter(index)));
+                let parameter = |index| Operand::Parameter(self.first + index);
+                let value = |index| Emitted::Code(emitter.0.mul(Operand::Constant(factor), parameter(index)));
                 (0..mechanism.parameters().len()).map(value).collect()
             }
         };

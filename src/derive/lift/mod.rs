@@ -4,6 +4,8 @@
 pub mod certificate;
 mod charts;
 mod checks;
+mod coupled;
+mod determinant;
 mod eliminate;
 mod emit;
 mod half_angle;
@@ -16,6 +18,8 @@ mod stages;
 mod target;
 mod template;
 
+pub(super) use coupled::Stored as StoredCoupled;
+pub use coupled::{Coupled, Side};
 pub use eliminate::{Elimination, SymbolPlace};
 pub use half_angle::{HalfAngle, HalfAngles};
 pub use shape::Shape;

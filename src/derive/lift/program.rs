@@ -13,7 +13,7 @@ use super::shape::Shape;
 use super::template::{Form, Template};
 use super::{Lifted, Parts};
 use crate::derive::assemble::{Assembler, FlatTerm};
-use crate::derive::closure::{Assignment, Factor, Mechanism, Multilinear, evaluate};
+use crate::derive::closure::{Factor, Mechanism, Multilinear, Relation, evaluate};
 use crate::kinematics::{Chain, LengthUnit};
 use crate::number::BigRational;
 use crate::solver::{Block, Chart, Checks, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
@@ -44,7 +44,7 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
     let mut spreads = Vec::new();
     for (index, step) in parts.steps.iter().enumerate() {
         let free = free(mechanism, &parts.steps[index..]);
-        let context = Context { mechanism, known: &known, step, free, reach, slack, spreads: &spreads };
+        let context = Context { mechanism, known: &known, step, free, reach, slack, spreads: &spreads, partner: None };
         let mut block = context.block(&mut layout, templates, parts.half_angles.as_ref())?;
         let has_roots = parts.steps[index + 1..].iter().any(|later| later.shape.form.degree() > 1);
         if has_roots && block.charts.iter().any(|chart| !chart.free.is_empty()) {
@@ -85,7 +85,7 @@ pub(super) fn checks_on(chain: &Chain) -> Result<Checks> {
 }
 
 /// The size of the chain's positions; one when it is a point.
-fn reach(chain: &Chain) -> f64 {
+pub(super) fn reach(chain: &Chain) -> f64 {
     let first = chain.joints().first().map_or(0.0, |joint| joint.location().coords.norm());
     let reach = chain.reach() + first;
     if reach > 0.0 { reach } else { 1.0 }
@@ -118,7 +118,7 @@ fn free(mechanism: &Mechanism, steps: &[Lifted]) -> usize {
 }
 
 /// The block that puts a given joint where the user says.
-fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Block {
+pub(super) fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Block {
     let unknowns = match layout.joints[joint] {
         JointValue::Angle { cosine, sine } => vec![cosine, sine],
         JointValue::Plain(unknown) => vec![unknown],
@@ -140,20 +140,28 @@ fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Block {
 }
 
 /// A step and what is known when it runs.
-struct Context<'a> {
-    mechanism: &'a Mechanism,
-    known: &'a [usize],
-    step: &'a Lifted,
+pub(super) struct Context<'a> {
+    pub mechanism: &'a Mechanism,
+    pub known: &'a [usize],
+    pub step: &'a Lifted,
     /// The joint that is told as free where the step's is.
-    free: usize,
-    reach: f64,
-    slack: Slack,
+    pub free: usize,
+    pub reach: f64,
+    pub slack: Slack,
     /// The unknowns that tell whether joints are free.
-    spreads: &'a [usize],
+    pub spreads: &'a [usize],
+    /// The mechanism that all relations but the first belong to, where it is another, and where its target stands.
+    pub partner: Option<(&'a Mechanism, &'a Layout)>,
 }
 
 impl Context<'_> {
-    fn block(&self, layout: &mut Layout, templates: &[Template], half_angles: Option<&HalfAngles>) -> Result<Block> {
+    /// The block of the step.
+    pub fn block(
+        &self,
+        layout: &mut Layout,
+        templates: &[Template],
+        half_angles: Option<&HalfAngles>,
+    ) -> Result<Block> {
         let joint = self.step.joint;
         let screw = &self.mechanism.joints()[joint];
         let auxiliary = match self.step.shape.form {
@@ -210,31 +218,47 @@ impl Context<'_> {
         }
     }
 
+    /// The step's relations with the mechanisms that they belong to.
+    fn sides<'b>(&'b self, layout: &'b Layout) -> Vec<(&'b Mechanism, &'b Layout, &'b [Relation])> {
+        let relations = self.step.relations.as_slice();
+        match self.partner {
+            None => vec![(self.mechanism, layout, relations)],
+            Some((mechanism, other)) => {
+                let (own, others) = relations.split_at(relations.len().min(1));
+                vec![(self.mechanism, layout, own), (mechanism, other, others)]
+            }
+        }
+    }
+
     /// The symbols of the step's form. Their sizes matter only where a guard asks for them.
     fn symbols(&self, layout: &Layout, assembler: &mut Assembler) -> Result<Vec<Sized>> {
-        let assignment = layout.assignment(self.mechanism, self.known, assembler)?;
         let mut equations = Vec::new();
-        for relation in &self.step.relations {
-            equations.push(evaluate(self.mechanism, relation, &assignment, &mut Emitter(assembler))?);
+        for (mechanism, layout, relations) in self.sides(layout) {
+            let assignment = layout.assignment(mechanism, self.known, assembler)?;
+            for relation in relations {
+                equations.push(evaluate(mechanism, relation, &assignment, &mut Emitter(assembler))?);
+            }
         }
         let values = self.combine(&equations, None, assembler);
         if values.first().is_some_and(is_number) && !matches!(self.step.shape.form, Form::Pair | Form::Quartic) {
             return Ok(values.into_iter().map(|value| Sized { value, size: Operand::Constant(1.0) }).collect());
         }
-        let assignment = layout.sizes(self.mechanism, self.known, assembler)?;
-        let sizes = self.sizes(&equations, &assignment, assembler)?;
+        let sizes = self.sizes(&equations, layout, assembler)?;
         Ok(values.into_iter().zip(sizes).map(|(value, size)| Sized { value, size }).collect())
     }
 
     fn sizes(
         &self,
         values: &[Multilinear<Emitted>],
-        assignment: &Assignment<Emitted>,
+        layout: &Layout,
         assembler: &mut Assembler,
     ) -> Result<Vec<Operand>> {
         let mut equations = Vec::new();
-        for relation in &self.step.relations {
-            equations.push(evaluate(self.mechanism, relation, assignment, &mut Sizes(assembler))?);
+        for (mechanism, layout, relations) in self.sides(layout) {
+            let assignment = layout.sizes(mechanism, self.known, assembler)?;
+            for relation in relations {
+                equations.push(evaluate(mechanism, relation, &assignment, &mut Sizes(assembler))?);
+            }
         }
         let sizes = self.combine(&equations, Some(values), assembler);
         Ok(sizes.into_iter().map(|size| assembler.abs(size)).collect())

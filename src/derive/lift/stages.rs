@@ -25,18 +25,18 @@ impl Derived {
     /// When a field cannot be built: never for a derivation that was made by this crate.
     pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
         let mechanism = Mechanism::new(&self.chain)?;
-        let texts = [
-            self.equations_text(&mechanism)?,
-            self.plan_text(&mechanism),
-            self.basis_text(),
-            self.triangular_text(&mechanism),
-            self.program.to_json(),
-            certificate::write(self)?,
-        ];
+        let [equations, plan, basis, triangular] = self.stage_texts(&mechanism)?;
+        let texts = [equations, plan, basis, triangular, self.program.to_json(), certificate::write(self)?];
         let mut files: Vec<(String, Vec<u8>)> =
             STAGES.iter().zip(texts).map(|(name, text)| ((*name).to_owned(), text.into_bytes())).collect();
         files.push((PAGE.to_owned(), self.readme(&mechanism).into_bytes()));
         Ok(files)
+    }
+
+    /// The texts of the equations, the plan, the bases and the triangular forms.
+    pub(in crate::derive) fn stage_texts(&self, mechanism: &Mechanism) -> Result<[String; 4]> {
+        let equations = self.equations_text(mechanism)?;
+        Ok([equations, self.plan_text(mechanism), self.basis_text(), self.triangular_text(mechanism)])
     }
 
     fn equations_text(&self, mechanism: &Mechanism) -> Result<String> {
@@ -167,6 +167,20 @@ impl Derived {
                 report.to_string().lines().map(|line| format!("* {line}\n")).collect::<String>()
             );
         }
+        text += &self.steps_text(mechanism);
+        text += "\nEach equation is a rigid-motion invariant of the loop E1 ... En = G, where G moves the tip from its place at zero to \
+                 the target: `1_equations.txt`. No solution is lost, for each equation follows from the loop; none is added, for each \
+                 answer is measured by forward kinematics.\n\n";
+        text += MARK;
+        text += "; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
+        let example = vec!["..."; inputs.len()].join(",");
+        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", self.chain.name());
+        text
+    }
+
+    /// The steps, as a numbered list.
+    pub(in crate::derive) fn steps_text(&self, mechanism: &Mechanism) -> String {
+        let mut text = String::new();
         let _ = writeln!(text, "Up to {} solutions. The joints are found one at a time:\n", self.plan.dimension);
         for (index, step) in self.steps.iter().enumerate() {
             let form = step.shape.form;
@@ -176,13 +190,6 @@ impl Derived {
             }
             let _ = writeln!(text, "   Singular: {}", singular(form));
         }
-        text += "\nEach equation is a rigid-motion invariant of the loop E1 ... En = G, where G moves the tip from its place at zero to \
-                 the target: `1_equations.txt`. No solution is lost, for each equation follows from the loop; none is added, for each \
-                 answer is measured by forward kinematics.\n\n";
-        text += MARK;
-        text += "; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
-        let example = vec!["..."; inputs.len()].join(",");
-        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", self.chain.name());
         text
     }
 }

@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::derived::DerivedLimbs;
+use super::derived::{DerivedLimbs, coupling};
 use super::model::Limbs;
 use crate::Result;
 use crate::derive::certificate::{check_head, refused, unread, written};
-use crate::derive::lift::certificate;
+use crate::derive::lift::{Coupled, StoredCoupled, certificate};
 use crate::kinematics::Chain;
 
 /// The version of the format; that of one chain has number 2.
@@ -19,6 +19,9 @@ struct Record {
     format: u32,
     groebot: String,
     name: String,
+    /// How the joints that two limbs share are found first, where that is done.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    coupled: Option<StoredCoupled>,
     limbs: Vec<Proof>,
 }
 
@@ -39,6 +42,7 @@ impl DerivedLimbs {
             format: FORMAT,
             groebot: env!("CARGO_PKG_VERSION").to_owned(),
             name: self.limbs.parts().name.clone(),
+            coupled: self.coupled.as_ref().map(Coupled::stored).transpose()?,
             limbs: Vec::new(),
         };
         for stage in &self.stages {
@@ -64,7 +68,13 @@ impl DerivedLimbs {
             }
             _ => Err(refused("its certificate is missing or not in its place".to_owned())),
         };
-        let derived = DerivedLimbs::assemble(limbs, &mut prove)?;
+        let coupled = match (coupling(limbs)?, &record.coupled) {
+            (Some((sides, shared)), Some(stored)) => Some(Coupled::again(sides, shared, stored)?),
+            // Where no relations of shared joints fit, the limbs are solved one after the other.
+            (_, None) => None,
+            _ => return Err(refused("the proof of the shared joints is missing or left over".to_owned())),
+        };
+        let derived = DerivedLimbs::assemble(limbs, coupled, &mut prove)?;
         match stored.next() {
             None => Ok(derived),
             Some(proof) => Err(refused(format!("the certificate of `{}` is left over", proof.limb))),

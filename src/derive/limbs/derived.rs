@@ -1,9 +1,9 @@
 //! From limbs to one solver: [`DerivedLimbs`].
 
 use super::model::{JointPlace, Limb, Limbs};
-use crate::derive::lift::Derived;
+use crate::derive::lift::{Coupled, Derived, Side};
 use crate::kinematics::Chain;
-use crate::solver::{MAX_JOINTS, Program};
+use crate::solver::{Input, MAX_JOINTS, Program};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// A limb's derivation, and its place in the solver of all.
@@ -38,6 +38,8 @@ pub(super) type Derive<'a> = dyn FnMut(usize, &Chain) -> Result<Derived> + 'a;
 pub struct DerivedLimbs {
     /// The limbs.
     pub limbs: Limbs,
+    /// How the joints that two limbs share are found first, where neither limb determines them alone.
+    pub coupled: Option<Coupled>,
     /// The limbs' derivations, in the order in which they are solved.
     pub stages: Vec<LimbStage>,
     /// The solver.
@@ -46,29 +48,44 @@ pub struct DerivedLimbs {
 
 impl DerivedLimbs {
     /// Orders the limbs, derives each as a chain with the joints given that are found before it, and composes their solvers. Of the
-    /// limbs that can be solved next, the first is taken.
+    /// limbs that can be solved next, the first is taken. Where none can, the joints that two limbs share are found first.
     ///
     /// # Errors
     /// [`ErrorKind::PositiveDimensional`] when the tasks leave joints of the limbs that are left undetermined;
-    /// [`ErrorKind::BadValue`] for a given joint that another limb finds; as [`Derived::of_chain`], with the limb.
+    /// [`ErrorKind::BadValue`] for a given joint that another limb finds; as [`Derived::of_chain`], with the limb; as
+    /// [`Coupled::derive`].
     pub fn of_limbs(limbs: &Limbs, watch: &Watch) -> Result<Self> {
-        DerivedLimbs::assemble(limbs, &mut |_, chain| Derived::of_chain(chain, watch))
+        let coupled = match coupling(limbs)? {
+            Some((sides, shared)) => found_together(Coupled::derive(sides, shared, watch), limbs)?,
+            None => None,
+        };
+        DerivedLimbs::assemble(limbs, coupled, &mut |_, chain| Derived::of_chain(chain, watch))
     }
 
     /// Composes the solvers that `derive` gives of the chains of limbs, which it gets in their order with the limbs' indices.
-    pub(super) fn assemble(limbs: &Limbs, derive: &mut Derive<'_>) -> Result<Self> {
-        let mut stages: Vec<LimbStage> = Vec::new();
-        while stages.len() < limbs.limbs().len() {
-            let limb = next_limb(limbs, &stages)?;
+    pub(super) fn assemble(limbs: &Limbs, coupled: Option<Coupled>, derive: &mut Derive<'_>) -> Result<Self> {
+        let mut found = Found { limbs, coupled: coupled.as_ref(), stages: Vec::new() };
+        while found.stages.len() < limbs.limbs().len() {
+            let limb = found.next_limb()?;
             let named = |error: Error| error.with_context(format_args!("limb `{}`", limbs.limbs()[limb].name));
-            let stage = LimbStage::derive(limbs, limb, &stages, derive).map_err(named)?;
-            stages.push(stage);
+            let stage = LimbStage::derive(&found, limb, derive).map_err(named)?;
+            found.stages.push(stage);
         }
+        let stages = found.stages;
         let last = stages.last().map(|stage| stage.program.clone());
         let program = last.ok_or_else(|| Error::new(ErrorKind::BadValue, "there is no limb"))?;
-        let mut all = DerivedLimbs { limbs: limbs.clone(), stages, program };
+        let mut all = DerivedLimbs { limbs: limbs.clone(), coupled, stages, program };
+        let most = 2 * all.dimension() + all.program.blocks.len();
+        all.program.capacity = most.min(all.program.capacity);
         all.name_motors();
         Ok(all)
+    }
+
+    /// The number of complex solutions at a generic target that the limbs can reach: each way of the limbs before is continued in as
+    /// many ways as the next limb has.
+    pub fn dimension(&self) -> usize {
+        let shared = self.coupled.as_ref().map_or(1, Coupled::dimension);
+        self.stages.iter().map(|stage| stage.derived.plan.dimension).fold(shared, usize::saturating_mul)
     }
 
     /// The motors' names in place of the joints'.
@@ -110,46 +127,89 @@ impl DerivedLimbs {
     pub fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
         let mut target = vec![0.0; self.program.inputs.len()];
         for stage in &self.stages {
-            let reached = stage.derived.reached(&self.joints_of(stage.limb, q)?)?;
-            for (value, origin) in reached.into_iter().zip(&stage.inputs) {
-                if let Origin::Target(index) = *origin {
-                    target[index] = value;
-                }
+            stage.write(&stage.derived.reached(&self.joints_of(stage.limb, q)?)?, &mut target);
+        }
+        self.write_given(q, &mut target);
+        Ok(target)
+    }
+
+    /// Writes the values of joints that the user gives to both limbs alike into a target of the solver.
+    pub fn write_given(&self, q: &[f64], target: &mut [f64]) {
+        let (Some(_), Limb { prefix, chain, .. }) = (&self.coupled, &self.limbs.limbs()[0]) else { return };
+        for joint in chain.given() {
+            let name = format!("{prefix}{}", chain.joints()[joint].name);
+            if let Some(place) = self.program.inputs.iter().position(|input| input.name == name) {
+                target[place] = q[joint];
             }
         }
-        Ok(target)
     }
 }
 
 impl LimbStage {
     /// The limb's derivation behind those of `before`.
-    fn derive(limbs: &Limbs, limb: usize, before: &[LimbStage], derive: &mut Derive<'_>) -> Result<Self> {
-        let Limb { prefix, chain, .. } = &limbs.limbs()[limb];
-        let found: Vec<Option<usize>> =
-            (0..chain.joints().len()).map(|joint| found(limbs, before, limb, joint)).collect();
+    fn derive(before: &Found<'_>, limb: usize, derive: &mut Derive<'_>) -> Result<Self> {
+        let Limb { prefix, chain, .. } = &before.limbs.limbs()[limb];
+        let found: Vec<Option<usize>> = (0..chain.joints().len()).map(|joint| before.place(limb, joint)).collect();
         let mut given = chain.parts().given.clone();
         for (joint, _) in chain.joints().iter().zip(&found).filter(|(_, found)| found.is_some()) {
-            if given.contains(&joint.name) {
-                let text = format!("`{}` is given, but a limb before it finds its motor; leave it out", joint.name);
-                return Err(Error::new(ErrorKind::BadValue, text));
+            match (given.contains(&joint.name), before.coupled) {
+                (false, _) => given.push(joint.name.clone()),
+                // The user gives it to both limbs alike.
+                (true, Some(_)) => {}
+                (true, None) => {
+                    let text = format!("`{}` is given, but a limb before it finds its motor; leave it out", joint.name);
+                    return Err(Error::new(ErrorKind::BadValue, text));
+                }
             }
-            given.push(joint.name.clone());
         }
         let chain = chain.with_task(chain.task(), chain.direction().clone(), given)?;
         let derived = derive(limb, &chain)?;
         let own = derived.program.prefixed(prefix);
         let shared: Vec<(usize, usize)> =
             found.iter().enumerate().filter_map(|(joint, &found)| found.map(|place| (place, joint))).collect();
-        let last = before.last().map(|stage| &stage.program);
+        let last = before.program();
         let program = last.map_or_else(|| Ok(own.clone()), |last| last.followed_by(&own, &shared))?;
         let mut fresh = last.map_or(0, |last| last.joints.len())..MAX_JOINTS;
         let joints: Vec<usize> = found.iter().filter_map(|found| found.or_else(|| fresh.next())).collect();
-        let inputs = origins(&derived, &found, last.map_or(0, |last| last.inputs.len()));
+        let inputs = origins(&derived, &own.inputs, &program.inputs, &found);
         Ok(LimbStage { limb, derived, program, joints, inputs })
     }
 
+    /// The limb's joints `own` among `count` joints of the solver, others at zero.
+    pub(super) fn put(&self, own: &[f64], count: usize) -> Vec<f64> {
+        let mut q = vec![0.0; count];
+        self.joints.iter().zip(own).for_each(|(&place, &value)| q[place] = value);
+        q
+    }
+
+    /// Writes what the limb's own solver is asked into a target of the solver; what other limbs find has no place there.
+    pub fn write(&self, own: &[f64], target: &mut [f64]) {
+        for (&value, origin) in own.iter().zip(&self.inputs) {
+            if let Origin::Target(index) = *origin {
+                target[index] = value;
+            }
+        }
+    }
+
+    /// The joints of the solver whose values the limb takes from limbs before it.
+    pub fn found(&self) -> impl Iterator<Item = usize> {
+        self.inputs.iter().filter_map(|origin| match *origin {
+            Origin::Joint(index) => Some(index),
+            Origin::Target(_) => None,
+        })
+    }
+
+    /// What the limb is asked in a target of the solver, without the joints that limbs before find.
+    pub fn own_target(&self, target: &[f64]) -> Vec<f64> {
+        let asked = |origin: &Origin| match *origin {
+            Origin::Target(index) => Some(target[index]),
+            Origin::Joint(_) => None,
+        };
+        self.inputs.iter().filter_map(asked).collect()
+    }
+
     /// What the limb's own solver is asked, for a target of the solver and its joints.
-    pub(super) fn target(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
+    pub fn target(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
         let value = |origin: &Origin| match *origin {
             Origin::Target(index) => target[index],
             Origin::Joint(index) => q[index],
@@ -158,50 +218,102 @@ impl LimbStage {
     }
 }
 
-/// Where the limb's inputs come from: the target, and behind it the given joints from the base, of which those already `found` are
-/// joints of limbs before.
-fn origins(derived: &Derived, found: &[Option<usize>], first: usize) -> Vec<Origin> {
+/// Where the limb's inputs, whose names are those of `own`, come from: inputs of the solver, and behind the target's the given joints
+/// from the base, of which those already `found` are joints of limbs before.
+fn origins(derived: &Derived, own: &[Input], inputs: &[Input], found: &[Option<usize>]) -> Vec<Origin> {
     let given = &derived.plan.given;
-    let target = derived.program.inputs.len() - given.len();
-    let joint = |&joint: &usize| found[joint].map(Origin::Joint);
-    let mut next = first..;
-    let known = std::iter::repeat_n(None, target).chain(given.iter().map(joint));
-    known.filter_map(|known| known.or_else(|| next.next().map(Origin::Target))).collect()
+    let target = own.len() - given.len();
+    let known = std::iter::repeat_n(None, target).chain(given.iter().map(|&joint| found[joint].map(Origin::Joint)));
+    let named = |name: &str| inputs.iter().position(|input| input.name == name).map(Origin::Target);
+    known.zip(own).filter_map(|(known, input)| known.or_else(|| named(&input.name))).collect()
 }
 
-/// The place among the solver's joints of a joint whose motor a limb before has found.
-fn found(limbs: &Limbs, before: &[LimbStage], limb: usize, joint: usize) -> Option<usize> {
-    let motor = &limbs.motors()[limbs.motor_of(JointPlace { limb, joint })?];
-    let place = |stage: &LimbStage| {
-        let twin = motor.joints.iter().find(|place| place.limb == stage.limb)?;
-        Some(stage.joints[twin.joint])
-    };
-    before.iter().find_map(place)
+/// What is derived so far.
+struct Found<'a> {
+    limbs: &'a Limbs,
+    coupled: Option<&'a Coupled>,
+    stages: Vec<LimbStage>,
 }
 
-/// The first limb whose task can determine what is not found yet of its joints.
-fn next_limb(limbs: &Limbs, before: &[LimbStage]) -> Result<usize> {
-    let left = |limb: &usize| before.iter().all(|stage| stage.limb != *limb);
-    let open = |limb: usize| {
-        let chain = &limbs.limbs()[limb].chain;
-        let given = chain.given();
-        let is_open = |joint: &usize| !given.contains(joint) && found(limbs, before, limb, *joint).is_none();
-        (0..chain.joints().len()).filter(is_open).count()
-    };
-    let freedoms = |limb: usize| limbs.limbs()[limb].chain.task().freedoms();
-    let remaining: Vec<usize> = (0..limbs.limbs().len()).filter(left).collect();
-    remaining.iter().copied().find(|&limb| open(limb) <= freedoms(limb)).ok_or_else(|| {
-        let told = |&limb: &usize| {
-            let Limb { name, chain, .. } = &limbs.limbs()[limb];
-            format!(
-                "`{name}` has {} joints to find, its task `{}` determines {}",
-                open(limb),
-                chain.task().name(),
-                freedoms(limb)
-            )
+impl Found<'_> {
+    /// The solver so far.
+    fn program(&self) -> Option<&Program> {
+        self.stages.last().map(|stage| &stage.program).or(self.coupled.map(|coupled| &coupled.program))
+    }
+
+    /// The place among the solver's joints of a joint whose motor is found already.
+    fn place(&self, limb: usize, joint: usize) -> Option<usize> {
+        if let Some(coupled) = self.coupled.filter(|coupled| joint < coupled.shared) {
+            debug_assert!(coupled.program.joints.len() == coupled.shared);
+            return Some(joint);
+        }
+        let motor = &self.limbs.motors()[self.limbs.motor_of(JointPlace { limb, joint })?];
+        let place = |stage: &LimbStage| {
+            let twin = motor.joints.iter().find(|place| place.limb == stage.limb)?;
+            Some(stage.joints[twin.joint])
         };
-        let list: Vec<String> = remaining.iter().map(told).collect();
-        let text = format!("no limb can be solved next: {}; ask more of one, or give a joint", list.join("; "));
-        Error::new(ErrorKind::PositiveDimensional, text)
-    })
+        self.stages.iter().find_map(place)
+    }
+
+    /// The number of a limb's joints that are neither given nor found.
+    fn open(&self, limb: usize) -> usize {
+        let chain = &self.limbs.limbs()[limb].chain;
+        let given = chain.given();
+        (0..chain.joints().len()).filter(|joint| !given.contains(joint) && self.place(limb, *joint).is_none()).count()
+    }
+
+    /// The first limb whose task can determine what is not found yet of its joints.
+    fn next_limb(&self) -> Result<usize> {
+        let left = |limb: &usize| self.stages.iter().all(|stage| stage.limb != *limb);
+        let freedoms = |limb: usize| self.limbs.limbs()[limb].chain.task().freedoms();
+        let remaining: Vec<usize> = (0..self.limbs.limbs().len()).filter(left).collect();
+        remaining.iter().copied().find(|&limb| self.open(limb) <= freedoms(limb)).ok_or_else(|| {
+            let told = |&limb: &usize| {
+                let Limb { name, chain, .. } = &self.limbs.limbs()[limb];
+                let (open, task) = (self.open(limb), chain.task().name());
+                format!("`{name}` has {open} joints to find, its task `{task}` determines {}", freedoms(limb))
+            };
+            let list: Vec<String> = remaining.iter().map(told).collect();
+            let text = format!("no limb can be solved next: {}; ask more of one, or give a joint", list.join("; "));
+            Error::new(ErrorKind::PositiveDimensional, text)
+        })
+    }
+}
+
+/// The derivation of shared joints; none where no relations fit, but a limb determines its joints alone.
+///
+/// # Errors
+/// Those of the derivation.
+fn found_together(coupled: Result<Coupled>, limbs: &Limbs) -> Result<Option<Coupled>> {
+    match coupled {
+        Err(error) if error.kind() == ErrorKind::Unsupported => {
+            let alone = Found { limbs, coupled: None, stages: Vec::new() }.next_limb();
+            alone.map(|_| None).map_err(|_| error)
+        }
+        coupled => coupled.map(Some),
+    }
+}
+
+/// Two limbs and the number of joints that stand first in both and are shared, where these joints are found from both limbs at once:
+/// two that neither limb determines alone, or one on which both must agree.
+///
+/// # Errors
+/// [`ErrorKind::PositiveDimensional`] when both together do not determine their joints either.
+pub(super) fn coupling(limbs: &Limbs) -> Result<Option<([Side<'_>; 2], usize)>> {
+    let found = Found { limbs, coupled: None, stages: Vec::new() };
+    let [first, second] = limbs.limbs() else { return Ok(None) };
+    let is_shared = |joint: &usize| {
+        let motor = limbs.motor_of(JointPlace { limb: 0, joint: *joint }).map(|motor| &limbs.motors()[motor]);
+        motor.is_some_and(|motor| motor.joints.contains(&JointPlace { limb: 1, joint: *joint }))
+    };
+    let shared = (0..first.chain.joints().len()).take_while(is_shared).count();
+    let given = first.chain.given();
+    let common = (0..shared).filter(|joint| !given.contains(joint)).count();
+    let excess = |limb: usize| found.open(limb) as isize - limbs.limbs()[limb].chain.task().freedoms() as isize;
+    let sides = Some(([first, second].map(|limb| Side { chain: &limb.chain, prefix: &limb.prefix }), shared));
+    match (common, excess(0), excess(1)) {
+        (1, ..=0, ..=0) | (2, 1, 1) => Ok(sides),
+        (_, 1.., 1..) => found.next_limb().map(|_| None),
+        _ => Ok(None),
+    }
 }

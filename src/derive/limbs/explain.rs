@@ -2,9 +2,11 @@
 
 use std::fmt;
 
-use super::derived::DerivedLimbs;
-use crate::Result;
-use crate::solver::Nearest;
+use super::derived::{DerivedLimbs, LimbStage};
+use crate::derive::lift::Derived;
+use crate::solver::{Nearest, Solution, Unit};
+use crate::spatial::angle;
+use crate::{Result, Watch};
 
 /// The limb at which a target fails.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,20 +15,53 @@ pub struct Explanation {
     pub limb: String,
     /// In how many ways the limbs before it reach their targets.
     pub before: usize,
+    /// By how much the motors that it shares would have to differ, where it reaches its target alone.
+    pub disagreement: Option<Disagreement>,
     /// What comes nearest among the limb's own joints, with the shared joints near where one of these ways has them; none when its
     /// equations have no real candidate at all, far out of reach.
     pub nearest: Option<Nearest>,
+}
+
+/// A shared motor that two limbs need at different values, of all their ways to reach their targets the two that differ least.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disagreement {
+    /// The motor's name.
+    pub motor: String,
+    /// The unit of its values.
+    pub unit: Unit,
+    /// Where the limb needs it, to reach its target.
+    pub needed: f64,
+    /// Where the limbs before have it.
+    pub found: f64,
+}
+
+impl Disagreement {
+    /// `needed - found`, of angles the way round that is shorter.
+    pub fn off(&self) -> f64 {
+        match self.unit {
+            Unit::Radian => angle::difference(self.needed, self.found),
+            _ => self.needed - self.found,
+        }
+    }
 }
 
 impl DerivedLimbs {
     /// The first limb that does not reach its part of `target` together with those before it; none when there is a solution.
     ///
     /// # Errors
-    /// As [`crate::solver::Program::solve`].
-    pub fn explain(&self, target: &[f64]) -> Result<Option<Explanation>> {
+    /// As [`crate::solver::Program::solve`]; what `watch` stops with.
+    pub fn explain(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
         if !self.program.solve(target)?.is_empty() {
             return Ok(None);
         }
+        match &self.coupled {
+            Some(_) => self.together(target, watch).map(Some),
+            None => self.in_turn(target, watch),
+        }
+    }
+
+    /// Where the limbs are solved one after the other.
+    fn in_turn(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
         let mut before = vec![Vec::new()];
         for stage in &self.stages {
             let answers = stage.program.solve(&target[..stage.program.inputs.len()])?;
@@ -36,16 +71,82 @@ impl DerivedLimbs {
                 let nearest = nearest.into_iter().flatten().min_by(|a, b| a.relative.total_cmp(&b.relative));
                 let ways = if stage == &self.stages[0] { 0 } else { before.len() };
                 let limb = self.limbs.limbs()[stage.limb].name.clone();
-                return Ok(Some(Explanation { limb, before: ways, nearest }));
+                let disagreement = match self.alone(stage, watch)? {
+                    Some(alone) => self.disagreement(stage, &before, &alone.program.solve(&stage.own_target(target))?),
+                    None => None,
+                };
+                return Ok(Some(Explanation { limb, before: ways, disagreement, nearest }));
             }
             before = answers.into_iter().map(|answer| answer.q).collect();
         }
         Ok(None)
     }
+
+    /// Where the shared joints are found from both limbs at once: which limb does not reach its target alone, or by how much the
+    /// two need a shared joint at different values; both limbs when neither can be solved alone.
+    fn together(&self, target: &[f64], watch: &Watch) -> Result<Explanation> {
+        let mut before: Vec<Vec<f64>> = Vec::new();
+        let mut disagreement = None;
+        for stage in &self.stages {
+            let Some(alone) = self.alone(stage, watch)? else { break };
+            let own = stage.own_target(target);
+            let answers = alone.program.solve(&own)?;
+            let limb = self.limbs.limbs()[stage.limb].name.clone();
+            if answers.is_empty() {
+                return Ok(Explanation { limb, before: 0, disagreement: None, nearest: alone.program.nearest(&own)? });
+            }
+            if !before.is_empty() {
+                disagreement = self.disagreement(stage, &before, &answers);
+                return Ok(Explanation { limb, before: before.len(), disagreement, nearest: None });
+            }
+            before = answers.iter().map(|answer| stage.put(&answer.q, self.program.joints.len())).collect();
+        }
+        let names: Vec<&str> = self.limbs.limbs().iter().map(|limb| limb.name.as_str()).collect();
+        Ok(Explanation { limb: names.join("` and `"), before: 0, disagreement, nearest: self.program.nearest(target)? })
+    }
+
+    /// The derivation of a limb that shares joints with those before it, as if it shared none; none where its task does not determine
+    /// them, or the user gives joints.
+    fn alone(&self, stage: &LimbStage, watch: &Watch) -> Result<Option<Derived>> {
+        let chain = &self.limbs.limbs()[stage.limb].chain;
+        let is_open = chain.joints().len() > chain.task().freedoms() || !chain.given().is_empty();
+        if is_open || stage.found().next().is_none() {
+            return Ok(None);
+        }
+        Derived::of_chain(chain, watch).map(Some)
+    }
+
+    /// How far a limb's own ways `answers` to reach its target are from the ways `before` of the limbs before it, by the shared motors;
+    /// none when there are no such ways.
+    fn disagreement(&self, stage: &LimbStage, before: &[Vec<f64>], answers: &[Solution]) -> Option<Disagreement> {
+        let shared: Vec<usize> = stage.found().collect();
+        let one = |way: &Vec<f64>, answer: &Solution, motor: usize| Disagreement {
+            motor: self.program.joints[motor].name.clone(),
+            unit: self.program.joints[motor].unit,
+            needed: stage.joints.iter().position(|place| *place == motor).map_or(f64::NAN, |joint| answer.q[joint]),
+            found: way[motor],
+        };
+        let larger = |a: &Disagreement, b: &Disagreement| a.off().abs().total_cmp(&b.off().abs());
+        let pairs = before.iter().flat_map(|way| answers.iter().map(move |answer| (way, answer)));
+        let worst =
+            pairs.filter_map(|(way, answer)| shared.iter().map(|&motor| one(way, answer, motor)).max_by(larger));
+        worst.min_by(larger)
+    }
 }
 
 impl fmt::Display for Explanation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(disagreement) = &self.disagreement {
+            let Disagreement { motor, unit, needed, found } = disagreement;
+            let unit = if *unit == Unit::Radian { "rad" } else { "in its length unit" };
+            return write!(
+                f,
+                "the limbs' targets contradict each other: limb `{}` needs `{motor}` at {needed:.9}, {:.3e} {unit} off the nearest \
+                 value {found:.9} at which the limbs before it reach theirs",
+                self.limb,
+                disagreement.off().abs()
+            );
+        }
         write!(f, "the equations of limb `{}` fail", self.limb)?;
         match self.before {
             0 => {}

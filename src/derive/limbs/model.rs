@@ -13,6 +13,8 @@ pub struct Limb {
     pub prefix: String,
     /// Its chain, with its task. Base frame and length unit are those of all limbs.
     pub chain: Chain,
+    /// The name of the file that states the chain, in the description's folder; none when the chain stands in place.
+    pub file: Option<String>,
 }
 
 /// A joint of a limb.
@@ -75,7 +77,7 @@ impl Limbs {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for no limb, a name or prefix that is no word, another length unit, joints of one limb as one motor, of
-    /// another kind, or more than 12 motors; [`ErrorKind::DuplicateName`] for limbs or motors of one name, and joints that are shared
+    /// another kind, or more than 16 motors; [`ErrorKind::DuplicateName`] for limbs or motors of one name, and joints that are shared
     /// twice; [`ErrorKind::UnknownName`] for shared joints that are not there.
     pub fn new(parts: LimbsParts) -> Result<Self> {
         Limbs::assemble(parts).map_err(|fault| fault.error)

@@ -59,7 +59,8 @@ fn read_limb(table: Table<'_>, folder: &Path) -> Result<Limb> {
     let chain = read_chain(table.required("chain")?, folder).map_err(named)?;
     let chain = asked(table, chain).map_err(|error| named(error).at_line(table.line()))?;
     let prefix = table.optional("prefix").map(|node| node.text().map(str::to_owned)).transpose()?;
-    Ok(Limb { prefix: prefix.unwrap_or_else(|| format!("{name}_")), name, chain })
+    let file = table.required("chain")?.text().ok().map(str::to_owned);
+    Ok(Limb { prefix: prefix.unwrap_or_else(|| format!("{name}_")), name, chain, file })
 }
 
 /// A chain in place, or the one in the file that is named.

@@ -53,11 +53,18 @@ struct Image {
     polynomial: Vec<u32>,
 }
 
-/// Counts the solutions of a chain's equations.
-pub(super) struct Counter {
+/// A chain whose joints are motors of a mechanism.
+struct Part {
     exact: ExactChain,
+    /// By joint: its motor.
+    motors: Vec<usize>,
+}
+
+/// Counts the solutions of the equations of a chain, or of chains that share motors.
+pub(super) struct Counter {
+    parts: Vec<Part>,
     names: Vec<String>,
-    /// The unknowns of each joint; `None` where it is given.
+    /// The unknowns of each motor; `None` where it is given.
     unknowns: Vec<Option<Value>>,
     learned: Option<Learned>,
 }
@@ -65,23 +72,50 @@ pub(super) struct Counter {
 impl Counter {
     pub fn new(chain: &Chain, given: &[usize]) -> Self {
         let exact = ExactChain::new(chain);
+        let motors = (0..exact.joints()).collect();
+        Counter::of_parts(vec![Part { exact, motors }], given)
+    }
+
+    /// For chains whose joints have these motors; `None` where the axes of a motor's joints are vectors of different lengths, so that
+    /// it has no common unknowns.
+    pub fn of_limbs(limbs: &[(&Chain, &[usize])], given: &[usize]) -> Option<Self> {
+        let part =
+            |(chain, motors): &(&Chain, &[usize])| Part { exact: ExactChain::new(chain), motors: motors.to_vec() };
+        let parts: Vec<Part> = limbs.iter().map(part).collect();
+        let square = |(part, joint): (&Part, usize)| part.exact.square(joint).clone();
+        let alike = |motor: usize| {
+            let mut squares = joints_of(&parts, motor).map(square);
+            let first = squares.next();
+            squares.all(|other| Some(other) == first)
+        };
+        let count = limbs.iter().flat_map(|(_, motors)| motors.iter()).max().map_or(0, |last| last + 1);
+        (0..count).all(alike).then(|| Counter::of_parts(parts, given))
+    }
+
+    fn of_parts(parts: Vec<Part>, given: &[usize]) -> Self {
         let mut names = Vec::new();
         let mut unknowns = Vec::new();
-        for joint in 0..exact.joints() {
-            if given.contains(&joint) {
+        for motor in 0.. {
+            let Some((part, joint)) = joints_of(&parts, motor).next() else { break };
+            if given.contains(&motor) {
                 unknowns.push(None);
                 continue;
             }
-            unknowns.push(Some(exact.unknown(joint, names.len())));
-            let letters: &[&str] = if exact.turns(joint) { &["c", "s"] } else { &["d"] };
-            names.extend(letters.iter().map(|letter| format!("{letter}{}", joint + 1)));
+            unknowns.push(Some(part.exact.unknown(joint, names.len())));
+            let letters: &[&str] = if part.exact.turns(joint) { &["c", "s"] } else { &["d"] };
+            names.extend(letters.iter().map(|letter| format!("{letter}{}", motor + 1)));
         }
-        Counter { exact, names, unknowns, learned: None }
+        Counter { parts, names, unknowns, learned: None }
     }
 
-    /// The chain over Q.
-    pub fn chain(&self) -> &ExactChain {
-        &self.exact
+    /// The value of a motor at the rational point that `t` stands for, as [`ExactChain::value`].
+    pub fn value(&self, motor: usize, t: &BigRational) -> Option<Value> {
+        joints_of(&self.parts, motor).next().map(|(part, joint)| part.exact.value(joint, t))
+    }
+
+    /// The value of a motor as a double: radians, or the chain's length unit.
+    pub fn double(&self, motor: usize, value: &Value) -> f64 {
+        joints_of(&self.parts, motor).next().map_or(f64::NAN, |(part, joint)| part.exact.double(joint, value))
     }
 
     /// The number of distinct real solutions with the tip where it is at the joint values `values`; `None` when there are
@@ -113,19 +147,18 @@ impl Counter {
 
     /// The equations and the circle relations, with integer coefficients.
     fn system(&self, values: &[Value]) -> System {
-        let reached: Reached = self.exact.reached(values);
-        let letters: Vec<Value> = self
-            .unknowns
-            .iter()
-            .zip(values)
-            .map(|(unknown, known)| unknown.as_ref().unwrap_or(known).clone())
-            .collect();
-        let equations = self.exact.equations(&reached, &letters);
-        let mut system: System = equations.iter().map(|form| self.integral(form)).collect();
+        let letter = |&motor: &usize| self.unknowns[motor].as_ref().unwrap_or(&values[motor]).clone();
+        let mut system = System::new();
+        for Part { exact, motors } in &self.parts {
+            let own: Vec<Value> = motors.iter().map(|&motor| values[motor].clone()).collect();
+            let reached: Reached = exact.reached(&own);
+            let letters: Vec<Value> = motors.iter().map(letter).collect();
+            system.extend(exact.equations(&reached, &letters).iter().map(|form| self.integral(form)));
+        }
         let mut first = 0;
-        for (joint, unknown) in self.unknowns.iter().enumerate() {
-            if let Some(Value::Turn(_)) = unknown {
-                system.push(self.circle(first, self.exact.square(joint)));
+        for (motor, unknown) in self.unknowns.iter().enumerate() {
+            if let (Some(Value::Turn(_)), Some((part, joint))) = (unknown, joints_of(&self.parts, motor).next()) {
+                system.push(self.circle(first, part.exact.square(joint)));
                 first += 1;
             }
             first += usize::from(unknown.is_some());
@@ -281,6 +314,11 @@ impl Learned {
         let polynomials = self.supports.iter().zip(rows).map(row).collect();
         Basis { ring, polynomials, cofactors: Vec::new() }
     }
+}
+
+/// The joints that a motor moves.
+fn joints_of(parts: &[Part], motor: usize) -> impl Iterator<Item = (&Part, usize)> {
+    parts.iter().filter_map(move |part| Some((part, part.motors.iter().position(|own| *own == motor)?)))
 }
 
 fn primes() -> impl Iterator<Item = u32> {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::model::{Model, RESIDUAL};
+use super::model::{Configuration, RESIDUAL};
 use super::singular::{least_squares, null_vector};
 
 /// A family's own configurations are at most this ordinary.
@@ -22,36 +22,37 @@ const STRAIGHT: f64 = 1e-2;
 /// How near a path must come to the answer it leads to.
 const ARRIVED: f64 = 1e-6;
 
-impl Model<'_> {
+/// Paths of joint vectors with the same target.
+pub(super) trait Families: Configuration {
     /// Whether `q` is one of a curve of joint vectors with the same target.
-    pub fn is_in_family(&self, target: &[f64], q: &[f64]) -> bool {
+    fn is_in_family(&self, target: &[f64], q: &[f64]) -> bool {
         if self.sigma(q) > SINGULAR {
             return false;
         }
         let Some(tangent) = null_vector(self.jacobian(q)) else { return false };
         let mut moved = q.to_vec();
-        for (&joint, share) in self.unknown.iter().zip(tangent.iter()) {
+        for (&joint, share) in self.unknown().iter().zip(tangent.iter()) {
             moved[joint] += PROBE * share * self.unit(joint);
         }
         let across = |_: &[f64]| DMatrix::from_row_slice(1, tangent.len(), tangent.as_slice());
-        self.corrected(target, moved, &self.unknown, &across, MEMBER).is_some()
+        self.corrected(target, moved, self.unknown(), &across, MEMBER).is_some()
     }
 
     /// Whether joint vectors next to the straight way from `a` to `b` reach the target.
-    pub fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
-        let none = |_: &[f64]| DMatrix::zeros(0, self.unknown.len());
+    fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        let none = |_: &[f64]| DMatrix::zeros(0, self.unknown().len());
         let width = self.distance(a, b);
         [0.25, 0.5, 0.75].iter().all(|share| {
             let point = |joint: usize| a[joint] + share * self.difference(joint, b[joint], a[joint]);
             let between: Vec<f64> = (0..a.len()).map(point).collect();
-            let found = self.corrected(target, between.clone(), &self.unknown, &none, RESIDUAL);
+            let found = self.corrected(target, between.clone(), self.unknown(), &none, RESIDUAL);
             found.is_some_and(|found| self.distance(&found, &between) <= width * width.max(STRAIGHT))
         })
     }
 
     /// Whether the free joints of `answer` can be led from their values in `q` to those in `answer`, either way round, while the
     /// others keep the tip at the target and end at the answer.
-    pub fn leads_to(&self, target: &[f64], q: &[f64], answer: &[f64], free: &[usize]) -> bool {
+    fn leads_to(&self, target: &[f64], q: &[f64], answer: &[f64], free: &[usize]) -> bool {
         let short: Vec<f64> = free.iter().map(|&joint| self.difference(joint, answer[joint], q[joint])).collect();
         let round = |(way, &joint): (&f64, &usize)| {
             if self.turns(joint) { way - std::f64::consts::TAU.copysign(*way) } else { *way }
@@ -64,7 +65,7 @@ impl Model<'_> {
 
     /// The end of the path on which the free joints go `way`.
     fn led(&self, target: &[f64], q: &[f64], free: &[usize], way: &[f64]) -> Option<Vec<f64>> {
-        let others: Vec<usize> = self.unknown.iter().copied().filter(|joint| !free.contains(joint)).collect();
+        let others: Vec<usize> = self.unknown().iter().copied().filter(|joint| !free.contains(joint)).collect();
         let units = free.iter().map(|&joint| self.unit(joint));
         let longest = way.iter().zip(units).map(|(way, unit)| way.abs() / unit).fold(0.0, f64::max);
         let steps = (longest / STEP).ceil().max(1.0);
@@ -124,3 +125,5 @@ impl Model<'_> {
         DMatrix::from_columns(&columns)
     }
 }
+
+impl<M: Configuration + ?Sized> Families for M {}

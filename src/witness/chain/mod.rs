@@ -8,6 +8,7 @@ mod count;
 mod exact;
 mod family;
 mod form;
+pub mod limbs;
 mod model;
 mod rational;
 mod singular;
@@ -17,10 +18,11 @@ use super::report::{Fault, Kind, Report, Row, Verdict};
 use super::screws::Screws;
 use super::{DUPLICATE, ORACLE, Options, SEEDS, SINGULAR, TIE};
 use crate::kinematics::Chain;
-use crate::kinematics::oracle::{Oracle, Unknown};
 use crate::solver::{Program, Solution};
 use crate::{ErrorKind, Result, Watch};
-use model::{EXACT, Model, ORDINARY, RESIDUAL};
+use count::Counter;
+use family::Families;
+use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL};
 use rational::Rationals;
 use targets::{Target, Targets};
 
@@ -59,11 +61,10 @@ impl Solver for ByScrews {
 
 /// The checks of one solver of a chain.
 pub struct Check<'a> {
-    model: &'a Model<'a>,
+    model: &'a dyn Configuration,
     solver: &'a dyn Solver,
     bound: Option<usize>,
-    screws: Option<Screws>,
-    rationals: Rationals,
+    screws: Option<Box<dyn Solver + 'a>>,
     options: Options,
     watch: &'a Watch,
 }
@@ -83,16 +84,12 @@ impl<'a> Check<'a> {
         watch: &Watch,
     ) -> Result<Report> {
         let model = Model::new(chain);
-        let screws = Screws::new(chain);
-        let rationals = Rationals::new(&model, options.seed);
-        let mut check = Check { model: &model, solver, bound, screws, rationals, options: *options, watch };
+        let screws = ByScrews::new(chain).map(|screws| Box::new(screws) as Box<dyn Solver>);
+        let mut rationals = Rationals::new(Counter::new(chain, &model.given), options.seed);
         let mut targets = Targets::new(&model, options.seed);
-        let mut rows = Vec::with_capacity(options.targets);
-        for number in 0..options.targets {
-            watch.check()?;
-            watch.report("check", number, options.targets - number);
-            rows.push(check.row(number, targets.draw(number))?);
-        }
+        let check = Check { model: &model, solver, bound, screws, options: *options, watch };
+        let rows =
+            check.rows(&mut |number| rationals.in_place_of(&model, targets.draw(number), options.exact, watch))?;
         Ok(Report {
             inputs: model.input_names(),
             joints: chain.joints().iter().map(|joint| joint.name.clone()).collect(),
@@ -100,8 +97,19 @@ impl<'a> Check<'a> {
         })
     }
 
-    fn row(&mut self, number: usize, target: Target) -> Result<Row> {
-        let (target, exact) = self.rationals.in_place_of(self.model, target, self.options.exact, self.watch)?;
+    /// The rows of the targets that `draw` gives for their numbers, each with its exact number of solutions if that was counted.
+    fn rows(&self, draw: &mut dyn FnMut(usize) -> Result<(Target, Option<usize>)>) -> Result<Vec<Row>> {
+        let mut rows = Vec::with_capacity(self.options.targets);
+        for number in 0..self.options.targets {
+            self.watch.check()?;
+            self.watch.report("check", number, self.options.targets - number);
+            let (target, exact) = draw(number)?;
+            rows.push(self.row(number, target, exact)?);
+        }
+        Ok(rows)
+    }
+
+    fn row(&self, number: usize, target: Target, exact: Option<usize>) -> Result<Row> {
         let Target { kind, inputs, joints } = target;
         let answers = match self.solver.solve(&inputs) {
             Ok(answers) => Some(answers),
@@ -128,9 +136,14 @@ impl<'a> Check<'a> {
         let wrong = row.exact.is_some_and(|exact| exact != answers.len()) && !self.is_tie(row, answers);
         faults.extend(wrong.then_some(Fault::Count));
         if let Some(screws) = &self.screws {
-            let others = screws.solve(&row.target)?;
-            row.screw = Some(others.len());
-            faults.extend((!self.agrees(&row.target, answers, &others)).then_some(Fault::Screw));
+            match screws.solve(&row.target) {
+                Err(error) if error.kind() == ErrorKind::Unsupported => {}
+                Err(error) => return Err(error),
+                Ok(others) => {
+                    row.screw = Some(others.len());
+                    faults.extend((!self.agrees(&row.target, answers, &others)).then_some(Fault::Screw));
+                }
+            }
         }
         if number < self.options.oracle {
             let (count, agrees) = self.oracle(&row.target, answers)?;
@@ -219,30 +232,13 @@ impl<'a> Check<'a> {
     fn oracle(&self, target: &[f64], answers: &[Solution]) -> Result<(usize, bool)> {
         let mut verdict = (0, false);
         for seeds in SEEDS {
-            let found = self.search(target, seeds)?;
+            let found = self.model.search(target, seeds)?;
             verdict = (found.len(), self.agrees_with_search(answers, &found));
             if verdict.1 {
                 break;
             }
         }
         Ok(verdict)
-    }
-
-    /// The oracle's joint vectors.
-    fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>> {
-        let model = self.model;
-        let unknown = |&joint: &usize| match model.turns(joint) {
-            true => Unknown::Angle,
-            false => Unknown::Displacement { low: -1.5 * model.length, high: 1.5 * model.length },
-        };
-        let unknowns: Vec<Unknown> = model.unknown.iter().map(unknown).collect();
-        let whole = |values: &[f64]| {
-            let part = Solution { q: values.to_vec(), residual: 0.0, branch: 0, free: Vec::new(), chosen: false };
-            model.completed(target, part).q
-        };
-        let oracle = Oracle { seeds, ..Oracle::default() };
-        let found = oracle.search(&unknowns, |values| model.misses(target, &whole(values)))?;
-        Ok(found.iter().map(|answer| whole(&answer.q)).collect())
     }
 
     fn agrees_with_search(&self, answers: &[Solution], found: &[Vec<f64>]) -> bool {

@@ -1,10 +1,14 @@
-//! A chain and its task in floating point: what every check measures by. Only forward kinematics is used here.
+//! A chain and its task in floating point: what every check measures by. Only forward kinematics is used here. Main types:
+//! [`Configuration`], what checks need to know, and [`Model`], that of one chain.
 
 use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, Vector3};
 
+use super::family::Families;
 use super::singular::smallest_singular_value;
+use crate::Result;
+use crate::kinematics::oracle::{Oracle, Unknown};
 use crate::kinematics::{Chain, JointKind, Task};
 use crate::solver::Solution;
 use crate::spatial::{Pose, Screw, angle};
@@ -177,31 +181,68 @@ impl<'a> Model<'a> {
             Task::Rotation => w.as_slice().to_vec(),
         }
     }
+}
+
+/// What checks need to know of a mechanism and its task: its joints, and by how much they miss a target.
+pub(super) trait Configuration {
+    /// The number of joints, given ones too.
+    fn count(&self) -> usize;
+
+    /// The joints that are asked for.
+    fn unknown(&self) -> &[usize];
+
+    /// Whether a joint turns.
+    fn turns(&self, joint: usize) -> bool;
+
+    /// A length typical of the mechanism.
+    fn length(&self) -> f64;
+
+    /// The target that joint values reach, as the numbers that a program takes.
+    fn target(&self, q: &[f64]) -> Vec<f64>;
+
+    /// By how much joint values miss each number of a target: shares of the reach, then plain numbers or radians.
+    fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64>;
+
+    /// The residual of joint values: the larger of the position's share of the reach and the angle of the orientation \[rad\].
+    fn residual(&self, target: &[f64], q: &[f64]) -> f64;
+
+    /// The derivative of what the task sees, by the unknown joints: lengths in reaches, angles in radians. As many rows as the
+    /// task has freedoms.
+    fn jacobian(&self, q: &[f64]) -> DMatrix<f64>;
+
+    /// The joint vectors that the numeric oracle finds from a number of starting points.
+    ///
+    /// # Errors
+    /// As [`Oracle::search`].
+    fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>>;
+
+    /// An answer with the values of all joints.
+    fn completed(&self, target: &[f64], answer: Solution) -> Solution;
+
+    /// One radian, or the reach.
+    fn unit(&self, joint: usize) -> f64 {
+        if self.turns(joint) { 1.0 } else { self.length() }
+    }
 
     /// The smallest singular value of the Jacobian.
-    pub fn sigma(&self, q: &[f64]) -> f64 {
+    fn sigma(&self, q: &[f64]) -> f64 {
         smallest_singular_value(self.jacobian(q))
     }
 
     /// The largest difference of two joint vectors: radians, or shares of the reach.
-    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+    fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
         let one = |&joint: &usize| self.difference(joint, a[joint], b[joint]).abs() / self.unit(joint);
-        self.unknown.iter().map(one).fold(0.0, f64::max)
-    }
-
-    /// One radian, or the reach.
-    pub fn unit(&self, joint: usize) -> f64 {
-        if self.turns(joint) { 1.0 } else { self.length }
+        self.unknown().iter().map(one).fold(0.0, f64::max)
     }
 
     /// `a - b`, of angles the way round that is shorter.
-    pub fn difference(&self, joint: usize, a: f64, b: f64) -> f64 {
+    fn difference(&self, joint: usize, a: f64, b: f64) -> f64 {
         if self.turns(joint) { angle::difference(a, b) } else { a - b }
     }
 
     /// Whether `b` is the same answer as `a`: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), and then
     /// a path must lead from one to the other that reaches the target all the way.
-    pub fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+    fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let (distance, sigma) = (self.distance(a, b), self.sigma(a));
         if sigma > ORDINARY {
             return distance <= 1e-9;
@@ -210,19 +251,68 @@ impl<'a> Model<'a> {
     }
 
     /// `q` with every angle in (-pi, pi].
-    pub fn wrapped(&self, q: &[f64]) -> Vec<f64> {
+    fn wrapped(&self, q: &[f64]) -> Vec<f64> {
         let wrap = |(joint, q): (usize, &f64)| if self.turns(joint) { angle::wrap(*q) } else { *q };
         q.iter().enumerate().map(wrap).collect()
     }
 
     /// Whether `q` has a finite value for each joint, angles in (-pi, pi].
-    pub fn is_well_formed(&self, q: &[f64]) -> bool {
+    fn is_well_formed(&self, q: &[f64]) -> bool {
         let allowed = |(joint, q): (usize, &f64)| q.is_finite() && (!self.turns(joint) || (-PI < *q && *q <= PI));
-        q.len() == self.chain.joints().len() && q.iter().enumerate().all(allowed)
+        q.len() == self.count() && q.iter().enumerate().all(allowed)
+    }
+}
+
+impl Configuration for Model<'_> {
+    fn count(&self) -> usize {
+        self.chain.joints().len()
+    }
+
+    fn unknown(&self) -> &[usize] {
+        &self.unknown
+    }
+
+    fn turns(&self, joint: usize) -> bool {
+        Model::turns(self, joint)
+    }
+
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn target(&self, q: &[f64]) -> Vec<f64> {
+        Model::target(self, q)
+    }
+
+    fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
+        Model::misses(self, target, q)
+    }
+
+    fn residual(&self, target: &[f64], q: &[f64]) -> f64 {
+        Model::residual(self, target, q)
+    }
+
+    fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
+        Model::jacobian(self, q)
+    }
+
+    fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>> {
+        let unknown = |&joint: &usize| match self.turns(joint) {
+            true => Unknown::Angle,
+            false => Unknown::Displacement { low: -1.5 * self.length, high: 1.5 * self.length },
+        };
+        let unknowns: Vec<Unknown> = self.unknown.iter().map(unknown).collect();
+        let whole = |values: &[f64]| {
+            let part = Solution { q: values.to_vec(), residual: 0.0, branch: 0, free: Vec::new(), chosen: false };
+            self.completed(target, part).q
+        };
+        let oracle = Oracle { seeds, ..Oracle::default() };
+        let found = oracle.search(&unknowns, |values| self.misses(target, &whole(values)))?;
+        Ok(found.iter().map(|answer| whole(&answer.q)).collect())
     }
 
     /// An answer with the values of all joints, the given ones taken from the target, in the chain's numbering.
-    pub fn completed(&self, target: &[f64], answer: Solution) -> Solution {
+    fn completed(&self, target: &[f64], answer: Solution) -> Solution {
         if answer.q.len() != self.unknown.len() || self.given.is_empty() {
             return answer;
         }

@@ -3,7 +3,7 @@
 use super::count::Counter;
 use super::exact::Value;
 use super::is_random;
-use super::model::Model;
+use super::model::{Configuration, Model};
 use super::targets::Target;
 use crate::kinematics::Chain;
 use crate::number::{BigInt, BigRational};
@@ -31,7 +31,7 @@ pub struct Counted {
 /// What `watch` stops with.
 pub fn count_exactly(chain: &Chain, number: usize, seed: u64, watch: &Watch) -> Result<Vec<Counted>> {
     let model = Model::new(chain);
-    let mut rationals = Rationals::new(&model, seed);
+    let mut rationals = Rationals::new(Counter::new(chain, &model.given), seed);
     (0..number).map(|_| rationals.counted(&model, watch)).collect()
 }
 
@@ -43,15 +43,14 @@ pub(super) struct Rationals {
 }
 
 impl Rationals {
-    pub fn new(model: &Model<'_>, seed: u64) -> Self {
-        let counter = Counter::new(model.chain, &model.given);
+    pub fn new(counter: Counter, seed: u64) -> Self {
         Rationals { counter, random: Random::new(seed ^ 0x5eed), done: 0 }
     }
 
     /// A counted target instead of a random one while fewer than `wanted` were counted; any other target as it is.
     pub fn in_place_of(
         &mut self,
-        model: &Model<'_>,
+        model: &dyn Configuration,
         target: Target,
         wanted: usize,
         watch: &Watch,
@@ -64,16 +63,16 @@ impl Rationals {
         Ok((Target { kind: Kind::Rational, inputs, joints: Some(joints) }, solutions))
     }
 
-    fn counted(&mut self, model: &Model<'_>, watch: &Watch) -> Result<Counted> {
-        let values: Vec<Value> = (0..model.chain.joints().len()).map(|joint| self.value(model, joint)).collect();
-        let chain = self.counter.chain();
-        let joints: Vec<f64> = values.iter().enumerate().map(|(joint, value)| chain.double(joint, value)).collect();
+    fn counted(&mut self, model: &dyn Configuration, watch: &Watch) -> Result<Counted> {
+        let values: Vec<Value> = (0..model.count()).filter_map(|joint| self.value(model, joint)).collect();
+        let double = |(joint, value): (usize, &Value)| self.counter.double(joint, value);
+        let joints: Vec<f64> = values.iter().enumerate().map(double).collect();
         let solutions = self.counter.count(&values, watch)?;
         Ok(Counted { inputs: model.target(&joints), joints, solutions })
     }
 
     /// A fraction of small height, neither zero nor one; of a slide a share of the reach.
-    fn value(&mut self, model: &Model<'_>, joint: usize) -> Value {
+    fn value(&mut self, model: &dyn Configuration, joint: usize) -> Option<Value> {
         let mut whole = |low: f64, high: f64| BigInt::from(self.random.between(low - 1.0, high).ceil() as i64);
         let (mut numerator, denominator) = (whole(1.0, HEIGHT), whole(2.0, HEIGHT));
         if whole(0.0, 1.0) == BigInt::from(0) {
@@ -84,10 +83,10 @@ impl Rationals {
         }
         let share = BigRational::new(numerator, denominator);
         if model.turns(joint) {
-            return self.counter.chain().value(joint, &share);
+            return self.counter.value(joint, &share);
         }
         // Not a round share: lengths of robots are round, and would meet singular values.
-        let thousandths = BigInt::from((model.length * 237.1).round() as i64);
-        self.counter.chain().value(joint, &(share * BigRational::new(thousandths, 1000.into())))
+        let thousandths = BigInt::from((model.length() * 237.1).round() as i64);
+        self.counter.value(joint, &(share * BigRational::new(thousandths, 1000.into())))
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use super::model::Model;
+use super::model::{Configuration, Model};
 use super::singular::null_vector;
 use crate::spatial::Pose;
 use crate::witness::random::Random;
@@ -115,7 +115,8 @@ impl<'a> Targets<'a> {
         Target { kind, inputs: self.model.target(&q), joints: Some(q) }
     }
 
-    fn joints(&mut self) -> Vec<f64> {
+    /// Random values of all joints.
+    pub fn joints(&mut self) -> Vec<f64> {
         (0..self.model.chain.joints().len()).map(|joint| self.joint(joint)).collect()
     }
 

@@ -3,6 +3,7 @@
 mod humanoid;
 mod order;
 mod reader;
+mod yaw;
 
 /// Knuth's linear congruential generator (The Art of Computer Programming 2, 3.3.4).
 struct Random(u64);

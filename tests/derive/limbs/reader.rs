@@ -104,6 +104,6 @@ fn mistakes_in_a_chain_s_file_stand_there() {
 #[test]
 fn more_motors_than_a_program_holds_are_refused() {
     let limb = |name: char| format!("[[limb]]\nname = \"{name}\"\nchain = \"arm.toml\"\n");
-    let text: String = "name = \"many\"\n".to_owned() + &('a'..='e').map(limb).collect::<String>();
-    assert_error(&read(&text).unwrap_err(), ErrorKind::BadValue, Some(1), "15 motors; 12 are allowed");
+    let text: String = "name = \"many\"\n".to_owned() + &('a'..='f').map(limb).collect::<String>();
+    assert_error(&read(&text).unwrap_err(), ErrorKind::BadValue, Some(1), "18 motors; 16 are allowed");
 }

@@ -1,0 +1,36 @@
+//! The committed solvers of limbs that share motors: printed from their programs, compiled, and answering like them.
+
+use std::fs;
+use std::path::Path;
+
+use groebot::codegen;
+use groebot::solver::Program;
+
+use super::harness::compare;
+
+/// The targets of the ordinary rows of a folder's checks.
+fn targets(folder: &Path, program: &Program, most: usize) -> Vec<Vec<f64>> {
+    let rows = fs::read_to_string(folder.join("6_check.csv")).unwrap();
+    let ordinary = rows.lines().filter(|row| row.starts_with("random,") || row.starts_with("rational,"));
+    let numbers =
+        |row: &str| row.split(',').skip(1).take(program.inputs.len()).map(|cell| cell.parse().unwrap()).collect();
+    ordinary.take(most).map(numbers).collect()
+}
+
+#[test]
+fn committed_solvers_of_limbs_answer_like_their_programs() {
+    for (name, least) in [("nao_legs", 640), ("nao_legs_poses", 160), ("nao_legs_yaw", 160)] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(name);
+        let program = Program::from_json(&fs::read_to_string(folder.join("5_program.json")).unwrap()).unwrap();
+        for (file, text) in
+            [("5_solver.rs", codegen::rust::emit(&program)), ("5_solver.c", codegen::c99::emit(&program))]
+        {
+            assert!(fs::read_to_string(folder.join(file)).unwrap() == text, "{name}: {file} is out of date");
+        }
+        let mut targets = targets(&folder, &program, 10);
+        targets.push(vec![9.0; program.inputs.len()]);
+        if let Some(report) = compare(&program, &targets) {
+            assert!(report.answers >= least && report.refused == 1, "{name}: {report:?}");
+        }
+    }
+}
