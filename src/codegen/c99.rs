@@ -8,7 +8,11 @@ const SKELETON: &str = include_str!("skeleton/solver.c.txt");
 
 const RESERVED: &str = "auto break case char const continue default do double else enum extern float for goto if inline int \
     long register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while \
-    bool true false asm typeof alignas alignof constexpr nullptr static_assert thread_local noreturn \
+    bool true false asm typeof \
+    and and_eq bitand bitor catch char16_t char32_t char8_t class compl concept const_cast consteval constinit co_await co_return \
+    co_yield decltype delete dynamic_cast explicit export friend mutable namespace new not not_eq operator or or_eq private \
+    protected public reinterpret_cast requires static_cast template this throw try typeid typename using virtual xor xor_eq std UNITS IkReal \
+    alignas alignof constexpr nullptr static_assert thread_local noreturn \
     size_t ptrdiff_t wchar_t NULL offsetof NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL DECIMAL_DIG errno complex imaginary I \
     float_t double_t math_errhandling signgam linux unix i386 \
     sin cos sqrt fabs fmax fmin atan2 round copysign isfinite isnan free_joints assert";
@@ -22,7 +26,26 @@ pub fn emit(program: &Program) -> String {
     super::fill(SKELETON, &Outline::new(program, &C99))
 }
 
-struct C99;
+/// The part of the file that solves, as C++ too: without `#include`, and constants in place of macros.
+pub(super) fn engine(program: &Program) -> String {
+    let text = super::fill(SKELETON, &Outline::engine(program, &C99));
+    let limits = |line: String| {
+        line.replace("DBL_MIN", "(std::numeric_limits<double>::min)()")
+            .replace("DBL_EPSILON", "std::numeric_limits<double>::epsilon()")
+    };
+    text.lines().map(|line| limits(constant(line)) + "\n").collect()
+}
+
+/// A line, a definition of a macro as one of a constant.
+fn constant(line: &str) -> String {
+    let Some((name, value)) = line.strip_prefix("#define ").and_then(|rest| rest.split_once(' ')) else {
+        return line.to_owned();
+    };
+    let real = value.contains(['.', 'e']) || value.contains("DBL_");
+    format!("static const {} {name} = {value};", if real { "double" } else { "int" })
+}
+
+pub(super) struct C99;
 
 impl Language for C99 {
     fn is_reserved(&self, word: &str) -> bool {
@@ -57,6 +80,10 @@ impl Language for C99 {
 
     fn declare(&self, name: &str, value: &str) -> String {
         format!("const double {name} = {value};")
+    }
+
+    fn infinity(&self, positive: bool) -> String {
+        if positive { "INFINITY" } else { "-INFINITY" }.to_owned()
     }
 
     /// All but plain ASCII as octal escapes, `?` too: `??` would begin a trigraph.

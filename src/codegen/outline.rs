@@ -2,9 +2,11 @@
 
 use serde::Serialize;
 
+use super::about::AboutText;
 use super::blocks::{BlockText, ConditionText};
 use super::body::Scene;
 use super::demand::{Demand, ParameterDemand};
+use super::forward::{ForwardText, equations, printed_forward};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use crate::solver::{
@@ -18,6 +20,9 @@ pub(super) struct Outline {
     name: String,
     upper: String,
     version: String,
+    about: AboutText,
+    /// Whether the text goes into another file: without head, declarations and what only serves callers.
+    engine: bool,
     inputs: Vec<Quantity>,
     joints: Vec<Quantity>,
     extra: Vec<String>,
@@ -33,6 +38,8 @@ pub(super) struct Outline {
     /// Names of the unknowns that go from block to block.
     passed: Vec<String>,
     blocks: Vec<BlockText>,
+    /// Forward kinematics, if the program has them.
+    forward: Option<ForwardText>,
     checks: Code,
     sizes: Vec<String>,
     jacobian: Code,
@@ -79,12 +86,12 @@ struct Parameters {
 
 /// Lines of code, values, and what they read.
 #[derive(Serialize)]
-struct Code {
-    lines: Vec<String>,
-    values: Vec<String>,
-    reads_p: bool,
-    reads_q: bool,
-    reads_extra: bool,
+pub(super) struct Code {
+    pub lines: Vec<String>,
+    pub values: Vec<String>,
+    pub reads_p: bool,
+    pub reads_q: bool,
+    pub reads_extra: bool,
 }
 
 #[derive(Serialize)]
@@ -112,11 +119,18 @@ struct Needs {
 }
 
 impl Outline {
+    /// The outline of the part of a file that solves.
+    pub fn engine(program: &Program, language: &dyn Language) -> Self {
+        Outline { engine: true, ..Outline::new(program, language) }
+    }
+
     /// The outline of a valid program.
     pub fn new(program: &Program, language: &dyn Language) -> Self {
         let scene = Scene { program, language, names: Names::new(program, language), extra: extra_unknowns(program) };
         let needs = Needs::new(program);
-        let (checks, sizes) = equations(&scene, &needs);
+        let forward = printed_forward(&scene).filter(|_| needs.answers);
+        let measured: &[Operand] = if needs.answers { &program.checks.scales } else { &[] };
+        let (checks, sizes) = equations(&scene, forward.as_ref(), measured);
         let jacobian: Vec<&[Operand]> = program.checks.jacobian.iter().map(Vec::as_slice).collect();
         let (jacobian_lines, jacobian_rows) = scene.checks(&jacobian);
         let name = word(&program.name);
@@ -124,6 +138,8 @@ impl Outline {
             upper: name.to_ascii_uppercase(),
             name,
             version: remark(&program.version),
+            about: AboutText::new(program, language),
+            engine: false,
             inputs: program.inputs.iter().map(|i| Quantity::new(language, &i.name, i.unit, false)).collect(),
             joints: program
                 .joints
@@ -141,6 +157,7 @@ impl Outline {
             conditions: program.conditions.iter().map(ConditionText::new).collect(),
             passed: scene.passed().into_iter().map(|unknown| scene.names.unknowns[unknown].clone()).collect(),
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
+            forward: forward.map(|forward| ForwardText::new(&scene, &forward)),
             checks,
             sizes,
             jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
@@ -149,17 +166,6 @@ impl Outline {
             needs,
         }
     }
-}
-
-/// The equations' values with their code, and their sizes if there are answers to measure.
-fn equations(scene: &Scene<'_>, needs: &Needs) -> (Code, Vec<String>) {
-    let checks = &scene.program.checks;
-    let sizes: &[Operand] = if needs.answers { &checks.scales } else { &[] };
-    let (lines, mut rows) = scene.checks(&[&checks.residuals, sizes]);
-    let sizes = rows.pop().unwrap_or_default();
-    let values = rows.concat();
-    let read = [values.as_slice(), sizes.as_slice()].concat();
-    (Code { values, ..Code::new(scene.language, lines, read) }, sizes)
 }
 
 impl Quantity {
@@ -219,7 +225,8 @@ impl Parameters {
 }
 
 impl Code {
-    fn new(language: &dyn Language, lines: Vec<String>, values: Vec<String>) -> Self {
+    /// The code, and what it reads.
+    pub fn new(language: &dyn Language, lines: Vec<String>, values: Vec<String>) -> Self {
         let reads = |what: &str| lines.iter().chain(&values).any(|line| line.contains(what));
         Code { reads_p: reads(&language.field("")), reads_q: reads("q["), reads_extra: reads("extra["), lines, values }
     }

@@ -36,6 +36,8 @@ pub(super) trait Language {
     fn greater(&self, a: &str, b: &str) -> String;
     /// A new immutable number.
     fn declare(&self, name: &str, value: &str) -> String;
+    /// The greatest or least of all numbers, an infinity.
+    fn infinity(&self, positive: bool) -> String;
     /// A piece of text in quotation marks.
     fn quote(&self, text: &str) -> String;
     /// Lines that name the roots `roots{depth}` of the first polynomial (each a list of coefficients) that leads; `typical` is

@@ -56,6 +56,10 @@ impl Language for Rust {
         format!("let {name} = {value};")
     }
 
+    fn infinity(&self, positive: bool) -> String {
+        if positive { "f64::INFINITY" } else { "f64::NEG_INFINITY" }.to_owned()
+    }
+
     fn quote(&self, text: &str) -> String {
         format!("\"{}\"", text.escape_default())
     }

@@ -1,9 +1,9 @@
-//! A derivation of either kind, from a [`Source`]: [`Proved`].
+//! A derivation of either kind, from a [`Source`]: [`Proved`]. Its program says what it comes from ([`About`]).
 
 use super::lift::{self, Derived};
 use super::{Derivation, Source, certificate};
 use crate::kinematics::Chain;
-use crate::solver::Program;
+use crate::solver::{About, Program};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// What a source's derivation gives.
@@ -21,13 +21,11 @@ impl Proved {
     /// # Errors
     /// As [`Derivation::new`] and [`Derived::of_chain`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
-        match source.chain_by_steps() {
-            Some(chain) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch)),
-            None => {
-                let derivation = Derivation::new(equations(source)?.clone(), watch)?;
-                Ok(Proved::Equations(Box::new(derivation)))
-            }
-        }
+        let proved = match source.chain_by_steps() {
+            Some(chain) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch))?,
+            None => Proved::Equations(Box::new(Derivation::new(equations(source)?.clone(), watch)?)),
+        };
+        Ok(proved.about(source))
     }
 
     /// Proves the derivation of `source` anew from the text of its certificate, without the Groebner engine.
@@ -35,13 +33,21 @@ impl Proved {
     /// # Errors
     /// As [`certificate::prove`] and [`lift::certificate::prove`].
     pub fn again(source: &Source, text: &str) -> Result<Self> {
-        match source.chain_by_steps() {
-            Some(chain) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
-            None => {
-                let derivation = certificate::prove(equations(source)?, text)?;
-                Ok(Proved::Equations(Box::new(derivation)))
-            }
-        }
+        let proved = match source.chain_by_steps() {
+            Some(chain) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text))?,
+            None => Proved::Equations(Box::new(certificate::prove(equations(source)?, text)?)),
+        };
+        Ok(proved.about(source))
+    }
+
+    /// The same, its program told what it comes from.
+    fn about(mut self, source: &Source) -> Self {
+        let program = match &mut self {
+            Proved::Equations(derivation) => &mut derivation.program,
+            Proved::Chain(derived) => &mut derived.program,
+        };
+        program.about = Some(about(source, program));
+        self
     }
 
     /// The derivation of `chain`, or of the ideal one that `source` asks for instead, its answers polished on `chain`.
@@ -71,6 +77,26 @@ impl Proved {
             Proved::Chain(derived) => derived.stage_files(),
         }
     }
+}
+
+/// What `source` says of itself, with the limits of the program's joints.
+fn about(source: &Source, program: &Program) -> About {
+    let joints = source.chain.as_ref().map_or(&[][..], Chain::joints);
+    let limits = |name: &str| joints.iter().find(|joint| joint.name == name).and_then(|joint| joint.limits);
+    let limits: Vec<_> = program.joints.iter().map(|joint| limits(&joint.name)).collect();
+    let asked = source.task_file().map_or_else(Vec::new, |(_, text)| text);
+    About {
+        task: source.chain.as_ref().map_or_else(|| "its equations".to_owned(), Chain::asked),
+        base: source.ends.base.clone(),
+        tip: source.ends.tip.clone(),
+        hash: format!("{:016x}", hash(source.text.bytes().chain(asked))),
+        limits: if limits.iter().all(Option::is_none) { Vec::new() } else { limits },
+    }
+}
+
+/// The hash of Fowler, Noll and Vo, FNV-1a, of 64 bits (draft-eastlake-fnv).
+fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 fn equations(source: &Source) -> Result<&super::System> {

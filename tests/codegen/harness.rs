@@ -99,6 +99,11 @@ fn run(executable: &Path, targets: &[Vec<f64>]) -> String {
         let words: Vec<String> = target.iter().map(|value| format!("{value:e}")).collect();
         writeln!(text, "{}", words.join(" ")).unwrap();
     }
+    feed(executable, text)
+}
+
+/// What a program prints that reads this text.
+pub fn feed(executable: &Path, text: String) -> String {
     let mut child = Command::new(executable).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let mut input = child.stdin.take().unwrap();
     let writer = std::thread::spawn(move || input.write_all(text.as_bytes()));
@@ -148,7 +153,7 @@ fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
 }
 
 /// Runs a compiler, which must succeed; `None` when there is none.
-fn build(command: &mut Command) -> Option<()> {
+pub fn build(command: &mut Command) -> Option<()> {
     match command.output() {
         Ok(output) => {
             let text = String::from_utf8_lossy(&output.stderr);

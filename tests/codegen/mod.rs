@@ -2,9 +2,12 @@
 
 pub mod builder;
 mod derivations;
+mod forward;
 pub mod harness;
+mod ikfast;
 mod names;
 pub mod samples;
+mod stored;
 mod text;
 
 use std::f64::consts::{FRAC_PI_2, PI};
