@@ -136,7 +136,7 @@ pub fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str
     Some(vec![("Rust", at("module")), ("Rust without std", at("crate")), ("C99", at("c99"))])
 }
 
-fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
+pub fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
     let name = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let mut command = Command::new(name);
     command.args(["--edition=2024", "-Dwarnings", "-Dmissing_docs", "-Copt-level=1"]).args(arguments);
@@ -146,7 +146,7 @@ fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
     build(command.current_dir(folder))
 }
 
-fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
+pub fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
     let mut command = Command::new("cc");
     command.args("-std=c99 -O2 -Wall -Wextra -Werror -pedantic -Wconversion -Wsign-conversion".split(' '));
     build(command.args(arguments).current_dir(folder))

@@ -9,6 +9,7 @@ mod names;
 pub mod samples;
 mod stored;
 mod text;
+mod turns;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
