@@ -17,23 +17,49 @@ const RESERVED: &str = "auto break case char const continue default do double el
     float_t double_t math_errhandling signgam linux unix i386 \
     sin cos sqrt fabs fmax fmin atan2 round copysign isfinite isnan free_joints assert";
 
+/// The longest line of joined declarations, in characters.
+const LINE: usize = 112;
+
 const RESERVED_PREFIXES: [&str; 7] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "M_", "__"];
 
 /// The solver of a valid program ([`Program::validate`]) as one C99 file: a translation unit to be linked with `-lm`.
 ///
 /// With `<NAME>_DECLARATIONS_ONLY` defined it is its own header. It allocates nothing and has no state.
 pub fn emit(program: &Program) -> String {
-    super::fill(SKELETON, &Outline::new(program, &C99))
+    joined(&super::fill(SKELETON, &Outline::new(program, &C99)))
 }
 
 /// The part of the file that solves, as C++ too: without `#include`, and constants in place of macros.
 pub(super) fn engine(program: &Program) -> String {
-    let text = super::fill(SKELETON, &Outline::engine(program, &C99));
+    let text = joined(&super::fill(SKELETON, &Outline::engine(program, &C99)));
     let limits = |line: String| {
         line.replace("DBL_MIN", "(std::numeric_limits<double>::min)()")
             .replace("DBL_EPSILON", "std::numeric_limits<double>::epsilon()")
     };
     text.lines().map(|line| limits(constant(line)) + "\n").collect()
+}
+
+/// The text with constants that are declared one after the other on one line, as far as that is not long.
+fn joined(text: &str) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for line in text.lines() {
+        let earlier = lines.last_mut().zip(declared(line));
+        match earlier.and_then(|(last, (indent, rest))| Some((declared(last)?.0 == indent, last, rest))) {
+            Some((true, last, rest)) if last.len() + rest.len() <= LINE => {
+                last.pop();
+                *last += &format!(", {rest}");
+            }
+            _ => lines.push(line.to_owned()),
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The indentation of a line that declares constant numbers, and what it declares.
+fn declared(line: &str) -> Option<(&str, &str)> {
+    let rest = line.trim_start().strip_prefix("const double ")?;
+    let plain = rest.ends_with(';') && rest.contains(" = ") && !rest.contains('{') && !rest.starts_with('*');
+    plain.then(|| (&line[..line.len() - line.trim_start().len()], rest))
 }
 
 /// A line, a definition of a macro as one of a constant.
@@ -129,14 +155,10 @@ impl Language for C99 {
         vec![format!("if ({negation}) {{"), format!("{INDENT}return;"), "}".to_owned()]
     }
 
-    fn open_samples(&self, depth: usize, names: &[Option<&str>], rows: &[Vec<String>]) -> Vec<String> {
-        let width = names.len();
-        let head = format!("static const double samples{depth}[{}][{width}] = {{", rows.len());
-        let list: Vec<String> = rows.iter().map(|row| format!("{{ {} }}", row.join(", "))).collect();
-        let mut lines = spread(&head, &list, "};");
-        lines.push(format!("for (size_t i{depth} = 0; i{depth} < {}; i{depth}++) {{", rows.len()));
+    fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String> {
+        let mut lines = vec![format!("for (size_t i{depth} = 0; i{depth} < {rows}; i{depth}++) {{")];
         for (column, name) in names.iter().enumerate() {
-            let value = format!("samples{depth}[i{depth}][{column}]");
+            let value = format!("SAMPLES_{table}[i{depth}][{column}]");
             lines.extend(name.map(|name| format!("{INDENT}{}", self.declare(name, &value))));
         }
         lines

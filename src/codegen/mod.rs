@@ -16,6 +16,7 @@ mod forward;
 mod names;
 mod outline;
 mod printer;
+mod samples;
 
 pub use names::is_word;
 

@@ -15,7 +15,7 @@ const TAKEN: &str = "p q target answers extra magnitude result angle real_roots 
     tip reached TIP forward LIMITS limits SLACK TURNS turns turns_within solve_within count_turns turn within nearest at MOST_TURNS nearest_turn finite_turns";
 
 /// Letters that a number follows in the printed functions.
-const NUMBERED: [&str; 6] = ["r", "i", "roots", "choice", "samples", "Shared"];
+const NUMBERED: [&str; 6] = ["r", "i", "roots", "choice", "SAMPLES_", "Shared"];
 
 /// The identifiers of one program in one language.
 pub(super) struct Names {

@@ -9,6 +9,7 @@ use super::demand::{Demand, ParameterDemand};
 use super::forward::{ForwardText, equations, printed_forward};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
+use super::samples::Table;
 use crate::solver::{
     ACCEPT, ADRIFT, APART, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, MERGE, NEAR, Operand, PIVOT,
     POLISH_STEPS, POLISHED, Program, ROUNDING, STAGES, Step, TINY, Unit,
@@ -38,6 +39,8 @@ pub(super) struct Outline {
     /// Names of the unknowns that go from block to block.
     passed: Vec<String>,
     blocks: Vec<BlockText>,
+    /// Values at which charts put free joints.
+    samples: Vec<Table>,
     /// Forward kinematics, if the program has them.
     forward: Option<ForwardText>,
     checks: Code,
@@ -126,7 +129,8 @@ impl Outline {
 
     /// The outline of a valid program.
     pub fn new(program: &Program, language: &dyn Language) -> Self {
-        let scene = Scene { program, language, names: Names::new(program, language), extra: extra_unknowns(program) };
+        let (names, tables) = (Names::new(program, language), Table::all(program));
+        let scene = Scene { program, language, names, extra: extra_unknowns(program), tables };
         let needs = Needs::new(program);
         let forward = printed_forward(&scene).filter(|_| needs.answers);
         let measured: &[Operand] = if needs.answers { &program.checks.scales } else { &[] };
@@ -156,6 +160,7 @@ impl Outline {
             parameters: Parameters::new(&scene, &needs),
             conditions: program.conditions.iter().map(ConditionText::new).collect(),
             passed: scene.passed().into_iter().map(|unknown| scene.names.unknowns[unknown].clone()).collect(),
+            samples: scene.tables.clone(),
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
             forward: forward.map(|forward| ForwardText::new(&scene, &forward)),
             checks,

@@ -45,8 +45,9 @@ pub(super) trait Language {
     fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String>;
     /// Lines that open the loop over `roots{depth}` with index `i{depth}`, and over its values if they have a name.
     fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String>;
-    /// Lines that open the loop with index `i{depth}` over rows of numbers, each row's being called by `names` where they have one.
-    fn open_samples(&self, depth: usize, names: &[Option<&str>], rows: &[Vec<String>]) -> Vec<String>;
+    /// Lines that open the loop with index `i{depth}` over the rows of the table of samples with a number, of which there are `rows`; each
+    /// row's numbers are called by `names` where they have one.
+    fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String>;
     /// Leaving a chart unless a condition holds.
     fn leave_unless(&self, condition: &str) -> Vec<String>;
     /// Handing over an answer.

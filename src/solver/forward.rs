@@ -73,7 +73,7 @@ impl Program {
     fn is_pure(&self, operand: Operand, pure: &[bool]) -> bool {
         match operand {
             Operand::Constant(_) => true,
-            Operand::Unknown(unknown) => self.joints.iter().any(|joint| joint.value.reads(unknown)),
+            Operand::Unknown(unknown) => self.joints.iter().any(|joint| joint.value.unknowns().contains(&unknown)),
             Operand::Register(register) => pure[register],
             Operand::Parameter(_) | Operand::Magnitude => false,
         }

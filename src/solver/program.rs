@@ -45,11 +45,11 @@ pub enum JointValue {
 }
 
 impl JointValue {
-    /// Whether the unknown with this index is one of its own.
-    pub(crate) fn reads(self, unknown: usize) -> bool {
+    /// The indices of its unknowns: of the cosine and the sine, or of the value itself.
+    pub(crate) fn unknowns(self) -> Vec<usize> {
         match self {
-            JointValue::Angle { cosine, sine } => cosine == unknown || sine == unknown,
-            JointValue::Plain(plain) => plain == unknown,
+            JointValue::Angle { cosine, sine } => vec![cosine, sine],
+            JointValue::Plain(unknown) => vec![unknown],
         }
     }
 }

@@ -152,6 +152,16 @@ pub fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
     build(command.args(arguments).current_dir(folder))
 }
 
+/// What makes a C or C++ program stop at the first access out of bounds or undefined operation.
+pub const SANITIZERS: [&str; 2] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
+
+/// Whether the C compiler has the sanitizers' libraries.
+pub fn has_sanitizers(folder: &Path) -> bool {
+    fs::write(folder.join("empty.c"), "int main(void) { return 0; }\n").unwrap();
+    let command = Command::new("cc").args(SANITIZERS).args(["empty.c", "-o", "empty"]).current_dir(folder).output();
+    command.is_ok_and(|output| output.status.success())
+}
+
 /// Runs a compiler, which must succeed; `None` when there is none.
 pub fn build(command: &mut Command) -> Option<()> {
     match command.output() {

@@ -9,7 +9,7 @@ use groebot::ErrorKind;
 use groebot::codegen::ikfast::{Options, emit};
 use groebot::solver::{Program, Unit};
 
-use super::harness::{build, feed};
+use super::harness::{SANITIZERS, build, feed, has_sanitizers};
 use super::random;
 use super::samples::{leg, wrist};
 use super::stored::{Stored, all, joint_values, named, reached};
@@ -139,7 +139,8 @@ fn a_plugin_answers_like_the_program() {
 fn bad_and_unreachable_targets_have_no_solution() {
     let stored = &named(&["puma"])[0];
     let folder = folder(&stored.program, &Options::default());
-    let Some(executable) = plugin(folder.path(), &["-O1"]) else { return };
+    let flags = if has_sanitizers(folder.path()) { &SANITIZERS[..] } else { &[] };
+    let Some(executable) = plugin(folder.path(), flags) else { return };
     let good = line(stored, &reached(stored.chain.as_ref().unwrap(), &[0.3; 6]));
     let changed = |place: usize, value: f64| {
         let mut line = good;

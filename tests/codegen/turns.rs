@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use groebot::codegen::{c99, rust};
 use groebot::solver::{About, JointValue, Program, Solution};
 
-use super::harness::{compile_c, feed, rustc};
+use super::harness::{SANITIZERS, compile_c, feed, has_sanitizers, rustc};
 use super::random;
 use super::stored::{joint_values, named};
 
@@ -169,11 +169,16 @@ fn text(questions: &[Question]) -> String {
     text
 }
 
-fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, PathBuf)>> {
+/// The C program that answers questions; none without a compiler.
+fn c_program(program: &Program, folder: &Path, flags: &[&str]) -> Option<()> {
     let upper = program.name.to_ascii_uppercase();
     fs::write(folder.join("5_solver.c"), c99::emit(program)).unwrap();
     fs::write(folder.join("main.c"), C_DRIVER.replace("NAME", &program.name).replace("UPPER", &upper)).unwrap();
-    compile_c(folder, &["main.c", "-lm", "-o", "c99"])?;
+    compile_c(folder, &[flags, &["main.c", "-lm", "-o", "c99"]].concat())
+}
+
+fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, PathBuf)>> {
+    c_program(program, folder, &[])?;
     fs::write(folder.join("5_solver.rs"), rust::emit(program)).unwrap();
     fs::write(folder.join("module.rs"), RUST_DRIVER).unwrap();
     rustc(folder, &["module.rs"])?;
@@ -196,6 +201,32 @@ fn turns_limits_and_nearest_solutions_are_those_of_a_search() {
             }
         }
     }
+}
+
+/// Questions as above, and targets and limits that make no sense: no access out of bounds, no undefined operation.
+#[test]
+fn sanitizers_find_nothing() {
+    let program = named(&["puma"]).remove(0).program;
+    let folder = tempfile::tempdir().unwrap();
+    if !has_sanitizers(folder.path()) || c_program(&program, folder.path(), &SANITIZERS).is_none() {
+        println!("skipped: there are no sanitizers");
+        return;
+    }
+    let mut questions = questions(&program);
+    let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, 0.0, 1e-300];
+    for k in 0..120 {
+        let mut question = Question {
+            target: questions[k % 40].target.clone(),
+            limits: vec![[odd[k % 7], odd[(k / 7) % 7]]; 6],
+            reference: vec![odd[(k + 3) % 7]; 6],
+            weights: vec![odd[(k + 5) % 7]; 6],
+        };
+        if k % 2 == 0 {
+            question.target[k % 12] = odd[k % 5];
+        }
+        questions.push(question);
+    }
+    assert!(feed(&folder.path().join("c99"), text(&questions)).lines().count() > questions.len());
 }
 
 #[test]
