@@ -38,7 +38,7 @@ pub struct Arguments {
     /// The file to write to, instead of standard output; one that groebot did not write is left alone
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Single precision: the numbers that callers give and get (ikfast)
+    /// Single precision: of the whole solver (c), of the numbers that callers give and get (ikfast)
     #[arg(long)]
     float: bool,
     /// The namespace of the functions (ikfast)
@@ -80,22 +80,24 @@ pub fn run(arguments: &Arguments) -> Outcome {
 impl Arguments {
     /// Fails for options that mean nothing in the language.
     fn refuse_idle_options(&self) -> Result<()> {
-        let options = [
-            ("--float", self.float, Language::Ikfast, "the other languages compute and speak in double precision"),
-            ("--namespace", self.namespace.is_some(), Language::Ikfast, "C has none, and a Rust file is a module"),
-            ("--prefix", self.prefix.is_some(), Language::C, "the other languages' names need none"),
+        let (c, ikfast) = (self.lang == Language::C, self.lang == Language::Ikfast);
+        let idle = [
+            (self.float && !c && !ikfast, "--float is for `--lang c` and `--lang ikfast`"),
+            (
+                self.namespace.is_some() && !ikfast,
+                "--namespace is for `--lang ikfast`: C has none, and a Rust file is a module",
+            ),
+            (self.prefix.is_some() && !c, "--prefix is for `--lang c`: the names of the other languages need none"),
         ];
-        match options.iter().find(|(_, given, language, _)| *given && *language != self.lang) {
+        match idle.iter().find(|(is_idle, _)| *is_idle) {
             None => Ok(()),
-            Some((option, _, language, why)) => {
-                let own = if *language == Language::C { "c" } else { "ikfast" };
-                Err(Error::new(ErrorKind::BadValue, format!("{option} is for `--lang {own}`: {why}")))
-            }
+            Some((_, text)) => Err(Error::new(ErrorKind::BadValue, *text)),
         }
     }
 
     fn text(&self) -> Result<String> {
         match self.lang {
+            Language::C if self.float => self.program().map(|program| c99::emit_single(&program)),
             Language::C => self.program().map(|program| c99::emit(&program)),
             Language::Rust => self.program().map(|program| rust::emit(&program)),
             Language::Ikfast => {

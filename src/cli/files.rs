@@ -89,7 +89,10 @@ pub fn is_ours(folder: &Path, name: &str) -> bool {
 /// The program as source code, one file a language; IKFast's only where it has a type for the task and the file is not too long.
 pub fn printed_solvers(program: &Program) -> Vec<(String, Vec<u8>)> {
     let ikfast = codegen::ikfast::emit(program, &codegen::ikfast::Options::default());
-    let ikfast = ikfast.ok().filter(|text| text.len() <= IKFAST_LIMIT).map(|text| ("5_ikfast.cpp".to_owned(), text.into_bytes()));
+    let ikfast = ikfast
+        .ok()
+        .filter(|text| text.len() <= IKFAST_LIMIT)
+        .map(|text| ("5_ikfast.cpp".to_owned(), text.into_bytes()));
     let own = [
         ("5_solver.c".to_owned(), codegen::c99::emit(program).into_bytes()),
         ("5_solver.rs".to_owned(), codegen::rust::emit(program).into_bytes()),

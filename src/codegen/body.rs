@@ -2,8 +2,8 @@
 
 use super::demand::{Demand, ParameterDemand};
 use super::names::Names;
-use super::samples::Table;
 use super::printer::{Finish, INDENT, Language, Printer, State, number};
+use super::samples::Table;
 use crate::solver::{Block, Chart, Guard, JointValue, Operand, Program, Rule, Step};
 
 /// What all bodies of one file share.

@@ -2,6 +2,7 @@
 
 use super::outline::Outline;
 use super::printer::{Finish, INDENT, Language, State, spread};
+use super::single::single;
 use crate::solver::Program;
 
 const SKELETON: &str = include_str!("skeleton/solver.c.txt");
@@ -27,6 +28,12 @@ const RESERVED_PREFIXES: [&str; 7] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "
 /// With `<NAME>_DECLARATIONS_ONLY` defined it is its own header. It allocates nothing and has no state.
 pub fn emit(program: &Program) -> String {
     joined(&super::fill(SKELETON, &Outline::new(program, &C99)))
+}
+
+/// The same in single precision: `float` everywhere, with tolerances to match. The answers are polished to about 1e-6 of their size, and
+/// near singular configurations fewer are told apart than in double precision.
+pub fn emit_single(program: &Program) -> String {
+    single(&joined(&super::fill(SKELETON, &Outline::single(program, &C99))))
 }
 
 /// The part of the file that solves, as C++ too: without `#include`, and constants in place of macros.

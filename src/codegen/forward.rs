@@ -61,7 +61,8 @@ pub(super) fn equations(scene: &Scene<'_>, forward: Option<&Forward>, sizes: &[O
     let checks = &scene.program.checks;
     let compared: Vec<Option<(Operand, usize)>> =
         forward.map_or_else(|| vec![None; checks.residuals.len()], |forward| forward.equations.clone());
-    let open: Vec<Operand> = checks.residuals.iter().zip(&compared).filter(|(_, c)| c.is_none()).map(|(r, _)| *r).collect();
+    let open: Vec<Operand> =
+        checks.residuals.iter().zip(&compared).filter(|(_, c)| c.is_none()).map(|(r, _)| *r).collect();
     let (lines, mut rows) = scene.checks(&[&open, sizes]);
     let sizes = rows.pop().unwrap_or_default();
     let mut open = rows.concat().into_iter();

@@ -33,11 +33,16 @@ pub struct Options {
 pub fn emit(program: &Program, options: &Options) -> Result<String> {
     let refuse = |text: String| Error::new(ErrorKind::Unsupported, format!("`{}`: {text}", program.name));
     let forward = program.forward().filter(|_| program.charts().any(|chart| !chart.open)).ok_or_else(|| {
-        refuse("this solver has no forward kinematics, which IKFast's ComputeFk needs; derive it from a chain".to_owned())
+        refuse(
+            "this solver has no forward kinematics, which IKFast's ComputeFk needs; derive it from a chain".to_owned(),
+        )
     })?;
     let kind = Kind::of(program, &forward).map_err(refuse)?;
     if let Some(name) = options.namespace.as_ref().filter(|name| !is_word(name) || C99.is_reserved(name)) {
-        return Err(Error::new(ErrorKind::BadValue, format!("namespace `{name}`: give a word of letters, digits and `_`")));
+        return Err(Error::new(
+            ErrorKind::BadValue,
+            format!("namespace `{name}`: give a word of letters, digits and `_`"),
+        ));
     }
     let outline = Outline::new(program, &C99);
     Ok(super::fill(SKELETON, &File::new(program, outline, &kind, options)))

@@ -17,6 +17,7 @@ mod names;
 mod outline;
 mod printer;
 mod samples;
+mod single;
 
 pub use names::is_word;
 

@@ -15,6 +15,12 @@ use crate::solver::{
     POLISH_STEPS, POLISHED, Program, ROUNDING, STAGES, Step, TINY, Unit,
 };
 
+/// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
+const TANGENT: f64 = 1e-10;
+
+/// Shares of the squared Jacobian's size that are added where a plain Newton step fails, in single precision.
+const SINGLE_DAMPINGS: [f64; 4] = [0.0, 1e-5, 1e-4, 1e-3];
+
 /// Everything that the skeletons name.
 #[derive(Serialize)]
 pub(super) struct Outline {
@@ -76,6 +82,12 @@ struct Tolerances {
     apart: String,
     stages: usize,
     consistent: String,
+    /// A leading coefficient below this share of the largest coefficient counts as zero.
+    negligible: String,
+    /// A critical point where a polynomial misses zero by this share of its size counts as a root.
+    tangent: String,
+    /// How far a joint may be beyond a limit.
+    slack: String,
 }
 
 #[derive(Serialize)]
@@ -125,6 +137,12 @@ impl Outline {
     /// The outline of the part of a file that solves.
     pub fn engine(program: &Program, language: &dyn Language) -> Self {
         Outline { engine: true, ..Outline::new(program, language) }
+    }
+
+    /// The outline of a file that computes in single precision.
+    pub fn single(program: &Program, language: &dyn Language) -> Self {
+        let dampings = SINGLE_DAMPINGS.iter().map(|&damping| number(damping)).collect();
+        Outline { tolerances: Tolerances::single(), dampings, ..Outline::new(program, language) }
     }
 
     /// The outline of a valid program.
@@ -196,6 +214,30 @@ impl Tolerances {
             apart: number(APART),
             stages: STAGES,
             consistent: number(CONSISTENT),
+            negligible: number(1e-290),
+            tangent: number(TANGENT),
+            slack: number(1e-9),
+        }
+    }
+
+    /// Those of single precision: what is a share of rounding in double precision is about that share of rounding here, and what is near
+    /// the square root of rounding, as merging is, is so here.
+    fn single() -> Self {
+        Tolerances {
+            accept: number(3e-5),
+            merge: number(2e-3),
+            blur: number(3e-2),
+            resolution: number(5e-6),
+            near: number(1e-2),
+            tiny: number(1e-14),
+            pivot: number(1e-4),
+            polished: number(2e-7),
+            adrift: number(1e-3),
+            consistent: number(1e-4),
+            negligible: number(1e-30),
+            tangent: number(1e-4),
+            slack: number(1e-5),
+            ..Tolerances::new()
         }
     }
 }

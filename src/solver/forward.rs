@@ -39,7 +39,8 @@ impl Program {
     pub fn forward(&self) -> Option<Forward> {
         let pure = self.pure_registers();
         let equations: Vec<_> = self.checks.residuals.iter().map(|&residual| self.compared(residual, &pure)).collect();
-        let inputs = (0..self.inputs.len()).map(|input| self.reached_input(input, &equations)).collect::<Option<_>>()?;
+        let inputs =
+            (0..self.inputs.len()).map(|input| self.reached_input(input, &equations)).collect::<Option<_>>()?;
         Some(Forward { inputs, equations })
     }
 

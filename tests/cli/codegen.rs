@@ -33,6 +33,8 @@ fn options_name_functions_and_namespace_and_choose_precision() {
     let ur5 = root("derivations/ur5");
     let c = succeed(&["codegen", text(&ur5), "--lang", "c", "--prefix", "left_arm"]);
     assert!(c.contains("int left_arm_solve(") && c.contains("#define LEFT_ARM_JOINTS 6") && !c.contains("ur5_solve"));
+    let single = succeed(&["codegen", text(&ur5), "--lang", "c", "--float"]);
+    assert!(single.contains("int ur5_solve(const float *given") && !single.contains("double "), "{single}");
     let cpp = succeed(&["codegen", text(&ur5), "--lang", "ikfast", "--namespace", "arm", "--float"]);
     assert!(cpp.contains("#define IKFAST_NAMESPACE arm\n") && cpp.contains("#define IKFAST_REAL float\n"));
 }
@@ -41,7 +43,7 @@ fn options_name_functions_and_namespace_and_choose_precision() {
 fn options_that_mean_nothing_are_refused() {
     let ur5 = root("derivations/ur5");
     for (language, option, value, part) in [
-        ("rust", "--float", None, "--lang ikfast"),
+        ("rust", "--float", None, "--lang c"),
         ("latex", "--float", None, "--lang ikfast"),
         ("c", "--namespace", Some("arm"), "--lang ikfast"),
         ("ikfast", "--prefix", Some("arm"), "--lang c"),
@@ -76,6 +78,8 @@ fn a_file_of_somebody_else_is_left_alone_unless_forced() {
     assert_eq!(succeed(&[&arguments[..], &["--force"]].concat()), "");
     assert_eq!(fs::read_to_string(&file).unwrap(), printed);
     assert_eq!(content(folder.path()).len(), 1, "no temporary file stays");
-    assert!(refused(&["codegen", text(&puma), "--lang", "c", "-o", "/absent/folder/puma.c"]).contains("/absent/folder"));
+    assert!(
+        refused(&["codegen", text(&puma), "--lang", "c", "-o", "/absent/folder/puma.c"]).contains("/absent/folder")
+    );
     assert!(refused(&["codegen", text(folder.path()), "--lang", "c"]).contains("5_program.json"));
 }

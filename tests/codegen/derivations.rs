@@ -94,22 +94,37 @@ fn every_stored_solver_compiles() {
     rustc(folder.path(), &library);
 }
 
+/// Targets that a chain reaches, singular ones among them, and some out of reach or no target.
+fn targets_of(program: &Program, count: usize) -> Vec<Vec<f64>> {
+    let mut targets: Vec<Vec<f64>> =
+        joint_values(program, count, random()).iter().filter_map(|q| program.reached(q)).collect();
+    for k in 0..targets.len() / 10 {
+        let mut far = targets[k].clone();
+        far[0] += 3.0 * program.scale;
+        let mut bad = targets[k].clone();
+        let place = k % bad.len();
+        bad[place] = [f64::NAN, f64::INFINITY, 1e300, -4.0][k % 4];
+        targets.extend([far, bad]);
+    }
+    targets
+}
+
 /// Solvers of chains: poses, a given joint, a free one in the middle of the wrist.
 #[test]
 fn printed_solvers_of_chains_answer_like_the_program() {
     for stored in named(&["puma", "stanford", "nao_left_leg", "iiwa14", "rrp"]) {
-        let mut targets: Vec<Vec<f64>> =
-            joint_values(&stored.program, 400, random()).iter().filter_map(|q| stored.program.reached(q)).collect();
-        for k in 0..40 {
-            let mut far = targets[k].clone();
-            far[0] += 3.0 * stored.program.scale;
-            let mut bad = targets[k].clone();
-            let place = k % bad.len();
-            bad[place] = [f64::NAN, f64::INFINITY, 1e300, -4.0][k % 4];
-            targets.extend([far, bad]);
-        }
-        if let Some(report) = compare(&stored.program, &targets) {
+        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 400)) {
             assert!(report.answers > 400 && report.refused > 10, "{report:?}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "minutes: every stored chain, ten thousand targets each"]
+fn every_printed_solver_answers_like_the_program() {
+    for stored in all().iter().filter(|stored| stored.program.forward().is_some()) {
+        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 10_000)) {
+            assert!(report.answers >= 10_000 && report.refused > 100, "{report:?}");
         }
     }
 }

@@ -25,7 +25,12 @@ fn every_stored_chain_reaches_what_its_forward_kinematics_say() {
             for ((value, expected), input) in target.iter().zip(&expected).zip(&stored.program.inputs) {
                 let off = (value - expected).abs();
                 let off = if input.name == "phi" { off.min((off - std::f64::consts::TAU).abs()) } else { off };
-                assert!(off <= 1e-14 * (1.0 + stored.program.scale), "{} at {q:?}: {} {value} {expected}", stored.name, input.name);
+                assert!(
+                    off <= 1e-14 * (1.0 + stored.program.scale),
+                    "{} at {q:?}: {} {value} {expected}",
+                    stored.name,
+                    input.name
+                );
             }
         }
     }
@@ -48,7 +53,11 @@ fn the_joint_that_is_given_is_told_from_the_target() {
 
 #[test]
 fn equations_that_mix_target_and_joints_have_none() {
-    assert!(leg::program().forward().is_none() && arm::program().forward().is_none() && polar::program().forward().is_none());
+    assert!(
+        leg::program().forward().is_none()
+            && arm::program().forward().is_none()
+            && polar::program().forward().is_none()
+    );
     assert!(wrist::program(false).reached(&[0.0; 2]).is_none(), "three joints");
 }
 
@@ -57,9 +66,8 @@ fn equations_that_mix_target_and_joints_have_none() {
 fn what_is_known_of_the_source_is_optional_and_checked() {
     let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/derivations/puma/5_program.json")).unwrap();
     let mut program = groebot::solver::Program::from_json(&text).unwrap();
-    let about = |limits| {
-        Some(groebot::solver::About { task: "pose".into(), hash: "0".into(), limits, ..Default::default() })
-    };
+    let about =
+        |limits| Some(groebot::solver::About { task: "pose".into(), hash: "0".into(), limits, ..Default::default() });
     program.about = about(vec![Some((-1.0, 1.0)); 6]);
     assert_eq!(groebot::solver::Program::from_json(&program.to_json()).unwrap(), program);
     for limits in [vec![None; 5], vec![Some((1.0, -1.0)); 6], vec![Some((f64::NAN, 1.0)); 6]] {

@@ -151,7 +151,8 @@ fn bad_and_unreachable_targets_have_no_solution() {
     (3..12).for_each(|place| mirrored[place] = -mirrored[place]);
     let mut rounded = good;
     (3..12).for_each(|place| rounded[place] = (rounded[place] * 1e5).round() / 1e5);
-    let lines = [good, changed(0, f64::NAN), changed(4, f64::INFINITY), changed(2, 40.0), changed(3, 2.0), mirrored, rounded];
+    let lines =
+        [good, changed(0, f64::NAN), changed(4, f64::INFINITY), changed(2, 40.0), changed(3, 2.0), mirrored, rounded];
     let (kind, free, answers) = ask(&executable, 6, &lines);
     assert_eq!((kind, free), (0x6700_0001, -1));
     let counts: Vec<usize> = answers.iter().map(Vec::len).collect();
@@ -173,7 +174,8 @@ fn every_stored_solver_is_cpp() {
         if compile(folder.path(), &alone).is_none() {
             return;
         }
-        let library = ["-std=c++11", "-fsyntax-only", "-DIKFAST_CLIBRARY", "-DIKFAST_NO_MAIN", "-DIKFAST_DOUBLE_OPENRAVE"];
+        let library =
+            ["-std=c++11", "-fsyntax-only", "-DIKFAST_CLIBRARY", "-DIKFAST_NO_MAIN", "-DIKFAST_DOUBLE_OPENRAVE"];
         compile(folder.path(), &[&library[..], &["-DIKFAST_NAMESPACE=arm", "5_ikfast.cpp"]].concat());
     }
     assert!(printed >= 18, "{printed}");

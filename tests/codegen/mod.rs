@@ -7,6 +7,7 @@ pub mod harness;
 mod ikfast;
 mod names;
 pub mod samples;
+mod single;
 mod stored;
 mod text;
 mod turns;

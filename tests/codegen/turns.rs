@@ -76,7 +76,11 @@ fn check(program: &Program, question: &Question, output: &mut Output<'_>, place:
         let lists = turned(answer);
         let single = |joint: usize| {
             let list = &lists[joint];
-            if endless(joint) && !list.is_empty() { vec![least(list, |turn| f64::from(turn.abs()))] } else { list.clone() }
+            if endless(joint) && !list.is_empty() {
+                vec![least(list, |turn| f64::from(turn.abs()))]
+            } else {
+                list.clone()
+            }
         };
         let lists: Vec<Vec<i32>> = (0..joints).map(single).collect();
         let count: usize = lists.iter().map(Vec::len).product();
@@ -93,7 +97,8 @@ fn check(program: &Program, question: &Question, output: &mut Output<'_>, place:
         let reached: Vec<f64> = program.inputs.iter().map(|_| output.next()).collect();
         assert_close(&reached, &program.reached(&answer.q).unwrap(), place);
     }
-    let within: Vec<&Solution> = answers.iter().filter(|answer| turned(answer).iter().all(|list| !list.is_empty())).collect();
+    let within: Vec<&Solution> =
+        answers.iter().filter(|answer| turned(answer).iter().all(|list| !list.is_empty())).collect();
     assert_eq!(output.next(), within.len() as f64, "{place}: within limits");
     for answer in within {
         let lists = turned(answer);
@@ -120,7 +125,8 @@ fn check_nearest(program: &Program, question: &Question, answers: &[Solution], o
         if q.len() < program.joints.len() {
             continue;
         }
-        let distance = q.iter().zip(&question.reference).zip(&question.weights).map(|((a, b), w)| w * (a - b) * (a - b)).sum();
+        let distance =
+            q.iter().zip(&question.reference).zip(&question.weights).map(|((a, b), w)| w * (a - b) * (a - b)).sum();
         if best.as_ref().is_none_or(|(_, _, least)| distance < *least) {
             best = Some((index, q, distance));
         }
@@ -150,12 +156,21 @@ fn limits(kind: usize, q: f64) -> [f64; 2] {
 fn questions(program: &Program) -> Vec<Question> {
     let mut between = random();
     let joints = joint_values(program, 120, random());
-    joints.iter().enumerate().filter(|(index, _)| index % 3 < 2).map(|(index, q)| Question {
-        target: program.reached(q).unwrap(),
-        limits: q.iter().enumerate().map(|(joint, q)| limits(if index % 5 < 3 { index + joint } else { 1 }, *q)).collect(),
-        reference: q.iter().map(|q| q + between(-6.0, 6.0)).collect(),
-        weights: q.iter().enumerate().map(|(joint, _)| if joint == 1 { 0.0 } else { between(0.1, 2.0) }).collect(),
-    }).collect()
+    joints
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| index % 3 < 2)
+        .map(|(index, q)| Question {
+            target: program.reached(q).unwrap(),
+            limits: q
+                .iter()
+                .enumerate()
+                .map(|(joint, q)| limits(if index % 5 < 3 { index + joint } else { 1 }, *q))
+                .collect(),
+            reference: q.iter().map(|q| q + between(-6.0, 6.0)).collect(),
+            weights: q.iter().enumerate().map(|(joint, _)| if joint == 1 { 0.0 } else { between(0.1, 2.0) }).collect(),
+        })
+        .collect()
 }
 
 fn text(questions: &[Question]) -> String {
