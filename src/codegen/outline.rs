@@ -131,6 +131,8 @@ struct Needs {
     angles: bool,
     lengths: bool,
     sort: bool,
+    /// The target begins with a pose.
+    frames: bool,
 }
 
 impl Outline {
@@ -308,6 +310,7 @@ impl Needs {
             angles: angles > 0,
             lengths: angles < program.joints.len(),
             sort: program.capacity > 2,
+            frames: program.conditions.as_slice() == [Condition::Rotation(3)],
         }
     }
 }

@@ -3,6 +3,7 @@
 pub mod builder;
 mod derivations;
 mod forward;
+mod frames;
 pub mod harness;
 mod ikfast;
 mod names;
