@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::ends::EndArguments;
 use super::{Outcome, check, console};
 use crate::Watch;
-use crate::derive::explain::explain;
-use crate::derive::{Proved, Source};
+use crate::derive::explain::{Document, explain};
+use crate::derive::{Ends, Proved, Source};
 use crate::files::write_atomically;
 
 const EXAMPLES: &str = "Examples:
@@ -35,13 +35,25 @@ pub struct Arguments {
 
 /// Proves, explains, prints.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let source = Source::read_between(&arguments.input, &arguments.ends.ends())?;
-    let document = explain(&prove(&arguments.input, &source)?)?;
+    let document = told(&arguments.input, &arguments.ends.ends())?;
     let text = if arguments.latex { document.to_latex() } else { document.to_markdown() };
     match &arguments.output {
         None => console::print(&text),
         Some(path) => Ok(write_atomically(path, text.as_bytes())?),
     }
+}
+
+/// The report of a derivation, for what its folder asks.
+///
+/// # Errors
+/// As [`Source::read`], [`check::reprove`] and [`explain`].
+pub(super) fn document(input: &Path) -> crate::Result<Document> {
+    told(input, &Ends::default())
+}
+
+fn told(input: &Path, ends: &Ends) -> crate::Result<Document> {
+    let source = Source::read_between(input, ends)?;
+    explain(&prove(input, &source)?)
 }
 
 /// From the stored proof where there is one.

@@ -11,6 +11,9 @@ use crate::solver::Program;
 use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
 
+/// The longest file for IKFast that a folder gets, in bytes: the others are the same solver.
+const IKFAST_LIMIT: usize = 80_000;
+
 /// The file of the numeric checks.
 pub const CHECKS: &str = "6_check.csv";
 
@@ -95,12 +98,18 @@ pub fn is_ours(folder: &Path, name: &str) -> bool {
     name != stages::PAGE || !fs::read_to_string(folder.join(name)).is_ok_and(by_hand)
 }
 
-/// The program as source code, one file a language.
+/// The program as source code, one file a language; IKFast's only where it has a type for the task and the file is not too long.
 pub fn printed_solvers(program: &Program) -> Vec<(String, Vec<u8>)> {
-    vec![
+    let ikfast = codegen::ikfast::emit(program, &codegen::ikfast::Options::default());
+    let ikfast = ikfast
+        .ok()
+        .filter(|text| text.len() <= IKFAST_LIMIT)
+        .map(|text| ("5_ikfast.cpp".to_owned(), text.into_bytes()));
+    let own = [
         ("5_solver.c".to_owned(), codegen::c99::emit(program).into_bytes()),
         ("5_solver.rs".to_owned(), codegen::rust::emit(program).into_bytes()),
-    ]
+    ];
+    ikfast.into_iter().chain(own).collect()
 }
 
 fn is_same_file(a: &Path, b: &Path) -> bool {

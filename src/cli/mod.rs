@@ -11,6 +11,7 @@ mod basis_certificate;
 mod basis_cover;
 mod chain_report;
 mod check;
+mod codegen;
 mod console;
 mod derive;
 mod ends;
@@ -40,6 +41,7 @@ const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target 60,150
   groebot check derivations/nao_leg_sagittal
   groebot explain derivations/nao_leg_sagittal
+  groebot codegen derivations/puma --lang c -o puma.c
   groebot info derivations/nao_arm_planar
   groebot info robot.urdf --tip tool0
   groebot fk robot.urdf --tip tool0 --q 0,-90,90,0,0,0 --degrees
@@ -63,6 +65,7 @@ enum Command {
     Solve(solve::Arguments),
     Check(check::Arguments),
     Explain(explain::Arguments),
+    Codegen(codegen::Arguments),
     Info(info::Arguments),
     Plan(plan::Arguments),
     Ik(ik::Arguments),
@@ -101,6 +104,7 @@ pub fn run() -> ExitCode {
         Command::Solve(arguments) => solve::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
+        Command::Codegen(arguments) => codegen::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),
         Command::Ik(arguments) => ik::run(arguments),

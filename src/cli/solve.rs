@@ -60,7 +60,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-fn read_program(path: &Path) -> Result<Program> {
+/// The program in a derivation's folder, or in a file.
+///
+/// # Errors
+/// [`ErrorKind::Io`] without one; as [`Program::from_json`], with the file.
+pub(super) fn read_program(path: &Path) -> Result<Program> {
     let file = if path.is_dir() { path.join(PROGRAM_NAME) } else { path.to_owned() };
     if path.is_dir() && !file.exists() {
         let text = format!("this folder has no `{PROGRAM_NAME}`; `groebot derive` writes it");

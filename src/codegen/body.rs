@@ -3,6 +3,7 @@
 use super::demand::{Demand, ParameterDemand};
 use super::names::Names;
 use super::printer::{Finish, INDENT, Language, Printer, State, number};
+use super::samples::Table;
 use crate::solver::{Block, Chart, Guard, JointValue, Operand, Program, Rule, Step};
 
 /// What all bodies of one file share.
@@ -12,6 +13,8 @@ pub(super) struct Scene<'a> {
     pub names: Names,
     /// Unknowns that the equations read and that are no joint's: charts hand their values over.
     pub extra: Vec<usize>,
+    /// Values at which charts put free joints.
+    pub tables: Vec<Table>,
 }
 
 impl Scene<'_> {
@@ -264,18 +267,14 @@ impl Walk<'_> {
     fn samples(&mut self, joint: JointValue, values: &[f64], printer: &mut Printer<'_>) {
         let lines = printer.settle();
         self.push(lines);
-        let (unknowns, rows): (Vec<usize>, Vec<Vec<String>>) = match joint {
-            JointValue::Angle { cosine, sine } => {
-                let row = |value: &f64| vec![number(value.cos()), number(value.sin())];
-                (vec![cosine, sine], values.iter().map(row).collect())
-            }
-            JointValue::Plain(unknown) => (vec![unknown], values.iter().map(|value| vec![number(*value)]).collect()),
+        let name = |unknown: usize| {
+            printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str())
         };
-        let name = |unknown: &usize| {
-            printer.demand().wants_unknown(*unknown).then(|| printer.names().unknowns[*unknown].as_str())
-        };
-        let names: Vec<Option<&str>> = unknowns.iter().map(name).collect();
-        self.push(printer.language().open_samples(self.depth, &names, &rows));
+        let names: Vec<Option<&str>> = joint.unknowns().into_iter().map(name).collect();
+        let table = Table::new(joint, values);
+        let place = self.scene.tables.iter().position(|other| *other == table);
+        let number = 1 + place.expect("the tables are those of all steps");
+        self.push(printer.language().open_samples(self.depth, &names, number, table.len()));
     }
 
     /// The branch number so far and the end of the numbers of the first block's chart.

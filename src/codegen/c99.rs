@@ -2,16 +2,24 @@
 
 use super::outline::Outline;
 use super::printer::{Finish, INDENT, Language, State, spread};
+use super::single::single;
 use crate::solver::Program;
 
 const SKELETON: &str = include_str!("skeleton/solver.c.txt");
 
 const RESERVED: &str = "auto break case char const continue default do double else enum extern float for goto if inline int \
     long register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while \
-    bool true false asm typeof alignas alignof constexpr nullptr static_assert thread_local noreturn \
+    bool true false asm typeof \
+    and and_eq bitand bitor catch char16_t char32_t char8_t class compl concept const_cast consteval constinit co_await co_return \
+    co_yield decltype delete dynamic_cast explicit export friend mutable namespace new not not_eq operator or or_eq private \
+    protected public reinterpret_cast requires static_cast template this throw try typeid typename using virtual xor xor_eq std UNITS IkReal \
+    alignas alignof constexpr nullptr static_assert thread_local noreturn \
     size_t ptrdiff_t wchar_t NULL offsetof NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL DECIMAL_DIG errno complex imaginary I \
     float_t double_t math_errhandling signgam linux unix i386 \
     sin cos sqrt fabs fmax fmin atan2 round copysign isfinite isnan free_joints assert";
+
+/// The longest line of joined declarations, in characters.
+const LINE: usize = 112;
 
 const RESERVED_PREFIXES: [&str; 7] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "M_", "__"];
 
@@ -19,10 +27,58 @@ const RESERVED_PREFIXES: [&str; 7] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "
 ///
 /// With `<NAME>_DECLARATIONS_ONLY` defined it is its own header. It allocates nothing and has no state.
 pub fn emit(program: &Program) -> String {
-    super::fill(SKELETON, &Outline::new(program, &C99))
+    joined(&super::fill(SKELETON, &Outline::new(program, &C99)))
 }
 
-struct C99;
+/// The same in single precision: `float` everywhere, with tolerances to match. The answers are polished to about 1e-6 of their size, and
+/// near singular configurations fewer are told apart than in double precision.
+pub fn emit_single(program: &Program) -> String {
+    single(&joined(&super::fill(SKELETON, &Outline::single(program, &C99))))
+}
+
+/// The part of the file that solves, as C++ too: without `#include`, and constants in place of macros.
+pub(super) fn engine(program: &Program) -> String {
+    let text = joined(&super::fill(SKELETON, &Outline::engine(program, &C99)));
+    let limits = |line: String| {
+        line.replace("DBL_MIN", "(std::numeric_limits<double>::min)()")
+            .replace("DBL_EPSILON", "std::numeric_limits<double>::epsilon()")
+    };
+    text.lines().map(|line| limits(constant(line)) + "\n").collect()
+}
+
+/// The text with constants that are declared one after the other on one line, as far as that is not long.
+fn joined(text: &str) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for line in text.lines() {
+        let earlier = lines.last_mut().zip(declared(line));
+        match earlier.and_then(|(last, (indent, rest))| Some((declared(last)?.0 == indent, last, rest))) {
+            Some((true, last, rest)) if last.len() + rest.len() <= LINE => {
+                last.pop();
+                *last += &format!(", {rest}");
+            }
+            _ => lines.push(line.to_owned()),
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The indentation of a line that declares constant numbers, and what it declares.
+fn declared(line: &str) -> Option<(&str, &str)> {
+    let rest = line.trim_start().strip_prefix("const double ")?;
+    let plain = rest.ends_with(';') && rest.contains(" = ") && !rest.contains('{') && !rest.starts_with('*');
+    plain.then(|| (&line[..line.len() - line.trim_start().len()], rest))
+}
+
+/// A line, a definition of a macro as one of a constant.
+fn constant(line: &str) -> String {
+    let Some((name, value)) = line.strip_prefix("#define ").and_then(|rest| rest.split_once(' ')) else {
+        return line.to_owned();
+    };
+    let real = value.contains(['.', 'e']) || value.contains("DBL_");
+    format!("static const {} {name} = {value};", if real { "double" } else { "int" })
+}
+
+pub(super) struct C99;
 
 impl Language for C99 {
     fn is_reserved(&self, word: &str) -> bool {
@@ -57,6 +113,10 @@ impl Language for C99 {
 
     fn declare(&self, name: &str, value: &str) -> String {
         format!("const double {name} = {value};")
+    }
+
+    fn infinity(&self, positive: bool) -> String {
+        if positive { "INFINITY" } else { "-INFINITY" }.to_owned()
     }
 
     /// All but plain ASCII as octal escapes, `?` too: `??` would begin a trigraph.
@@ -102,14 +162,10 @@ impl Language for C99 {
         vec![format!("if ({negation}) {{"), format!("{INDENT}return;"), "}".to_owned()]
     }
 
-    fn open_samples(&self, depth: usize, names: &[Option<&str>], rows: &[Vec<String>]) -> Vec<String> {
-        let width = names.len();
-        let head = format!("static const double samples{depth}[{}][{width}] = {{", rows.len());
-        let list: Vec<String> = rows.iter().map(|row| format!("{{ {} }}", row.join(", "))).collect();
-        let mut lines = spread(&head, &list, "};");
-        lines.push(format!("for (size_t i{depth} = 0; i{depth} < {}; i{depth}++) {{", rows.len()));
+    fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String> {
+        let mut lines = vec![format!("for (size_t i{depth} = 0; i{depth} < {rows}; i{depth}++) {{")];
         for (column, name) in names.iter().enumerate() {
-            let value = format!("samples{depth}[i{depth}][{column}]");
+            let value = format!("SAMPLES_{table}[i{depth}][{column}]");
             lines.extend(name.map(|name| format!("{INDENT}{}", self.declare(name, &value))));
         }
         lines

@@ -1,18 +1,25 @@
-//! Printing a [`Program`](crate::solver::Program) as a stand-alone solver: [`rust::emit`] and [`c99::emit`].
+//! Printing a [`Program`](crate::solver::Program) as a stand-alone solver: [`rust::emit`], [`c99::emit`] and [`ikfast::emit`].
 //!
 //! The printed solver is the algorithm of [`Program::solve`](crate::solver::Program::solve) step by step, without
 //! allocation, and holds only what its program needs. A language is an expression printer (`printer::Language`) plus
 //! the skeleton of a file (`skeleton/`), filled from one `outline::Outline`.
 
 pub mod c99;
+pub mod ikfast;
 pub mod rust;
 
+mod about;
 mod blocks;
 mod body;
 mod demand;
+mod forward;
 mod names;
 mod outline;
 mod printer;
+mod samples;
+mod single;
+
+pub use names::is_word;
 
 use serde::Serialize;
 

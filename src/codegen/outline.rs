@@ -2,15 +2,24 @@
 
 use serde::Serialize;
 
+use super::about::AboutText;
 use super::blocks::{BlockText, ConditionText};
 use super::body::Scene;
 use super::demand::{Demand, ParameterDemand};
+use super::forward::{ForwardText, equations, printed_forward};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
+use super::samples::Table;
 use crate::solver::{
     ACCEPT, ADRIFT, APART, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, LEAPS, LEVER, MERGE, NEAR,
     Operand, PIVOT, POLISH_STEPS, POLISHED, Program, RETURNS, ROUNDING, STAGES, STIFF, Step, TINY, Unit,
 };
+
+/// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
+const TANGENT: f64 = 1e-10;
+
+/// Shares of the squared Jacobian's size that are added where a plain Newton step fails, in single precision.
+const SINGLE_DAMPINGS: [f64; 4] = [0.0, 1e-5, 1e-4, 1e-3];
 
 /// Everything that the skeletons name.
 #[derive(Serialize)]
@@ -18,6 +27,9 @@ pub(super) struct Outline {
     name: String,
     upper: String,
     version: String,
+    about: AboutText,
+    /// Whether the text goes into another file: without head, declarations and what only serves callers.
+    engine: bool,
     inputs: Vec<Quantity>,
     joints: Vec<Quantity>,
     extra: Vec<String>,
@@ -35,6 +47,10 @@ pub(super) struct Outline {
     /// Names of the unknowns that go from block to block.
     passed: Vec<String>,
     blocks: Vec<BlockText>,
+    /// Values at which charts put free joints.
+    samples: Vec<Table>,
+    /// Forward kinematics, if the program has them.
+    forward: Option<ForwardText>,
     checks: Code,
     sizes: Vec<String>,
     jacobian: Code,
@@ -71,6 +87,12 @@ struct Tolerances {
     stiff: String,
     stages: usize,
     consistent: String,
+    /// A leading coefficient below this share of the largest coefficient counts as zero.
+    negligible: String,
+    /// A critical point where a polynomial misses zero by this share of its size counts as a root.
+    tangent: String,
+    /// How far a joint may be beyond a limit.
+    slack: String,
 }
 
 #[derive(Serialize)]
@@ -84,12 +106,12 @@ struct Parameters {
 
 /// Lines of code, values, and what they read.
 #[derive(Serialize)]
-struct Code {
-    lines: Vec<String>,
-    values: Vec<String>,
-    reads_p: bool,
-    reads_q: bool,
-    reads_extra: bool,
+pub(super) struct Code {
+    pub lines: Vec<String>,
+    pub values: Vec<String>,
+    pub reads_p: bool,
+    pub reads_q: bool,
+    pub reads_extra: bool,
 }
 
 #[derive(Serialize)]
@@ -114,14 +136,30 @@ struct Needs {
     angles: bool,
     lengths: bool,
     sort: bool,
+    /// The target begins with a pose.
+    frames: bool,
 }
 
 impl Outline {
+    /// The outline of the part of a file that solves.
+    pub fn engine(program: &Program, language: &dyn Language) -> Self {
+        Outline { engine: true, ..Outline::new(program, language) }
+    }
+
+    /// The outline of a file that computes in single precision.
+    pub fn single(program: &Program, language: &dyn Language) -> Self {
+        let dampings = SINGLE_DAMPINGS.iter().map(|&damping| number(damping)).collect();
+        Outline { tolerances: Tolerances::single(), dampings, ..Outline::new(program, language) }
+    }
+
     /// The outline of a valid program.
     pub fn new(program: &Program, language: &dyn Language) -> Self {
-        let scene = Scene { program, language, names: Names::new(program, language), extra: extra_unknowns(program) };
+        let (names, tables) = (Names::new(program, language), Table::all(program));
+        let scene = Scene { program, language, names, extra: extra_unknowns(program), tables };
         let needs = Needs::new(program);
-        let (checks, sizes) = equations(&scene, &needs);
+        let forward = printed_forward(&scene).filter(|_| needs.answers);
+        let measured: &[Operand] = if needs.answers { &program.checks.scales } else { &[] };
+        let (checks, sizes) = equations(&scene, forward.as_ref(), measured);
         let jacobian: Vec<&[Operand]> = program.checks.jacobian.iter().map(Vec::as_slice).collect();
         let (jacobian_lines, jacobian_rows) = scene.checks(&jacobian);
         let name = word(&program.name);
@@ -129,6 +167,8 @@ impl Outline {
             upper: name.to_ascii_uppercase(),
             name,
             version: remark(&program.version),
+            about: AboutText::new(program, language),
+            engine: false,
             inputs: program.inputs.iter().map(|i| Quantity::new(language, &i.name, i.unit, false)).collect(),
             joints: program
                 .joints
@@ -147,7 +187,9 @@ impl Outline {
             parameters: Parameters::new(&scene, &needs),
             conditions: program.conditions.iter().map(ConditionText::new).collect(),
             passed: scene.passed().into_iter().map(|unknown| scene.names.unknowns[unknown].clone()).collect(),
+            samples: scene.tables.clone(),
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
+            forward: forward.map(|forward| ForwardText::new(&scene, &forward)),
             checks,
             sizes,
             jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
@@ -156,17 +198,6 @@ impl Outline {
             needs,
         }
     }
-}
-
-/// The equations' values with their code, and their sizes if there are answers to measure.
-fn equations(scene: &Scene<'_>, needs: &Needs) -> (Code, Vec<String>) {
-    let checks = &scene.program.checks;
-    let sizes: &[Operand] = if needs.answers { &checks.scales } else { &[] };
-    let (lines, mut rows) = scene.checks(&[&checks.residuals, sizes]);
-    let sizes = rows.pop().unwrap_or_default();
-    let values = rows.concat();
-    let read = [values.as_slice(), sizes.as_slice()].concat();
-    (Code { values, ..Code::new(scene.language, lines, read) }, sizes)
 }
 
 impl Quantity {
@@ -195,6 +226,30 @@ impl Tolerances {
             stiff: number(STIFF),
             stages: STAGES,
             consistent: number(CONSISTENT),
+            negligible: number(1e-290),
+            tangent: number(TANGENT),
+            slack: number(1e-9),
+        }
+    }
+
+    /// Those of single precision: what is a share of rounding in double precision is about that share of rounding here, and what is near
+    /// the square root of rounding, as merging is, is so here.
+    fn single() -> Self {
+        Tolerances {
+            accept: number(3e-5),
+            merge: number(2e-3),
+            blur: number(3e-2),
+            resolution: number(5e-6),
+            near: number(1e-2),
+            tiny: number(1e-14),
+            pivot: number(1e-4),
+            polished: number(2e-7),
+            adrift: number(1e-3),
+            consistent: number(1e-4),
+            negligible: number(1e-30),
+            tangent: number(1e-4),
+            slack: number(1e-5),
+            ..Tolerances::new()
         }
     }
 }
@@ -229,7 +284,8 @@ impl Parameters {
 }
 
 impl Code {
-    fn new(language: &dyn Language, lines: Vec<String>, values: Vec<String>) -> Self {
+    /// The code, and what it reads.
+    pub fn new(language: &dyn Language, lines: Vec<String>, values: Vec<String>) -> Self {
         let reads = |what: &str| lines.iter().chain(&values).any(|line| line.contains(what));
         Code { reads_p: reads(&language.field("")), reads_q: reads("q["), reads_extra: reads("extra["), lines, values }
     }
@@ -264,6 +320,7 @@ impl Needs {
             angles: angles > 0,
             lengths: angles < program.joints.len(),
             sort: program.capacity > 2,
+            frames: program.conditions.as_slice() == [Condition::Rotation(3)],
         }
     }
 }

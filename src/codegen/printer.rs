@@ -36,6 +36,8 @@ pub(super) trait Language {
     fn greater(&self, a: &str, b: &str) -> String;
     /// A new immutable number.
     fn declare(&self, name: &str, value: &str) -> String;
+    /// The greatest or least of all numbers, an infinity.
+    fn infinity(&self, positive: bool) -> String;
     /// A piece of text in quotation marks.
     fn quote(&self, text: &str) -> String;
     /// Lines that name the roots `roots{depth}` of the first polynomial (each a list of coefficients) that leads; `typical` is
@@ -43,8 +45,9 @@ pub(super) trait Language {
     fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String>;
     /// Lines that open the loop over `roots{depth}` with index `i{depth}`, and over its values if they have a name.
     fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String>;
-    /// Lines that open the loop with index `i{depth}` over rows of numbers, each row's being called by `names` where they have one.
-    fn open_samples(&self, depth: usize, names: &[Option<&str>], rows: &[Vec<String>]) -> Vec<String>;
+    /// Lines that open the loop with index `i{depth}` over the rows of the table of samples with a number, of which there are `rows`; each
+    /// row's numbers are called by `names` where they have one.
+    fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String>;
     /// Leaving a chart unless a condition holds.
     fn leave_unless(&self, condition: &str) -> Vec<String>;
     /// Handing over an answer.

@@ -56,6 +56,10 @@ impl Language for Rust {
         format!("let {name} = {value};")
     }
 
+    fn infinity(&self, positive: bool) -> String {
+        if positive { "f64::INFINITY" } else { "f64::NEG_INFINITY" }.to_owned()
+    }
+
     fn quote(&self, text: &str) -> String {
         format!("\"{}\"", text.escape_default())
     }
@@ -93,10 +97,9 @@ impl Language for Rust {
         vec![format!("if {negation} {{"), format!("{INDENT}return;"), "}".to_owned()]
     }
 
-    fn open_samples(&self, _: usize, names: &[Option<&str>], rows: &[Vec<String>]) -> Vec<String> {
+    fn open_samples(&self, _: usize, names: &[Option<&str>], table: usize, _: usize) -> Vec<String> {
         let names: Vec<&str> = names.iter().map(|name| name.unwrap_or("_")).collect();
-        let rows: Vec<String> = rows.iter().map(|row| format!("[{}]", row.join(", "))).collect();
-        spread(&format!("for [{}] in [", names.join(", ")), &rows, "] {")
+        vec![format!("for [{}] in SAMPLES_{table} {{", names.join(", "))]
     }
 
     fn finish(&self, answer: &Finish<'_>) -> Vec<String> {

@@ -33,6 +33,7 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
     let program = Program {
         name: system.name.clone(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        about: None,
         inputs: system.inputs.iter().map(|i| Input { name: i.name.clone(), unit: unit(system, i.quantity) }).collect(),
         conditions: Vec::new(),
         parameters: compiler.parameters()?,

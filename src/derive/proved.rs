@@ -1,10 +1,10 @@
-//! A derivation of any kind, from a [`Source`]: [`Proved`].
+//! A derivation of any kind, from a [`Source`]: [`Proved`]. Its program says what it comes from ([`About`]).
 
 use super::lift::{self, Derived};
 use super::limbs::DerivedLimbs;
 use super::{Derivation, Source, certificate};
 use crate::kinematics::Chain;
-use crate::solver::Program;
+use crate::solver::{About, Program};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// What a source's derivation gives.
@@ -24,14 +24,12 @@ impl Proved {
     /// # Errors
     /// As [`Derivation::new`], [`Derived::of_chain`] and [`DerivedLimbs::of_limbs`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
-        match (source.chain_by_steps(), &source.limbs) {
-            (Some(chain), _) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch)),
-            (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::of_limbs(limbs, watch)?))),
-            (None, None) => {
-                let derivation = Derivation::new(equations(source)?.clone(), watch)?;
-                Ok(Proved::Equations(Box::new(derivation)))
-            }
-        }
+        let proved = match (source.chain_by_steps(), &source.limbs) {
+            (Some(chain), _) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch))?,
+            (None, Some(limbs)) => Proved::Limbs(Box::new(DerivedLimbs::of_limbs(limbs, watch)?)),
+            (None, None) => Proved::Equations(Box::new(Derivation::new(equations(source)?.clone(), watch)?)),
+        };
+        Ok(proved.about(source))
     }
 
     /// Proves the derivation of `source` anew from the text of its certificate, without the Groebner engine.
@@ -39,14 +37,23 @@ impl Proved {
     /// # Errors
     /// As [`certificate::prove`], [`lift::certificate::prove`] and [`DerivedLimbs::prove`].
     pub fn again(source: &Source, text: &str) -> Result<Self> {
-        match (source.chain_by_steps(), &source.limbs) {
-            (Some(chain), _) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
-            (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::prove(limbs, text)?))),
-            (None, None) => {
-                let derivation = certificate::prove(equations(source)?, text)?;
-                Ok(Proved::Equations(Box::new(derivation)))
-            }
-        }
+        let proved = match (source.chain_by_steps(), &source.limbs) {
+            (Some(chain), _) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text))?,
+            (None, Some(limbs)) => Proved::Limbs(Box::new(DerivedLimbs::prove(limbs, text)?)),
+            (None, None) => Proved::Equations(Box::new(certificate::prove(equations(source)?, text)?)),
+        };
+        Ok(proved.about(source))
+    }
+
+    /// The same, its program told what it comes from.
+    fn about(mut self, source: &Source) -> Self {
+        let program = match &mut self {
+            Proved::Equations(derivation) => &mut derivation.program,
+            Proved::Chain(derived) => &mut derived.program,
+            Proved::Limbs(derived) => &mut derived.program,
+        };
+        program.about = Some(about(source, program));
+        self
     }
 
     /// The derivation of `chain`, or of the ideal one that `source` asks for instead, its answers polished on `chain`.
@@ -78,6 +85,42 @@ impl Proved {
             Proved::Limbs(derived) => derived.stage_files(),
         }
     }
+}
+
+/// What `source` says of itself, with the limits of the program's joints.
+fn about(source: &Source, program: &Program) -> About {
+    let motors = match (&source.chain, &source.limbs) {
+        (Some(chain), _) => chain.joints().iter().map(|joint| (joint.name.as_str(), joint.limits)).collect(),
+        (None, Some(limbs)) => limbs.motors().iter().map(|motor| (motor.name.as_str(), limbs.limits(motor))).collect(),
+        (None, None) => Vec::new(),
+    };
+    let limits = |name: &str| motors.iter().find(|(motor, _)| *motor == name).and_then(|(_, limits)| *limits);
+    let limits: Vec<_> = program.joints.iter().map(|joint| limits(&joint.name)).collect();
+    let asked = source.task_file().map_or_else(Vec::new, |(_, text)| text);
+    About {
+        task: task(source),
+        base: source.ends.base.clone(),
+        tip: source.ends.tip.clone(),
+        hash: format!("{:016x}", hash(source.text.bytes().chain(asked))),
+        limits: if limits.iter().all(Option::is_none) { Vec::new() } else { limits },
+    }
+}
+
+/// What is asked of the tip, or of each limb's.
+fn task(source: &Source) -> String {
+    match (&source.chain, &source.limbs) {
+        (Some(chain), _) => chain.asked(),
+        (None, Some(limbs)) => {
+            let asked = limbs.limbs().iter().map(|limb| format!("{}: {}", limb.name, limb.chain.asked()));
+            asked.collect::<Vec<_>>().join("; ")
+        }
+        (None, None) => "its equations".to_owned(),
+    }
+}
+
+/// The hash of Fowler, Noll and Vo, FNV-1a, of 64 bits (draft-eastlake-fnv).
+fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 fn equations(source: &Source) -> Result<&super::System> {

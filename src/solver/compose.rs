@@ -25,14 +25,15 @@ impl Program {
 
     /// The program that solves this one and then `next`. In each pair of `shared`, a joint of this program and one that `next`
     /// takes as given are one motor: it stands once among the joints, and is no input of `next` any more. Inputs of one name are one
-    /// input. Other inputs and joints of `next` stand behind this program's; name, version and preference are this program's.
+    /// input. Other inputs and joints of `next` stand behind this program's; name, version and preference are this program's; the two
+    /// have no one source to tell about.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a shared joint that is not there, that moves otherwise, or that `next` does not take as given;
     /// for more than [`super::MAX_JOINTS`] joints and what else [`Program::validate`] refuses.
     pub fn followed_by(&self, next: &Program, shared: &[(usize, usize)]) -> Result<Program> {
         let places = Places::new(self, next, shared)?;
-        let mut program = self.clone();
+        let mut program = Program { about: None, ..self.clone() };
         program
             .inputs
             .extend(own(&next.inputs, |index| places.inputs[index].is_some_and(|place| place >= self.inputs.len())));

@@ -2,10 +2,12 @@
 //!
 //! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
 
+mod about;
 mod answers;
 mod compose;
 mod condition;
 mod evaluate;
+mod forward;
 mod frame;
 mod instruction;
 mod program;
@@ -13,7 +15,9 @@ mod refine;
 mod validate;
 mod walk;
 
+pub use about::About;
 pub use evaluate::{Nearest, Solution};
+pub use forward::{Forward, Reached};
 pub use instruction::{Instruction, Operand, Operation};
 pub use program::{
     Block, Chart, Checks, Condition, Guard, Input, Joint, JointValue, ParameterRule, Pivot, Preference, Program, Rule,

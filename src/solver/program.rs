@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::about::About;
 use super::instruction::{Instruction, Operand};
 use crate::{Error, ErrorKind, Result};
 
@@ -41,6 +42,16 @@ pub enum JointValue {
     },
     /// The unknown with this index itself.
     Plain(usize),
+}
+
+impl JointValue {
+    /// The indices of its unknowns: of the cosine and the sine, or of the value itself.
+    pub(crate) fn unknowns(self) -> Vec<usize> {
+        match self {
+            JointValue::Angle { cosine, sine } => vec![cosine, sine],
+            JointValue::Plain(unknown) => vec![unknown],
+        }
+    }
 }
 
 /// One joint of the answer.
@@ -211,6 +222,9 @@ pub struct Program {
     pub name: String,
     /// The version of groebot that derived it.
     pub version: String,
+    /// What is known of its source.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<About>,
     /// The target's numbers, in order.
     pub inputs: Vec<Input>,
     /// What the target must fulfil.

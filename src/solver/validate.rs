@@ -48,6 +48,9 @@ impl Program {
         for joint in &self.joints {
             ensure(self.has_unknowns(joint.value), &format!("joint `{}`", joint.name))?;
         }
+        let limits = self.about.as_ref().map_or(&[][..], |about| &about.limits);
+        ensure(limits.is_empty() || limits.len() == self.joints.len(), "limits: one pair a joint, or none at all")?;
+        ensure(limits.iter().flatten().all(|(low, high)| low <= high), "limits: the least, then the greatest value")?;
         let known = self.preference.is_none_or(|preference| preference.unknown < self.unknowns.len());
         ensure(known, "preference")
     }

@@ -3,6 +3,7 @@
 mod asked;
 mod basis;
 mod check;
+mod codegen;
 mod derive;
 mod explain;
 mod fk;
@@ -132,7 +133,7 @@ fn leg_copy() -> TempDir {
 fn usage_and_version() {
     assert_eq!(succeed(&["--version"]).trim(), concat!("groebot ", env!("CARGO_PKG_VERSION")));
     let help = succeed(&["--help"]);
-    for word in ["derive", "solve", "check", "info", "fk", "basis", "Examples:", "Exit status"] {
+    for word in ["derive", "solve", "check", "codegen", "info", "fk", "basis", "Examples:", "Exit status"] {
         assert!(help.contains(word), "{word}");
     }
     for wrong in [&["dance"][..], &[], &["derive"], &["derive", ".", "--time", "-1"], &["derive", ".", "--time", "nan"]]

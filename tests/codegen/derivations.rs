@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 
 use groebot::Watch;
 use groebot::codegen;
-use groebot::derive::{Derivation, Source};
+use groebot::derive::{Proved, Source};
 use groebot::solver::Program;
 
-use super::harness::compare;
+use super::harness::{compare, compile_c, rustc};
+use super::random;
+use super::stored::{all, joint_values, named};
 
 const MECHANISMS: [&str; 2] = ["nao_leg_sagittal", "nao_arm_planar"];
 
@@ -21,10 +23,10 @@ fn folder(name: &str) -> PathBuf {
 fn committed_files_are_what_a_derivation_writes() {
     for name in MECHANISMS {
         let source = Source::read(&folder(name)).unwrap();
-        let derivation = Derivation::new(source.system.clone().unwrap(), &Watch::none()).unwrap();
+        let derivation = Proved::of(&source, &Watch::none()).unwrap();
         let mut files = derivation.stage_files().unwrap();
-        files.push(("5_solver.rs".to_owned(), codegen::rust::emit(&derivation.program).into_bytes()));
-        files.push(("5_solver.c".to_owned(), codegen::c99::emit(&derivation.program).into_bytes()));
+        files.push(("5_solver.rs".to_owned(), codegen::rust::emit(derivation.program()).into_bytes()));
+        files.push(("5_solver.c".to_owned(), codegen::c99::emit(derivation.program()).into_bytes()));
         for (file, bytes) in files {
             let path = folder(name).join(file);
             if std::env::var_os("UPDATE_GOLDEN").is_some() {
@@ -64,6 +66,65 @@ fn printed_solvers_answer_like_the_program() {
         let targets = targets(reach);
         if let Some(report) = compare(&program, &targets) {
             assert!(report.answers > 4000 && report.refused == 2, "{report:?}");
+        }
+    }
+}
+
+/// The C file of every stored program is C99 to the letter; its Rust file is a module of a crate on `core` alone. Warnings are errors.
+#[test]
+fn every_stored_solver_compiles() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut crate_root = "#![no_std]\n#![deny(warnings)]\n".to_owned();
+    let mut names = Vec::new();
+    for stored in all() {
+        let module = format!("solver_{}", stored.name);
+        fs::write(folder.path().join(format!("{module}.c")), codegen::c99::emit(&stored.program)).unwrap();
+        fs::write(folder.path().join(format!("{module}.rs")), codegen::rust::emit(&stored.program)).unwrap();
+        crate_root += &format!("pub mod {module};\n");
+        names.push(format!("{module}.c"));
+    }
+    assert!(names.len() >= 26, "{names:?}");
+    fs::write(folder.path().join("root.rs"), crate_root).unwrap();
+    let files: Vec<&str> = names.iter().map(String::as_str).collect();
+    if compile_c(folder.path(), &[&["-fsyntax-only"], files.as_slice()].concat()).is_some() {
+        let small = ["-ffreestanding", "-O1", "-c", "solver_puma.c", "-o", "puma.o"];
+        compile_c(folder.path(), &small);
+    }
+    let library = ["--crate-type=lib", "--cfg=feature=\"libm\"", "--emit=metadata", "-Amissing_docs", "root.rs"];
+    rustc(folder.path(), &library);
+}
+
+/// Targets that a chain reaches, singular ones among them, and some out of reach or no target.
+fn targets_of(program: &Program, count: usize) -> Vec<Vec<f64>> {
+    let mut targets: Vec<Vec<f64>> =
+        joint_values(program, count, random()).iter().filter_map(|q| program.reached(q)).collect();
+    for k in 0..targets.len() / 10 {
+        let mut far = targets[k].clone();
+        far[0] += 3.0 * program.scale;
+        let mut bad = targets[k].clone();
+        let place = k % bad.len();
+        bad[place] = [f64::NAN, f64::INFINITY, 1e300, -4.0][k % 4];
+        targets.extend([far, bad]);
+    }
+    targets
+}
+
+/// Solvers of chains: poses, a given joint, a free one in the middle of the wrist.
+#[test]
+fn printed_solvers_of_chains_answer_like_the_program() {
+    for stored in named(&["puma", "stanford", "nao_left_leg", "iiwa14", "rrp"]) {
+        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 400)) {
+            assert!(report.answers > 400 && report.refused > 10, "{report:?}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "minutes: every stored chain, ten thousand targets each"]
+fn every_printed_solver_answers_like_the_program() {
+    for stored in all().iter().filter(|stored| stored.program.forward().is_some()) {
+        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 10_000)) {
+            assert!(report.answers >= 10_000 && report.refused > 100, "{report:?}");
         }
     }
 }

@@ -99,6 +99,11 @@ fn run(executable: &Path, targets: &[Vec<f64>]) -> String {
         let words: Vec<String> = target.iter().map(|value| format!("{value:e}")).collect();
         writeln!(text, "{}", words.join(" ")).unwrap();
     }
+    feed(executable, text)
+}
+
+/// What a program prints that reads this text.
+pub fn feed(executable: &Path, text: String) -> String {
     let mut child = Command::new(executable).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let mut input = child.stdin.take().unwrap();
     let writer = std::thread::spawn(move || input.write_all(text.as_bytes()));
@@ -131,7 +136,7 @@ pub fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str
     Some(vec![("Rust", at("module")), ("Rust without std", at("crate")), ("C99", at("c99"))])
 }
 
-fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
+pub fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
     let name = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let mut command = Command::new(name);
     command.args(["--edition=2024", "-Dwarnings", "-Dmissing_docs", "-Copt-level=1"]).args(arguments);
@@ -141,14 +146,24 @@ fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
     build(command.current_dir(folder))
 }
 
-fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
+pub fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
     let mut command = Command::new("cc");
     command.args("-std=c99 -O2 -Wall -Wextra -Werror -pedantic -Wconversion -Wsign-conversion".split(' '));
     build(command.args(arguments).current_dir(folder))
 }
 
+/// What makes a C or C++ program stop at the first access out of bounds or undefined operation.
+pub const SANITIZERS: [&str; 2] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
+
+/// Whether the C compiler has the sanitizers' libraries.
+pub fn has_sanitizers(folder: &Path) -> bool {
+    fs::write(folder.join("empty.c"), "int main(void) { return 0; }\n").unwrap();
+    let command = Command::new("cc").args(SANITIZERS).args(["empty.c", "-o", "empty"]).current_dir(folder).output();
+    command.is_ok_and(|output| output.status.success())
+}
+
 /// Runs a compiler, which must succeed; `None` when there is none.
-fn build(command: &mut Command) -> Option<()> {
+pub fn build(command: &mut Command) -> Option<()> {
     match command.output() {
         Ok(output) => {
             let text = String::from_utf8_lossy(&output.stderr);

@@ -2,11 +2,17 @@
 
 pub mod builder;
 mod derivations;
+mod forward;
+mod frames;
 pub mod harness;
+mod ikfast;
 mod limbs;
 mod names;
 pub mod samples;
+mod single;
+mod stored;
 mod text;
+mod turns;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

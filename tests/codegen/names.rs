@@ -35,6 +35,7 @@ fn named(names: &[String]) -> Program {
     Program {
         name: "names".into(),
         version: "test".into(),
+        about: None,
         inputs: vec![input("a", Unit::One)],
         parameters: names.iter().map(|name| rule(name, Rule::Input(0))).collect(),
         unknowns: names.iter().cloned().chain(["t".into()]).collect(),

@@ -43,6 +43,7 @@ fn slide() -> Program {
     Program {
         name: "slide".into(),
         version: "test".into(),
+        about: None,
         inputs: vec![input("pan", Unit::Radian), input("x", Unit::Metre)],
         conditions: vec![],
         parameters: vec![rule("c", Rule::Cosine(0)), rule("s", Rule::Sine(0)), rule("x", Rule::Input(1))],

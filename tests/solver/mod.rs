@@ -119,6 +119,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
     let program = Program {
         name: "choice".into(),
         version: "test".into(),
+        about: None,
         inputs: vec![input("a", Unit::One), input("b", Unit::One)],
         conditions: vec![],
         parameters: (0..2).map(|i| rule(["a", "b"][i], Rule::Input(i))).collect(),

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Lifted;
 use super::certificate::{Proof, prove_template, template_proofs};
+use super::charts::Slack;
 use super::eliminate::{self, Elimination};
 use super::half_angle::{self, HalfAngles};
 use super::layout::Layout;
@@ -167,7 +168,9 @@ impl<'a> Common<'a> {
             );
         }
         if mechanisms.iter().any(|mechanism| mechanism.hidden().is_some()) {
-            return unsupported("joints that two limbs share are not found from a ray, which leaves a turn open; ask for another task");
+            return unsupported(
+                "joints that two limbs share are not found from a ray, which leaves a turn open; ask for another task",
+            );
         }
         let given = mechanisms[0].given().to_vec();
         if given != mechanisms[1].given() || given.iter().any(|joint| *joint >= shared) {
@@ -289,6 +292,7 @@ impl<'a> Common<'a> {
         let checks = held(&layout, self.mechanisms[0].given(), self.shared);
         let mut program = Program {
             name: "shared".to_owned(),
+            about: None,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             joints: layout.joints.iter().zip(self.sides[0].chain.joints()).take(self.shared).map(joint).collect(),
             inputs: layout.inputs,

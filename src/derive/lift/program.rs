@@ -58,6 +58,7 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
     let program = Program {
         name: chain.name().to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
+        about: None,
         checks: checks(mechanism, &layout, reach),
         joints: joints(chain, &layout),
         inputs: layout.inputs,

@@ -112,6 +112,12 @@ impl Limbs {
     }
 }
 
+/// The least and greatest value of a motor, which all its joints allow; none where no joint says any.
+pub fn limits(&self, motor: &Motor) -> Option<(f64, f64)> {
+    let own = motor.joints.iter().filter_map(|place| self.joint(*place)?.limits);
+    own.reduce(|(low, high), (least, greatest)| (f64::max(low, least), f64::min(high, greatest)))
+}
+
 impl LimbsParts {
     fn joint(&self, place: JointPlace) -> Option<&Joint> {
         self.limbs.get(place.limb)?.chain.joints().get(place.joint)

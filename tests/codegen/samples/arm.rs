@@ -29,6 +29,7 @@ pub fn program() -> Program {
     Program {
         name: "turning_arm".into(),
         version: "test".into(),
+        about: None,
         inputs: ["x", "y", "z"].map(|name| input(name, Unit::Metre)).to_vec(),
         parameters: vec![
             rule("x", Rule::Input(0)),

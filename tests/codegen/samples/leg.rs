@@ -20,6 +20,7 @@ pub fn program() -> Program {
     Program {
         name: "leg".into(),
         version: "test".into(),
+        about: None,
         inputs: vec![input("px", Unit::Metre), input("pz", Unit::Metre)],
         parameters: vec![rule("px", Rule::Input(0)), rule("pz", Rule::Input(1))],
         unknowns: ["c4", "c3", "s3", "s4"].map(String::from).to_vec(),

@@ -21,6 +21,7 @@ pub fn program() -> Program {
     Program {
         name: "pan_tilt".into(),
         version: "test".into(),
+        about: None,
         inputs: names.map(|name| input(name, Unit::One)).to_vec(),
         conditions: vec![Condition::Unit(0)],
         parameters: (0..3).map(|i| rule(names[i], Rule::Input(i))).collect(),

@@ -17,6 +17,7 @@ pub fn program() -> Program {
     Program {
         name: "polar".into(),
         version: "test".into(),
+        about: None,
         inputs: vec![input("u", Unit::Metre), input("alpha", Unit::Radian), input("w", Unit::Metre)],
         parameters: vec![
             rule("u", Rule::Input(0)),

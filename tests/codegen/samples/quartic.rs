@@ -20,6 +20,7 @@ pub fn program() -> Program {
     Program {
         name: "quartic".into(),
         version: "test */".into(),
+        about: None,
         inputs: names.map(|name| input(name, Unit::One)).to_vec(),
         parameters: (0..5).map(|i| rule(names[i], Rule::Input(i))).collect(),
         unknowns: vec!["angle".into()],

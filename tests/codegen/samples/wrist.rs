@@ -70,6 +70,7 @@ pub fn program(gap: bool) -> Program {
     Program {
         name: "wrist".into(),
         version: "test".into(),
+        about: None,
         inputs: (0..9).map(|i| input(&name(i), Unit::One)).collect(),
         conditions: vec![Condition::Rotation(0)],
         parameters: (0..9).map(|i| rule(&name(i), Rule::Input(i))).collect(),

@@ -1,0 +1,35 @@
+//! What the head of a printed file says of the program's source, and the joints' limits.
+
+use serde::Serialize;
+
+use super::names::remark;
+use super::printer::{Language, number};
+use crate::solver::{About, Program};
+
+/// Lines of the head, and limits.
+#[derive(Serialize)]
+pub(super) struct AboutText {
+    /// Such as `Task: pose`.
+    lines: Vec<String>,
+    /// By joint: its least and greatest value.
+    limits: Vec<[String; 2]>,
+}
+
+impl AboutText {
+    pub fn new(program: &Program, language: &dyn Language) -> Self {
+        let about = program.about.clone().unwrap_or_default();
+        let limits = |joint: usize| match about.limits.get(joint).copied().flatten() {
+            Some((low, high)) => [number(low), number(high)],
+            None => [false, true].map(|positive| language.infinity(positive)),
+        };
+        AboutText { limits: (0..program.joints.len()).map(limits).collect(), lines: lines(&about) }
+    }
+}
+
+fn lines(about: &About) -> Vec<String> {
+    let named = |what: &str, name: Option<&String>| name.map(|name| format!("{what}: {}", remark(name)));
+    let task = (!about.task.is_empty()).then(|| format!("Task: {}", remark(&about.task)));
+    let hash = (!about.hash.is_empty()).then(|| format!("Hash of the input: {}", remark(&about.hash)));
+    let ends = [named("Base link", about.base.as_ref()), named("Tip link", about.tip.as_ref())];
+    [task].into_iter().chain(ends).chain([hash]).flatten().collect()
+}

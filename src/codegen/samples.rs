@@ -1,0 +1,43 @@
+//! Tables of the values at which charts put free joints: charts with the same values share one.
+
+use serde::Serialize;
+
+use super::printer::number;
+use crate::solver::{JointValue, Program, Step};
+
+/// A table: numbers by rows.
+#[derive(Clone, PartialEq, Serialize)]
+pub(super) struct Table {
+    rows: Vec<Vec<String>>,
+    width: usize,
+}
+
+impl Table {
+    /// The cosines and sines of an angle's values, or the values of a length.
+    pub fn new(joint: JointValue, values: &[f64]) -> Self {
+        let row = |value: &f64| match joint {
+            JointValue::Angle { .. } => vec![number(value.cos()), number(value.sin())],
+            JointValue::Plain(_) => vec![number(*value)],
+        };
+        Table { rows: values.iter().map(row).collect(), width: joint.unknowns().len() }
+    }
+
+    /// The tables of a program, each once.
+    pub fn all(program: &Program) -> Vec<Self> {
+        let mut tables = Vec::new();
+        for step in program.charts().flat_map(|chart| &chart.steps) {
+            if let Step::Sample { joint, values } = step {
+                let table = Table::new(*joint, values);
+                if !tables.contains(&table) {
+                    tables.push(table);
+                }
+            }
+        }
+        tables
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+}

@@ -1,0 +1,118 @@
+//! Forward kinematics out of a program's own equations: [`Program::forward`], [`Program::reached`].
+//!
+//! The checks of a chain compare the tip with the target, `value(q) - parameter = 0`, one equation a parameter; `value` then is what
+//! the joints reach.
+
+use super::frame::Frame;
+use super::instruction::{Instruction, Operand, Operation};
+use super::program::{JointValue, Program, Rule};
+use super::refine::unknowns_of;
+
+/// What joint values reach, as operands of the checks' code.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Forward {
+    /// The inputs of the target, in order.
+    pub inputs: Vec<Reached>,
+    /// By equation: the part that only the joints have, and the parameter that it is compared with.
+    pub equations: Vec<Option<(Operand, usize)>>,
+}
+
+/// How an input of the target follows from the joints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reached {
+    /// It is this value.
+    Value(Operand),
+    /// It is the angle of this cosine and sine.
+    Angle {
+        /// The cosine.
+        cosine: Operand,
+        /// The sine.
+        sine: Operand,
+    },
+    /// It is the value of the joint with this index, which the user gives.
+    Joint(usize),
+}
+
+impl Program {
+    /// What joint values reach; none for a program whose equations do not compare each number of the target with something that only
+    /// the joints have.
+    pub fn forward(&self) -> Option<Forward> {
+        let pure = self.pure_registers();
+        let equations: Vec<_> = self.checks.residuals.iter().map(|&residual| self.compared(residual, &pure)).collect();
+        let inputs =
+            (0..self.inputs.len()).map(|input| self.reached_input(input, &equations)).collect::<Option<_>>()?;
+        Some(Forward { inputs, equations })
+    }
+
+    /// The target that joint values reach (radians, and the program's length unit): the one that [`Program::solve`] takes. None as for
+    /// [`Program::forward`], or for another number of joint values.
+    pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
+        let forward = self.forward().filter(|_| q.len() == self.joints.len())?;
+        let parameters = vec![0.0; self.parameters.len()];
+        let mut frame = Frame::new(&parameters, 0.0, self.unknowns.len(), self.checks.code.len());
+        unknowns_of(self, q, &mut frame.unknowns);
+        frame.run(&self.checks.code);
+        let value = |reached: &Reached| match *reached {
+            Reached::Value(operand) => frame.value(operand),
+            Reached::Angle { cosine, sine } => frame.value(sine).atan2(frame.value(cosine)),
+            Reached::Joint(joint) => q[joint],
+        };
+        Some(forward.inputs.iter().map(value).collect())
+    }
+
+    /// By register of the checks: whether it depends on the joints alone.
+    fn pure_registers(&self) -> Vec<bool> {
+        let mut pure = Vec::with_capacity(self.checks.code.len());
+        for Instruction { operation, .. } in &self.checks.code {
+            let (left, right) = operation.operands();
+            let depends = |operand| self.is_pure(operand, &pure);
+            pure.push(depends(left) && right.is_none_or(depends));
+        }
+        pure
+    }
+
+    fn is_pure(&self, operand: Operand, pure: &[bool]) -> bool {
+        match operand {
+            Operand::Constant(_) => true,
+            Operand::Unknown(unknown) => self.joints.iter().any(|joint| joint.value.unknowns().contains(&unknown)),
+            Operand::Register(register) => pure[register],
+            Operand::Parameter(_) | Operand::Magnitude => false,
+        }
+    }
+
+    /// The sides of an equation `value - parameter`.
+    fn compared(&self, residual: Operand, pure: &[bool]) -> Option<(Operand, usize)> {
+        let Operand::Register(register) = residual else { return None };
+        match self.checks.code[register].operation {
+            Operation::Sub(value, Operand::Parameter(parameter)) if self.is_pure(value, pure) => {
+                Some((value, parameter))
+            }
+            _ => None,
+        }
+    }
+
+    fn reached_input(&self, input: usize, equations: &[Option<(Operand, usize)>]) -> Option<Reached> {
+        let reaches = |rule: Rule| {
+            let parameter = self.parameters.iter().position(|parameter| parameter.rule == rule)?;
+            equations.iter().flatten().find(|(_, compared)| *compared == parameter).map(|(value, _)| *value)
+        };
+        let reached = match (reaches(Rule::Input(input)), reaches(Rule::Cosine(input)), reaches(Rule::Sine(input))) {
+            (Some(value), _, _) => Reached::Value(value),
+            (None, Some(cosine), Some(sine)) => Reached::Angle { cosine, sine },
+            _ => return None,
+        };
+        let given = (0..self.joints.len()).find(|&joint| self.is_given(joint, input, reached));
+        Some(given.map_or(reached, Reached::Joint))
+    }
+
+    /// Whether the joint is the input itself: it has its name and its value.
+    fn is_given(&self, joint: usize, input: usize, reached: Reached) -> bool {
+        let own = match self.joints[joint].value {
+            JointValue::Angle { cosine, sine } => {
+                Reached::Angle { cosine: Operand::Unknown(cosine), sine: Operand::Unknown(sine) }
+            }
+            JointValue::Plain(unknown) => Reached::Value(Operand::Unknown(unknown)),
+        };
+        self.joints[joint].name == self.inputs[input].name && own == reached
+    }
+}
