@@ -110,12 +110,12 @@ impl Limbs {
     pub fn motor_of(&self, place: JointPlace) -> Option<usize> {
         self.motors.iter().position(|motor| motor.joints.contains(&place))
     }
-}
 
-/// The least and greatest value of a motor, which all its joints allow; none where no joint says any.
-pub fn limits(&self, motor: &Motor) -> Option<(f64, f64)> {
-    let own = motor.joints.iter().filter_map(|place| self.joint(*place)?.limits);
-    own.reduce(|(low, high), (least, greatest)| (f64::max(low, least), f64::min(high, greatest)))
+    /// The least and greatest value of a motor, which all its joints allow; none where no joint says any.
+    pub fn limits(&self, motor: &Motor) -> Option<(f64, f64)> {
+        let own = motor.joints.iter().filter_map(|place| self.parts.joint(*place)?.limits);
+        own.reduce(|(low, high), (least, greatest)| (f64::max(low, least), f64::min(high, greatest)))
+    }
 }
 
 impl LimbsParts {

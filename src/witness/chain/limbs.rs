@@ -68,6 +68,9 @@ struct Limb<'a> {
     own: Model<'a>,
 }
 
+/// All solutions of a limb at a target of its own.
+type OfLimb<'s, 'a> = dyn Fn(&Limb<'a>, &[f64]) -> Result<Vec<Solution>> + 's;
+
 /// Limbs that share motors; the joints are those of their solver.
 struct Limbs<'a> {
     derived: &'a DerivedLimbs,
@@ -103,11 +106,7 @@ impl<'a> Limbs<'a> {
     }
 
     /// All joint vectors that `solve` finds limb by limb, from a limb's target.
-    fn continued(
-        &self,
-        target: &[f64],
-        solve: &dyn Fn(&Limb<'a>, &[f64]) -> Result<Vec<Solution>>,
-    ) -> Result<Vec<Solution>> {
+    fn continued(&self, target: &[f64], solve: &OfLimb<'_, 'a>) -> Result<Vec<Solution>> {
         let start = Solution { q: vec![0.0; self.count], residual: 0.0, branch: 0, free: Vec::new(), chosen: false };
         let mut ways = vec![start];
         for limb in &self.limbs {
