@@ -197,10 +197,10 @@ pub(super) fn half_open(angle: f64) -> f64 {
     if angle <= -std::f64::consts::PI { angle + std::f64::consts::TAU } else { angle }
 }
 
-/// The angle moved by at most one turn into (-pi, pi].
+/// The angle moved by whole turns into (-pi, pi].
 pub(super) fn wrap(angle: f64) -> f64 {
     let turn = std::f64::consts::TAU;
-    if angle > std::f64::consts::PI { angle - turn } else { half_open(angle) }
+    half_open(angle - turn * (angle / turn).round())
 }
 
 type Square = [[f64; MAX_JOINTS + 1]; MAX_JOINTS];
