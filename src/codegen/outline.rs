@@ -11,7 +11,7 @@ use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use super::samples::Table;
 use crate::solver::{
-    ACCEPT, ADRIFT, APART, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, LEAPS, LEVER, MERGE, NEAR,
+    ACCEPT, ADRIFT, ALONE, APART, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, LEAPS, LEVER, MERGE, NEAR,
     Operand, PIVOT, POLISH_STEPS, POLISHED, Program, RETURNS, ROUNDING, STAGES, STIFF, Step, TINY, Unit,
 };
 
@@ -80,6 +80,7 @@ struct Tolerances {
     polish_steps: usize,
     polished: String,
     adrift: String,
+    alone: String,
     aside: String,
     apart: String,
     lever: String,
@@ -219,6 +220,7 @@ impl Tolerances {
             polish_steps: POLISH_STEPS,
             polished: number(POLISHED),
             adrift: number(ADRIFT),
+            alone: number(ALONE),
             aside: number(ASIDE),
             apart: number(APART),
             lever: number(LEVER),

@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, APART, ASIDE, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
+use super::{ADRIFT, ALONE, APART, ASIDE, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
 
 /// A solution with the largest share of an equation's value in its scale.
 struct Answer {
@@ -99,16 +99,30 @@ impl<'a> Answers<'a> {
             return;
         }
         let mut fit = refine::measure(self.program, &q, &mut self.frame);
+        let missed = fit.relative;
         if !fit.accepted && fit.relative <= ADRIFT {
             refine::polish(self.program, &mut q, &mut fit, &path.free, &mut self.frame);
         }
         if !self.keep_member(path, &q, &fit) {
             refine::polish(self.program, &mut q, &mut fit, &NONE_FREE, &mut self.frame);
             if !self.keep_member(path, &q, &fit) {
-                let mut alone = *path;
-                alone.free = NONE_FREE;
-                self.keep(&alone, &q, &fit);
+                self.keep_alone(path, &q, &fit, missed);
             }
+        }
+    }
+
+    /// Keeps an isolated answer that a candidate for a member of a family has led to. One that has not been found before may have
+    /// another next to it.
+    fn keep_alone(&mut self, path: &Path, q: &Joints, fit: &Fit, missed: f64) {
+        if fit.relative > ALONE {
+            return self.miss(q, fit);
+        }
+        let mut alone = *path;
+        alone.free = NONE_FREE;
+        let known = self.list.len();
+        self.keep(&alone, q, fit);
+        if self.list.len() > known && (ROUNDING..=NEAR).contains(&missed) {
+            self.around(&alone, q, fit, missed);
         }
     }
 

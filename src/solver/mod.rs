@@ -28,9 +28,9 @@ pub use program::{
 pub const ACCEPT: f64 = 1e-12;
 /// Two answers whose joints all differ by no more than this (rad, or relative to the length scale) are one.
 pub const MERGE: f64 = 1e-7;
-/// Two answers within this distance are one too when the equations hold half-way between them as well as at the worse of the
-/// two, or within [`ROUNDING`]: at a singular configuration rounding moves the joints that far.
-pub const BLUR: f64 = 1e-3;
+/// Two answers within this distance are one too when the equations hold half-way between them, on a bent way, as well as at the worse of
+/// the two, or within [`ROUNDING`]: at a singular configuration rounding moves the joints that far.
+pub const BLUR: f64 = 1e-2;
 /// What rounding leaves of an equation that holds, as a share of its scale.
 pub const ROUNDING: f64 = 1e-14;
 /// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
@@ -60,6 +60,9 @@ pub const ASIDE: f64 = 0.1;
 /// Half of the farthest (rad) that an angle is moved in search of the two roots of a double one, where it hardly matters to the
 /// equations.
 pub const APART: f64 = 0.7;
+/// An isolated answer that a candidate for a member of a family has led to must hold within this share: all along what is next to a
+/// family the equations are missed by little.
+pub const ALONE: f64 = 1e-13;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 pub const LEVER: f64 = 0.1;
 /// In how many stages a family is followed from one member to another.

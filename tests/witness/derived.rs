@@ -4,16 +4,19 @@
 //! `benches/record/DATE-derive-chains.csv`.
 
 use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use groebot::derive::lift::Derived;
-use groebot::derive::{Ends, InputFile};
+use groebot::derive::{Ends, InputFile, Proved};
 use groebot::kinematics::Chain;
 use groebot::solver::Solution;
 use groebot::witness::chain::{ByScrews, Check, Solver};
 use groebot::witness::{Kind, Options, Report};
 use groebot::{Result, Watch};
+
+use super::read;
 
 /// Folders whose descriptions take other ways: planar formulas as their source prints them, and a robot whose rounded axes must be
 /// made exact first.
@@ -84,6 +87,60 @@ fn an_angle_that_hardly_matters_is_found() {
         let expected = screws.solve(&target).unwrap();
         assert_eq!(found.len(), expected.len(), "{q:?}: {found:?}\n{expected:?}");
     }
+}
+
+fn named(name: &str) -> (Chain, Derived) {
+    let (_, chain) = chains().into_iter().find(|(folder, _)| folder == name).unwrap();
+    let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+    (chain, derived)
+}
+
+/// The hip's yaw is free where one ankle pitch brings the roll to a right angle; a tenth of a radian from it the other ankle pitch gives
+/// isolated answers. As many as by screws, and with the joints that made the target as a family.
+#[test]
+fn a_family_leaves_the_isolated_answers_next_to_it() {
+    let (chain, derived) = named("teo_leg");
+    let screws = ByScrews::new(&chain).unwrap();
+    let straight = [-1.7449671303623484, -FRAC_PI_2, 1.6596867378555082, PI, 1.04472323442393, 2.0882958610197297];
+    let bent =
+        [-1.1416860189863716, FRAC_PI_2, 2.7271525371587795, 2.6300492957661383, 0.025887027639579507, 2.3680767039];
+    for q in [straight, bent] {
+        let target = derived.reached(&q).unwrap();
+        let found = derived.program.solve(&target).unwrap();
+        let expected = screws.solve(&target).unwrap();
+        let isolated = |list: &[Solution]| list.iter().filter(|answer| answer.free.is_empty()).count();
+        assert_eq!(isolated(&found), isolated(&expected), "{q:?}: {found:?}\n{expected:?}");
+        assert_eq!(found.len(), expected.len(), "{q:?}: {found:?}\n{expected:?}");
+    }
+}
+
+/// Where the last axis is parallel to those of the arm, the wrist turns along a part of the circle only, as far as the elbow reaches: from
+/// the first of these joint values on to either side, from the second, the arm stretched, to one.
+#[test]
+fn a_family_along_a_part_of_the_circle_is_found() {
+    let (_, derived) = named("offset_wrist");
+    let bent = [-2.3196916176, -2.0761626803, 0.0983141029, -1.5544591030, -FRAC_PI_2, 2.1506580949];
+    let stretched = [1.5756778981, -0.2200531633, 0.0, -1.2689545032, -FRAC_PI_2, 1.8006871953];
+    for q in [bent, stretched] {
+        let target = derived.reached(&q).unwrap();
+        let found = derived.program.solve(&target).unwrap();
+        assert!(found.iter().any(|answer| answer.free == [5]), "{q:?}: {found:?}");
+        for answer in found {
+            let reached = derived.reached(&answer.q).unwrap();
+            assert!(reached.iter().zip(&target).all(|(a, b)| (a - b).abs() < 1e-12), "{answer:?}");
+        }
+    }
+}
+
+/// The robot as described, whose wrist axes miss each other by 1e-5 m, by the closed form of the ideal one. Near singular poses of the
+/// ideal robot it has more answers than that, at rational poses ten by exact counting, so that no bound is given.
+#[test]
+fn a_rounded_robot_is_solved_at_singular_poses_too() {
+    let source = read("irb4600_rounded");
+    let Proved::Chain(derived) = Proved::of(&source, &Watch::none()).unwrap() else { panic!("it is a chain") };
+    let options = Options { targets: 60, oracle: 1, exact: 6, seed: 6 };
+    let report = Check::run(derived.measured(), &derived.program, None, &options, &Watch::none()).unwrap();
+    assert_eq!(report.failures().count(), 0, "{}\n{}", report.summary(), told(&report, 6));
 }
 
 /// How many targets have so many answers: `4:10 8:990`.
