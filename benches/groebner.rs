@@ -1,9 +1,10 @@
-//! Groebner bases of known systems, and the derivation's way to a parametric lexicographic basis.
+//! Groebner bases of known systems, the derivation's way to a parametric lexicographic basis, and kinematic blocks with parameters.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use groebot::Watch;
-use groebot::groebner::{Basis, Options, Quotient, Strategy, basis};
+use groebot::groebner::{Basis, Options, Quotient, Strategy, basis, modular, parametric};
 use groebot::number::{Field, Rationals, Zp};
+use groebot::poly::system::PolynomialSystem;
 use groebot::poly::{Fractions, Order, Polynomial, PolynomialRing, parse};
 
 fn graded<F: Field>(field: F, variables: &[&str]) -> PolynomialRing<F> {
@@ -71,9 +72,43 @@ fn leg(criterion: &mut Criterion) {
     });
 }
 
+fn cyclic_over_rationals(criterion: &mut Criterion) {
+    let ring = graded(Rationals, &["a", "b", "c", "d", "e", "f"]);
+    let sum_of_products = |length: usize| {
+        let product =
+            |first: usize| (0..length).map(|k| ["a", "b", "c", "d", "e", "f"][(first + k) % 6]).collect::<Vec<_>>();
+        (0..6).map(|first| product(first).join("*")).collect::<Vec<_>>().join("+")
+    };
+    let mut equations: Vec<String> = (1..6).map(sum_of_products).collect();
+    equations.push("a*b*c*d*e*f-1".to_owned());
+    let generators = read(&ring, &equations.iter().map(String::as_str).collect::<Vec<_>>());
+    criterion.bench_function("cyclic-6 grevlex Q, by primes", |b| {
+        b.iter(|| modular::basis(&ring, &generators, &Options::default(), &Watch::none()).expect("a small system"));
+    });
+}
+
+/// The blocks of the contest (`algebra/blocks`).
+fn blocks(criterion: &mut Criterion) {
+    for (name, text) in [
+        ("NAO arm Q(py,pz) lex", include_str!("algebra/blocks/nao_arm-lp.sing")),
+        ("planar 3R Q(px,py,t) grevlex", include_str!("algebra/blocks/planar_3r-dp.sing")),
+        ("PUMA, symbolic, grevlex", include_str!("algebra/blocks/puma_symbolic-dp.sing")),
+    ] {
+        let system = PolynomialSystem::read(text, None).expect("a block of the contest");
+        let field = Fractions::new(Rationals, &system.heading.parameters).expect("distinct parameters");
+        let ring = PolynomialRing::new(field, &system.heading.variables, system.heading.order).expect("distinct names");
+        let polynomials = system.polynomials.iter().map(|given| given.expression.evaluate(&ring));
+        let generators = polynomials.collect::<groebot::Result<Vec<_>>>().expect("polynomials of the ring");
+        criterion.bench_function(name, |b| {
+            let options = parametric::Options::default();
+            b.iter(|| parametric::basis(&ring, &generators, &options, &Watch::none()).expect("a small system"));
+        });
+    }
+}
+
 criterion_group! {
     name = bases;
     config = Criterion::default().sample_size(20);
-    targets = cyclic, katsura, leg
+    targets = cyclic, cyclic_over_rationals, katsura, leg, blocks
 }
 criterion_main!(bases);

@@ -69,6 +69,16 @@ fn what_is_no_number_is_refused() {
     }
 }
 
+/// By trial division: the first numbers, those around 2^32, and strong pseudoprimes to the bases 2, to 7, and to 2, 3, 5 and 7.
+#[test]
+fn primes_are_those_of_trial_division() {
+    let is_prime = |n: u64| n > 1 && (2..).take_while(|d| d * d <= n).all(|d: u64| !n.is_multiple_of(d));
+    let numbers = (0..1 << 12).chain((1 << 32) - 50..(1 << 32) + 50);
+    for n in numbers.chain([314_821, 3_215_031_751]) {
+        assert_eq!(Zp::new(n).is_ok(), is_prime(n), "{n}");
+    }
+}
+
 #[test]
 fn composite_moduli_are_refused() {
     for n in [0, 1, 4, 561, 3_215_031_751, u64::MAX, 1 << 62, 2_305_843_009_213_693_951 - 2] {

@@ -59,6 +59,15 @@ impl<'a> Pilot<'a> {
         }
         Ok(self.system.as_mut().expect("it was filled"))
     }
+
+    /// Looks at points for the goal alone: where they do not agree there is none.
+    fn look_ahead(&mut self) -> Result<()> {
+        self.worth = usize::MAX;
+        match self.system() {
+            Err(error) if error.kind() != ErrorKind::BadValue => Err(error),
+            _ => Ok(()),
+        }
+    }
 }
 
 impl Guide for Pilot<'_> {
@@ -66,11 +75,11 @@ impl Guide for Pilot<'_> {
         if terms <= self.worth || !self.is_free {
             return Ok(());
         }
-        let (watch, is_bounded) = (self.watch, self.is_bounded);
-        let (system, estimate) = self.system()?;
-        if !is_bounded {
-            return Ok(());
+        if !self.is_bounded {
+            return self.look_ahead();
         }
+        let watch = self.watch;
+        let (system, estimate) = self.system()?;
         let enough = 2 * terms * TERMS_OF_POINTS / system.terms().max(1);
         self.worth = estimate.points(system, enough, watch)?.saturating_mul(system.terms()) / TERMS_OF_POINTS;
         if terms <= self.worth {
