@@ -9,6 +9,8 @@ const WIDTH: usize = 74;
 const TABLE_WIDTH: usize = 88;
 /// The narrowest last column, in characters.
 const COLUMN: usize = 20;
+/// The space between two columns, in characters.
+const GAP: usize = 2;
 
 impl Document {
     /// The report as LaTeX: a whole article.
@@ -77,12 +79,12 @@ fn table(rows: &[Vec<Line>]) -> String {
 /// As wide as their cells; of a table that would be too wide, the last one takes what the others leave, and breaks its lines.
 fn columns(rows: &[Vec<Line>]) -> String {
     let count = rows.first().map_or(0, Vec::len);
-    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(seen).max().unwrap_or(0) + 2;
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(seen).max().unwrap_or(0) + GAP;
     let others: usize = (0..count.saturating_sub(1)).map(width).sum();
     if count == 0 || others + width(count - 1) <= TABLE_WIDTH {
         return "l".repeat(count);
     }
-    let share = TABLE_WIDTH.saturating_sub(others).max(COLUMN) as f64 / TABLE_WIDTH as f64;
+    let share = TABLE_WIDTH.saturating_sub(others + 2 * GAP).max(COLUMN) as f64 / TABLE_WIDTH as f64;
     format!("{}p{{{share:.2}\\textwidth}}", "l".repeat(count - 1))
 }
 
