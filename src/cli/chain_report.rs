@@ -11,6 +11,10 @@ pub fn describe_limbs(page: &mut Page, derived: &DerivedLimbs) {
     for text in [&parts.description, &parts.source].into_iter().flatten() {
         page.line(text);
     }
+    if derived.coupled.is_some() {
+        page.heading(&format!("Shared joints: {}", derived.coupled_names().join(", ")));
+        page.line("found first, from an equation of each limb that holds no other unknown joint");
+    }
     for stage in &derived.stages {
         page.heading(&derived.title(stage));
         page.line(&format!("task {}", stage.derived.chain.asked()));

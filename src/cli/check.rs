@@ -89,7 +89,11 @@ fn proved(proved: &Proved) -> String {
             let limb = |stage: &LimbStage| {
                 format!("{}: {}", derived.limbs.limbs()[stage.limb].name, proved_chain(&stage.derived))
             };
-            derived.stages.iter().map(limb).collect::<Vec<_>>().join("; ")
+            let shared = derived
+                .coupled
+                .iter()
+                .map(|_| format!("{}: an equation of each limb proved again", derived.coupled_names().join(", ")));
+            shared.chain(derived.stages.iter().map(limb)).collect::<Vec<_>>().join("; ")
         }
     }
 }

@@ -1,7 +1,9 @@
 //! From limbs to one solver: [`DerivedLimbs`].
 
 use super::model::{JointPlace, Limb, Limbs};
+use crate::derive::closure::Mechanism;
 use crate::derive::lift::{Coupled, Derived, Side};
+use crate::derive::planner::{self, Plan};
 use crate::kinematics::Chain;
 use crate::solver::{Input, MAX_JOINTS, Program};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -59,7 +61,9 @@ impl DerivedLimbs {
             Some((sides, shared)) => found_together(Coupled::derive(sides, shared, watch), limbs)?,
             None => None,
         };
-        DerivedLimbs::assemble(limbs, coupled, &mut |_, chain| Derived::of_chain(chain, watch))
+        DerivedLimbs::assemble(limbs, coupled, &mut |limb, chain| {
+            derived(chain, limbs.limbs()[limb].chain.given().len(), watch)
+        })
     }
 
     /// Composes the solvers that `derive` gives of the chains of limbs, which it gets in their order with the limbs' indices.
@@ -278,6 +282,33 @@ impl Found<'_> {
             Error::new(ErrorKind::PositiveDimensional, text)
         })
     }
+}
+
+/// The derivation of a limb's chain, of whose given joints the first `least` are the user's. Where joints are given that the task
+/// determines, the plan is the one that finds them, without their steps: one made for the given joints may lean on equations that say
+/// nothing where the others determine all.
+///
+/// # Errors
+/// As [`Derived::of_chain`].
+fn derived(chain: &Chain, least: usize, watch: &Watch) -> Result<Derived> {
+    let mut given = chain.parts().given.clone();
+    let open = chain.joints().len().saturating_sub(chain.task().freedoms()).max(least);
+    if given.len() <= open {
+        return Derived::of_chain(chain, watch);
+    }
+    given.truncate(open);
+    let wider = chain.with_task(chain.task(), chain.direction().clone(), given)?;
+    let steps = match planner::plan(&Mechanism::new(&wider)?, watch) {
+        Ok(plan) => plan.steps,
+        Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::PositiveDimensional) => {
+            return Derived::of_chain(chain, watch);
+        }
+        Err(error) => return Err(error),
+    };
+    let mechanism = Mechanism::new(chain)?;
+    let own = planner::plan(&mechanism, watch)?;
+    let steps = steps.into_iter().filter(|step| !own.given.contains(&step.joint)).collect();
+    Derived::of_plan(chain, &mechanism, Plan { steps, ..own }, watch)
 }
 
 /// The derivation of shared joints; none where no relations fit, but a limb determines its joints alone.

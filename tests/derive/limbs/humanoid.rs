@@ -157,6 +157,16 @@ fn two_poses_that_disagree_are_refused_by_the_motor_and_by_how_much() {
     assert!(exact >= 45, "{exact} of 50");
 }
 
+/// Both feet below the hips, soles level, knees bent: the foot's x axis and that of the hip's roll are parallel.
+#[test]
+fn the_standing_robot_is_found() {
+    let leg = [0.0, -0.4, 0.8, -0.4, 0.0];
+    let q = [&[0.0][..], &leg, &leg].concat();
+    let answers = BOTH_POSES.program.solve(&BOTH_POSES.reached(&q).unwrap()).unwrap();
+    assert_eq!(answers.len(), 32, "{answers:?}");
+    assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{answers:?}");
+}
+
 /// Where one hip's axes are in line its leg leaves the motor open; the other leg says where it stands.
 #[test]
 fn a_hip_that_one_leg_leaves_open_is_found_from_the_other() {

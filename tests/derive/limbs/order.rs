@@ -71,6 +71,26 @@ fn a_motor_of_three_limbs_stands_once() {
     }
 }
 
+/// Two arms of two links on one shoulder: four numbers for three motors. The first arm's elbow is at (1, 0) or (0, 1) for its tip at
+/// (1, 1).
+#[test]
+fn two_arms_that_must_agree_on_the_shoulder() {
+    let arms = derive("[[\"a.j0\", \"b.j0\"]]", &[limb("a", 2, POSITION), limb("b", 2, POSITION)]).unwrap();
+    assert!(arms.coupled.is_some() && arms.dimension() == 2);
+    for q in [[0.3, 0.7, -1.1], [-2.0, 1.0, 2.0], [0.0, std::f64::consts::PI, 0.5]] {
+        let answers = arms.program.solve(&arms.reached(&q).unwrap()).unwrap();
+        assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-7), "{q:?}: {answers:?}");
+    }
+    // The second arm's shoulder at 0.25, or mirrored at the line to its tip at 0.85; the first one's at 0 or a right angle.
+    let (near, far) = (0.25_f64, 0.85_f64);
+    let target = [1.0, 1.0, near.cos() + far.cos(), near.sin() + far.sin()];
+    assert!(arms.program.solve(&target).unwrap().is_empty());
+    let explained = arms.explain(&target, &Watch::none()).unwrap().unwrap();
+    let disagreement = explained.disagreement.unwrap();
+    assert_eq!((explained.limb.as_str(), disagreement.motor.as_str()), ("b", "j0"));
+    assert!((disagreement.off() - 0.25).abs() < 1e-9, "{disagreement:?}");
+}
+
 #[test]
 fn limbs_that_cannot_be_solved_say_what_is_open() {
     let error = derive("[[\"a.j0\", \"b.j0\"]]", &[limb("a", 3, POSITION), limb("b", 3, POSITION)]).unwrap_err();

@@ -76,6 +76,19 @@ fn the_joints_that_made_a_target_are_found_and_every_answer_reaches_it() {
     println!("at most {most} answers, {:?} each", running / 60);
 }
 
+/// Both feet below the hips, soles level, knees bent, upright or bowed; one foot ahead, and turned out.
+#[test]
+fn the_standing_robot_is_found() {
+    for (pitch, hip) in [(0.0, 0.0), (0.1, 0.0), (0.0, -0.3), (0.1, -0.3)] {
+        for (ahead, knee) in [(-0.4, 0.8), (-0.2, 0.9)] {
+            let leg = |thigh: f64| [0.0, thigh - pitch, knee, -thigh - knee, 0.0];
+            let q = [&[0.0, pitch, 0.0, hip][..], &leg(-0.4), &leg(ahead)].concat();
+            let answers = STANDING.program.solve(&STANDING.reached(&q).unwrap()).unwrap();
+            assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-7), "{q:?}: {answers:?}");
+        }
+    }
+}
+
 /// The ways of both legs with the torso at a yaw.
 fn ways(legs: &[ScrewSolver; 2], asked: &[Pose; 2], tilt: &[f64], yaw: f64) -> [Vec<Vec<f64>>; 2] {
     let world_from_torso = torso(&[yaw, tilt[0], tilt[1]]);
