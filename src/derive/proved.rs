@@ -1,4 +1,4 @@
-//! A derivation of either kind, from a [`Source`]: [`Proved`]. Its program says what it comes from ([`About`]).
+//! A derivation of either kind, from a [`Source`]: [`Proved`].
 
 use super::lift::{self, Derived};
 use super::{Derivation, Source, certificate};
@@ -21,11 +21,13 @@ impl Proved {
     /// # Errors
     /// As [`Derivation::new`] and [`Derived::of_chain`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
-        let proved = match source.chain_by_steps() {
-            Some(chain) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch))?,
-            None => Proved::Equations(Box::new(Derivation::new(equations(source)?.clone(), watch)?)),
-        };
-        Ok(proved.about(source))
+        match source.chain_by_steps() {
+            Some(chain) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch)),
+            None => {
+                let derivation = Derivation::new(equations(source)?.clone(), watch)?;
+                Ok(Proved::Equations(Box::new(derivation)))
+            }
+        }
     }
 
     /// Proves the derivation of `source` anew from the text of its certificate, without the Groebner engine.
@@ -33,21 +35,13 @@ impl Proved {
     /// # Errors
     /// As [`certificate::prove`] and [`lift::certificate::prove`].
     pub fn again(source: &Source, text: &str) -> Result<Self> {
-        let proved = match source.chain_by_steps() {
-            Some(chain) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text))?,
-            None => Proved::Equations(Box::new(certificate::prove(equations(source)?, text)?)),
-        };
-        Ok(proved.about(source))
-    }
-
-    /// The same, its program told what it comes from.
-    fn about(mut self, source: &Source) -> Self {
-        let program = match &mut self {
-            Proved::Equations(derivation) => &mut derivation.program,
-            Proved::Chain(derived) => &mut derived.program,
-        };
-        program.about = Some(about(source, program));
-        self
+        match source.chain_by_steps() {
+            Some(chain) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
+            None => {
+                let derivation = certificate::prove(equations(source)?, text)?;
+                Ok(Proved::Equations(Box::new(derivation)))
+            }
+        }
     }
 
     /// The derivation of `chain`, or of the ideal one that `source` asks for instead, its answers polished on `chain`.
@@ -79,6 +73,25 @@ impl Proved {
     }
 }
 
+fn equations(source: &Source) -> Result<&super::System> {
+    let none = || Error::new(ErrorKind::BadValue, "the source has neither equations nor a chain").in_file(&source.path);
+    source.system.as_ref().ok_or_else(none)
+}
+
+impl Proved {
+    /// The same, its program told what it comes from: the task, the links, a hash and the limits of `source`.
+    #[must_use]
+    pub fn about(mut self, source: &Source) -> Self {
+        if let Proved::Equations(derivation) = &mut self {
+            derivation.program.about = Some(about(source, &derivation.program));
+        }
+        if let Proved::Chain(derived) = &mut self {
+            derived.program.about = Some(about(source, &derived.program));
+        }
+        self
+    }
+}
+
 /// What `source` says of itself, with the limits of the program's joints.
 fn about(source: &Source, program: &Program) -> About {
     let joints = source.chain.as_ref().map_or(&[][..], Chain::joints);
@@ -97,9 +110,4 @@ fn about(source: &Source, program: &Program) -> About {
 /// The hash of Fowler, Noll and Vo, FNV-1a, of 64 bits (draft-eastlake-fnv).
 fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
-}
-
-fn equations(source: &Source) -> Result<&super::System> {
-    let none = || Error::new(ErrorKind::BadValue, "the source has neither equations nor a chain").in_file(&source.path);
-    source.system.as_ref().ok_or_else(none)
 }

@@ -25,14 +25,14 @@ impl Program {
 
     /// The program that solves this one and then `next`. In each pair of `shared`, a joint of this program and one that `next`
     /// takes as given are one motor: it stands once among the joints, and is no input of `next` any more. Inputs and joints of
-    /// `next` stand behind this program's; name, version and preference are this program's; the two have no one source to tell about.
+    /// `next` stand behind this program's; name, version and preference are this program's.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a shared joint that is not there, that moves otherwise, or that `next` does not take as given;
     /// for more than 12 joints and what else [`Program::validate`] refuses.
     pub fn followed_by(&self, next: &Program, shared: &[(usize, usize)]) -> Result<Program> {
         let places = Places::new(self, next, shared)?;
-        let mut program = Program { about: None, ..self.clone() };
+        let mut program = self.clone();
         program.inputs.extend(own(&next.inputs, |index| places.inputs[index].is_some()));
         program.unknowns.extend(own(&next.unknowns, |index| places.unknowns[index] >= self.unknowns.len()));
         for &condition in &next.conditions {
@@ -47,6 +47,8 @@ impl Program {
         program.checks = both(&self.checks, places.checks(&next.checks, program.joints.len()), program.joints.len());
         program.scale = self.scale.max(next.scale);
         program.capacity = self.capacity.saturating_mul(next.capacity).min(MOST_ANSWERS);
+        // The two have no one source to tell about.
+        program.about = None;
         program.validate()?;
         Ok(program)
     }

@@ -22,7 +22,9 @@ fn folder(name: &str) -> PathBuf {
 fn a_program_says_what_it_comes_from() {
     for (name, task) in [("planar_2r", "planar_position in xy"), ("nao_head", "direction of [1, 0, 0]")] {
         let mut source = Source::read(&folder(name)).unwrap();
-        let about = |source: &Source| Proved::of(source, &Watch::none()).unwrap().program().about.clone().unwrap();
+        let about = |source: &Source| {
+            Proved::of(source, &Watch::none()).unwrap().about(source).program().about.clone().unwrap()
+        };
         let told = about(&source);
         assert_eq!((told.task.as_str(), told.base.as_deref()), (task, None), "{name}");
         let limits: Vec<_> = source.chain.as_ref().unwrap().joints().iter().map(|joint| joint.limits).collect();
@@ -40,7 +42,7 @@ fn a_program_says_what_it_comes_from() {
 fn committed_files_are_what_a_derivation_writes() {
     for name in MECHANISMS {
         let source = Source::read(&folder(name)).unwrap();
-        let derivation = Proved::of(&source, &Watch::none()).unwrap();
+        let derivation = Proved::of(&source, &Watch::none()).unwrap().about(&source);
         let mut files = derivation.stage_files().unwrap();
         files.push(("5_solver.rs".to_owned(), codegen::rust::emit(derivation.program()).into_bytes()));
         files.push(("5_solver.c".to_owned(), codegen::c99::emit(derivation.program()).into_bytes()));
