@@ -69,7 +69,8 @@ pub fn is_derived(folder: &Path) -> bool {
 pub fn reprove(folder: &Path, source: &Source) -> Result<Proved> {
     let path = folder.join(CERTIFICATE);
     let text = read_text(&path, LIMIT)?;
-    Proved::again(source, &text).map_err(|error| error.in_file(&path))
+    let proved = Proved::again(source, &text).map_err(|error| error.in_file(&path))?;
+    Ok(proved.about(source))
 }
 
 fn read(source: &Source) -> Finding {

@@ -96,7 +96,7 @@ pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness:
 }
 
 fn derive(source: &Source, watch: &Watch) -> Result<Proved> {
-    Proved::of(source, watch).map_err(|error| match error.kind() {
+    Proved::of(source, watch).map(|proved| proved.about(source)).map_err(|error| match error.kind() {
         ErrorKind::Cancelled => error,
         _ => error.in_file(&source.path),
     })

@@ -24,6 +24,12 @@ impl AboutText {
         };
         AboutText { limits: (0..program.joints.len()).map(limits).collect(), lines: lines(&about) }
     }
+
+    /// With one more line.
+    pub fn and(mut self, line: &str) -> Self {
+        self.lines.push(line.to_owned());
+        self
+    }
 }
 
 fn lines(about: &About) -> Vec<String> {

@@ -150,7 +150,8 @@ impl Outline {
     /// The outline of a file that computes in single precision.
     pub fn single(program: &Program, language: &dyn Language) -> Self {
         let dampings = SINGLE_DAMPINGS.iter().map(|&damping| number(damping)).collect();
-        Outline { tolerances: Tolerances::single(), dampings, ..Outline::new(program, language) }
+        let outline = Outline::new(program, language);
+        Outline { tolerances: Tolerances::single(), dampings, about: outline.about.and("Single precision"), ..outline }
     }
 
     /// The outline of a valid program.

@@ -34,7 +34,8 @@ fn options_name_functions_and_namespace_and_choose_precision() {
     let c = succeed(&["codegen", text(&ur5), "--lang", "c", "--prefix", "left_arm"]);
     assert!(c.contains("int left_arm_solve(") && c.contains("#define LEFT_ARM_JOINTS 6") && !c.contains("ur5_solve"));
     let single = succeed(&["codegen", text(&ur5), "--lang", "c", "--float"]);
-    assert!(single.contains("int ur5_solve(const float *given") && !single.contains("double "), "{single}");
+    assert!(single.contains("int ur5_solve(const float *given") && !single.contains("const double "));
+    assert!(single.lines().take(8).any(|line| line == " * Single precision"));
     let cpp = succeed(&["codegen", text(&ur5), "--lang", "ikfast", "--namespace", "arm", "--float"]);
     assert!(cpp.contains("#define IKFAST_NAMESPACE arm\n") && cpp.contains("#define IKFAST_REAL float\n"));
 }

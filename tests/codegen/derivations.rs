@@ -18,12 +18,31 @@ fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(name)
 }
 
+#[test]
+fn a_program_says_what_it_comes_from() {
+    for (name, task) in [("planar_2r", "planar_position in xy"), ("nao_head", "direction of [1, 0, 0]")] {
+        let mut source = Source::read(&folder(name)).unwrap();
+        let about = |source: &Source| {
+            Proved::of(source, &Watch::none()).unwrap().about(source).program().about.clone().unwrap()
+        };
+        let told = about(&source);
+        assert_eq!((told.task.as_str(), told.base.as_deref()), (task, None), "{name}");
+        let limits: Vec<_> = source.chain.as_ref().unwrap().joints().iter().map(|joint| joint.limits).collect();
+        assert!(told.limits == limits || limits.iter().all(Option::is_none) && told.limits.is_empty(), "{told:?}");
+        assert!(told.hash.len() == 16 && told.hash.bytes().all(|byte| byte.is_ascii_hexdigit()), "{told:?}");
+        source.text.push(' ');
+        source.ends.base = Some("torso".into());
+        let other = about(&source);
+        assert!(other.hash != told.hash && other.base.as_deref() == Some("torso"), "{other:?}");
+    }
+}
+
 /// Every committed stage is written again, byte for byte. `UPDATE_GOLDEN=1` rewrites them instead, and the diff is then to be read.
 #[test]
 fn committed_files_are_what_a_derivation_writes() {
     for name in MECHANISMS {
         let source = Source::read(&folder(name)).unwrap();
-        let derivation = Proved::of(&source, &Watch::none()).unwrap();
+        let derivation = Proved::of(&source, &Watch::none()).unwrap().about(&source);
         let mut files = derivation.stage_files().unwrap();
         files.push(("5_solver.rs".to_owned(), codegen::rust::emit(derivation.program()).into_bytes()));
         files.push(("5_solver.c".to_owned(), codegen::c99::emit(derivation.program()).into_bytes()));

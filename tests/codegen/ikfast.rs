@@ -5,9 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use groebot::ErrorKind;
 use groebot::codegen::ikfast::{Options, emit};
+use groebot::derive::lift::Derived;
+use groebot::kinematics::Chain;
 use groebot::solver::{Program, Unit};
+use groebot::{ErrorKind, Watch};
 
 use super::harness::{SANITIZERS, build, feed, has_sanitizers};
 use super::random;
@@ -133,6 +135,52 @@ fn a_plugin_answers_like_the_program() {
         let Some(total) = compare(&stored, 300) else { return };
         assert!(total >= 300, "{}: {total}", stored.name);
     }
+}
+
+/// PUMA without its last joint aims its tool.
+#[test]
+fn a_ray_is_a_translation_and_a_direction() {
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/derivations/puma/0_chain.toml")).unwrap();
+    let (text, _) = text.rsplit_once("[[joint]]").unwrap();
+    let chain = Chain::from_toml(&text.replace("\"pose\"", "\"ray\", direction = [0, 0, 1]")).unwrap();
+    let program = Derived::of_chain(&chain, &Watch::none()).unwrap().program;
+    assert!(emit(&program, &Options::default()).unwrap().contains("TranslationDirection5D (0x56000007)"));
+    let stored = Stored { name: "puma_ray".into(), program, chain: Some(chain) };
+    let Some(total) = compare(&stored, 200) else { return };
+    assert!(total >= 400, "{total}");
+}
+
+/// Callers speak in metres where the equations are in millimetres.
+#[test]
+fn lengths_are_metres() {
+    let mut program = wrist::carried();
+    program.inputs[..3].iter_mut().for_each(|input| input.unit = Unit::Millimetre);
+    program.joints[..3].iter_mut().for_each(|joint| joint.unit = Unit::Millimetre);
+    let folder = folder(&program, &Options::default());
+    let Some(executable) = plugin(folder.path(), &[]) else { return };
+    let q = [120.0, -340.0, 560.0, 0.1, 0.2, 0.3];
+    let stored = Stored { name: "gantry".into(), program, chain: None };
+    let line = line(&stored, &stored.program.reached(&q).unwrap());
+    assert_eq!(line[..3], [0.12, -0.34, 0.56]);
+    let (kind, _, answers) = ask(&executable, 6, &[line]);
+    assert_eq!((kind, answers[0].len()), (0x6700_0001, 2));
+    for answer in &answers[0] {
+        assert!(answer.q.iter().zip(&line).take(3).all(|(a, b)| (a - b).abs() < 1e-15), "{:?}", answer.q);
+        assert!(answer.reached.iter().zip(&line).all(|(a, b)| (a - b).abs() < 1e-14), "{:?}", answer.reached);
+    }
+}
+
+/// Parameters and unknowns may be called by words that C++ keeps for itself.
+#[test]
+fn words_of_cpp_are_possible_names() {
+    let mut program = named(&["puma"]).remove(0).program;
+    let words = "class new delete template typename this namespace operator private public virtual throw try catch using friend \
+        explicit export mutable nullptr constexpr and or not xor std UNITS IkReal kept branch joints answer solutions eetrans";
+    let parameters = program.parameters.iter_mut().map(|parameter| &mut parameter.name);
+    let names = parameters.chain(&mut program.unknowns);
+    names.zip(words.split_whitespace()).for_each(|(name, word)| word.clone_into(name));
+    let folder = folder(&program, &Options::default());
+    compile(folder.path(), &["-std=c++17", "-fsyntax-only", "5_ikfast.cpp"]);
 }
 
 #[test]

@@ -218,6 +218,52 @@ fn turns_limits_and_nearest_solutions_are_those_of_a_search() {
     }
 }
 
+/// Where a joint of the wrist is free, a member of the family is found within limits that the listed one is not within.
+#[test]
+fn families_reach_into_limits() {
+    for (name, q, joint) in
+        [("puma", [0.3, -0.4, 0.5, -0.6, PI / 2.0, -0.8], 3), ("ur5", [0.3, -0.9, 1.1, 0.4, 0.0, 0.7], 5)]
+    {
+        let program = named(&[name]).remove(0).program;
+        let folder = tempfile::tempdir().unwrap();
+        let Some(executables) = executables(&program, folder.path()) else { return };
+        let target = program.reached(&q).unwrap();
+        let families = program
+            .solve(&target)
+            .unwrap()
+            .iter()
+            .filter(|answer| answer.free == [joint] || answer.free.len() == 1)
+            .count();
+        assert!(families > 0, "{name}");
+        for low in [-2.9, -1.0, 0.15, 1.3, 2.6] {
+            let mut limits = vec![[-TAU, TAU]; 6];
+            limits[joint] = [low, low + 0.25];
+            let question = [Question {
+                target: target.clone(),
+                limits: limits.clone(),
+                reference: q.to_vec(),
+                weights: vec![1.0; 6],
+            }];
+            for (language, executable) in &executables {
+                let place = format!("{name} in {language} from {low}");
+                let output = feed(executable, text(&question));
+                let lines: Vec<Vec<f64>> = output
+                    .lines()
+                    .map(|line| line.split_whitespace().map(|word| word.parse().unwrap()).collect())
+                    .collect();
+                let end = lines.iter().rposition(|line| line.len() == 1).unwrap();
+                let rows: Vec<&Vec<f64>> = lines[..end].iter().rev().take_while(|line| line.len() == 6).collect();
+                assert_eq!(lines[end - rows.len() - 1], [rows.len() as f64], "{place}");
+                assert!(!rows.is_empty(), "{place}: nothing within limits");
+                for row in rows {
+                    assert!(low - 1e-9 <= row[joint] && row[joint] <= low + 0.25 + 1e-9, "{place}: {row:?}");
+                    assert_close(&program.reached(row).unwrap(), &target, &place);
+                }
+            }
+        }
+    }
+}
+
 /// Questions as above, and targets and limits that make no sense: no access out of bounds, no undefined operation.
 #[test]
 fn sanitizers_find_nothing() {
