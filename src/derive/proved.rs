@@ -1,8 +1,4 @@
-<<<<<<< HEAD
-//! A derivation of any kind, from a [`Source`]: [`Proved`]. Its program says what it comes from ([`About`]).
-=======
-//! A derivation of either kind, from a [`Source`]: [`Proved`].
->>>>>>> codegen
+//! A derivation of any kind, from a [`Source`]: [`Proved`].
 
 use super::lift::{self, Derived};
 use super::limbs::DerivedLimbs;
@@ -28,22 +24,11 @@ impl Proved {
     /// # Errors
     /// As [`Derivation::new`], [`Derived::of_chain`] and [`DerivedLimbs::of_limbs`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
-<<<<<<< HEAD
-        let proved = match (source.chain_by_steps(), &source.limbs) {
-            (Some(chain), _) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch))?,
-            (None, Some(limbs)) => Proved::Limbs(Box::new(DerivedLimbs::of_limbs(limbs, watch)?)),
-            (None, None) => Proved::Equations(Box::new(Derivation::new(equations(source)?.clone(), watch)?)),
-        };
-        Ok(proved.about(source))
-=======
-        match source.chain_by_steps() {
-            Some(chain) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch)),
-            None => {
-                let derivation = Derivation::new(equations(source)?.clone(), watch)?;
-                Ok(Proved::Equations(Box::new(derivation)))
-            }
+        match (source.chain_by_steps(), &source.limbs) {
+            (Some(chain), _) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch)),
+            (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::of_limbs(limbs, watch)?))),
+            (None, None) => Ok(Proved::Equations(Box::new(Derivation::new(equations(source)?.clone(), watch)?))),
         }
->>>>>>> codegen
     }
 
     /// Proves the derivation of `source` anew from the text of its certificate, without the Groebner engine.
@@ -51,33 +36,11 @@ impl Proved {
     /// # Errors
     /// As [`certificate::prove`], [`lift::certificate::prove`] and [`DerivedLimbs::prove`].
     pub fn again(source: &Source, text: &str) -> Result<Self> {
-<<<<<<< HEAD
-        let proved = match (source.chain_by_steps(), &source.limbs) {
-            (Some(chain), _) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text))?,
-            (None, Some(limbs)) => Proved::Limbs(Box::new(DerivedLimbs::prove(limbs, text)?)),
-            (None, None) => Proved::Equations(Box::new(certificate::prove(equations(source)?, text)?)),
-        };
-        Ok(proved.about(source))
-    }
-
-    /// The same, its program told what it comes from.
-    fn about(mut self, source: &Source) -> Self {
-        let program = match &mut self {
-            Proved::Equations(derivation) => &mut derivation.program,
-            Proved::Chain(derived) => &mut derived.program,
-            Proved::Limbs(derived) => &mut derived.program,
-        };
-        program.about = Some(about(source, program));
-        self
-=======
-        match source.chain_by_steps() {
-            Some(chain) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
-            None => {
-                let derivation = certificate::prove(equations(source)?, text)?;
-                Ok(Proved::Equations(Box::new(derivation)))
-            }
+        match (source.chain_by_steps(), &source.limbs) {
+            (Some(chain), _) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
+            (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::prove(limbs, text)?))),
+            (None, None) => Ok(Proved::Equations(Box::new(certificate::prove(equations(source)?, text)?))),
         }
->>>>>>> codegen
     }
 
     /// The derivation of `chain`, or of the ideal one that `source` asks for instead, its answers polished on `chain`.
@@ -112,7 +75,8 @@ impl Proved {
 }
 
 fn equations(source: &Source) -> Result<&super::System> {
-    let none = || Error::new(ErrorKind::BadValue, "the source has neither equations nor a chain").in_file(&source.path);
+    let none =
+        || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no limbs").in_file(&source.path);
     source.system.as_ref().ok_or_else(none)
 }
 
@@ -120,12 +84,12 @@ impl Proved {
     /// The same, its program told what it comes from: the task, the links, a hash and the limits of `source`.
     #[must_use]
     pub fn about(mut self, source: &Source) -> Self {
-        if let Proved::Equations(derivation) = &mut self {
-            derivation.program.about = Some(about(source, &derivation.program));
-        }
-        if let Proved::Chain(derived) = &mut self {
-            derived.program.about = Some(about(source, &derived.program));
-        }
+        let program = match &mut self {
+            Proved::Equations(derivation) => &mut derivation.program,
+            Proved::Chain(derived) => &mut derived.program,
+            Proved::Limbs(derived) => &mut derived.program,
+        };
+        program.about = Some(about(source, program));
         self
     }
 }
@@ -165,12 +129,3 @@ fn task(source: &Source) -> String {
 fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
-<<<<<<< HEAD
-
-fn equations(source: &Source) -> Result<&super::System> {
-    let none =
-        || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no limbs").in_file(&source.path);
-    source.system.as_ref().ok_or_else(none)
-}
-=======
->>>>>>> codegen

@@ -24,29 +24,18 @@ impl Program {
     }
 
     /// The program that solves this one and then `next`. In each pair of `shared`, a joint of this program and one that `next`
-<<<<<<< HEAD
     /// takes as given are one motor: it stands once among the joints, and is no input of `next` any more. Inputs of one name are one
-    /// input. Other inputs and joints of `next` stand behind this program's; name, version and preference are this program's; the two
-    /// have no one source to tell about.
-=======
-    /// takes as given are one motor: it stands once among the joints, and is no input of `next` any more. Inputs and joints of
-    /// `next` stand behind this program's; name, version and preference are this program's.
->>>>>>> codegen
+    /// input. Other inputs and joints of `next` stand behind this program's; name, version and preference are this program's.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a shared joint that is not there, that moves otherwise, or that `next` does not take as given;
     /// for more than [`super::MAX_JOINTS`] joints and what else [`Program::validate`] refuses.
     pub fn followed_by(&self, next: &Program, shared: &[(usize, usize)]) -> Result<Program> {
         let places = Places::new(self, next, shared)?;
-<<<<<<< HEAD
-        let mut program = Program { about: None, ..self.clone() };
+        let mut program = self.clone();
         program
             .inputs
             .extend(own(&next.inputs, |index| places.inputs[index].is_some_and(|place| place >= self.inputs.len())));
-=======
-        let mut program = self.clone();
-        program.inputs.extend(own(&next.inputs, |index| places.inputs[index].is_some()));
->>>>>>> codegen
         program.unknowns.extend(own(&next.unknowns, |index| places.unknowns[index] >= self.unknowns.len()));
         for &condition in &next.conditions {
             let condition = places.condition(condition)?;
@@ -64,12 +53,9 @@ impl Program {
         program.checks = both(&self.checks, places.checks(&next.checks, program.joints.len()), program.joints.len());
         program.scale = self.scale.max(next.scale);
         program.capacity = self.capacity.saturating_mul(next.capacity).min(MOST_ANSWERS);
-<<<<<<< HEAD
         program.isolated = self.isolated.zip(next.isolated).map(|(own, other)| own.saturating_mul(other));
-=======
         // The two have no one source to tell about.
         program.about = None;
->>>>>>> codegen
         program.validate()?;
         Ok(program)
     }
