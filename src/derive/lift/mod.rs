@@ -97,6 +97,8 @@ impl Derived {
         let parts = Parts { plan, steps, templates, half_angles };
         let mechanism = Mechanism::new(&chain)?;
         let mut derived = Derived::assemble(&chain, &mechanism, parts, Slack::within(report.tolerance))?;
+        // The chain that is meant may have more answers than its ideal.
+        derived.program.isolated = None;
         derived.program.checks = program::checks_on(truth)?;
         derived.truth = Some((truth.clone(), report));
         Ok(derived)
