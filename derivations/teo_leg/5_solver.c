@@ -94,7 +94,7 @@ double teo_leg_residual(const double *target, const double *q);
 /* Answers whose joints all differ by no more than this are one. */
 #define MERGE 1e-7
 /* At a singular configuration, answers within this distance may be one. */
-#define BLUR 0.01
+#define BLUR 0.05
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */

@@ -114,7 +114,7 @@ const ACCEPT: f64 = 1e-12;
 /// Answers whose joints all differ by no more than this are one.
 const MERGE: f64 = 1e-7;
 /// At a singular configuration, answers within this distance may be one.
-const BLUR: f64 = 0.01;
+const BLUR: f64 = 0.05;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
