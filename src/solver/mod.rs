@@ -30,7 +30,7 @@ pub const ACCEPT: f64 = 1e-12;
 pub const MERGE: f64 = 1e-7;
 /// Two answers within this distance are one too when the equations hold half-way between them, on a bent way, as well as at the worse of
 /// the two, or within [`ROUNDING`]: at a singular configuration rounding moves the joints that far.
-pub const BLUR: f64 = 1e-2;
+pub const BLUR: f64 = 5e-2;
 /// What rounding leaves of an equation that holds, as a share of its scale.
 pub const ROUNDING: f64 = 1e-14;
 /// A chart for a stratum also runs where the stratum's factor is below this share of its scale.

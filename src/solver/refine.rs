@@ -95,11 +95,16 @@ fn improved(
             return Some((candidate, next));
         }
         if next.relative < fit.relative && fallen.is_none() {
-            fallen = Some((candidate, next));
+            fallen = Some(candidate);
         }
     }
-    let leap = if leaps { leap(program, q, enough, held, frame) } else { None };
-    leap.or(fallen)
+    if leaps && let Some(end) = leap(program, q, enough, held, frame) {
+        return Some(end);
+    }
+    let candidate = fallen?;
+    // The frame must hold what is returned.
+    let next = measure(program, &candidate, frame);
+    Some((candidate, next))
 }
 
 /// A Newton step, or a part of it, and behind it damped steps back to where the equations nearly hold, until they hold within `enough`.
