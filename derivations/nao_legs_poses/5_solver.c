@@ -1419,43 +1419,43 @@ typedef struct {
     bool free[JOINTS];
     double left_c1;
     double left_s1;
-    double left_c2;
-    double left_s2;
-    double left_c6;
-    double left_s6;
     double left_c4;
     double left_s4;
-    double left_c3;
-    double left_s3;
+    double left_c6;
+    double left_s6;
     double left_c5;
     double left_s5;
-    double right_c2;
-    double right_s2;
-    double right_c6;
-    double right_s6;
+    double left_c2;
+    double left_s2;
+    double left_c3;
+    double left_s3;
     double right_c4;
     double right_s4;
-    double right_c3;
-    double right_s3;
+    double right_c6;
+    double right_s6;
+    double right_c5;
+    double right_s5;
+    double right_c2;
+    double right_s2;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* What the charts of block 11 share. */
 typedef struct {
-    double r61;
-    double r62;
+    double r113;
+    double r114;
 } Shared11;
 
 /* Chart 1 of block 11: generic.
  */
 static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r64 = 0.0 - (0.0 - shared->r61);
-    const double r67 = 0.0 - (-0.0 - (0.0 - shared->r62));
-    const double r71 = sqrt(fmax(r67 * r67 + r64 * r64, 0.0));
-    const double right_c5 = r67 / r71;
-    const double right_s5 = r64 / r71;
+    const double r135 = (0.0 - 0.1 * shared->r113) / 0.010000000000000002;
+    const double r139 = (0.0 - (-0.0 - 0.1 * shared->r114)) / 0.010000000000000002;
+    const double r143 = sqrt(fmax(r139 * r139 + r135 * r135, 0.0));
+    const double right_c3 = r139 / r143;
+    const double right_s3 = r135 / r143;
     const double q[JOINTS] = {
         angle(known->left_c1, known->left_s1),
         angle(known->left_c2, known->left_s2),
@@ -1464,78 +1464,133 @@ static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *
         angle(known->left_c5, known->left_s5),
         angle(known->left_c6, known->left_s6),
         angle(known->right_c2, known->right_s2),
-        angle(known->right_c3, known->right_s3),
+        angle(right_c3, right_s3),
         angle(known->right_c4, known->right_s4),
-        angle(right_c5, right_s5),
+        angle(known->right_c5, known->right_s5),
         angle(known->right_c6, known->right_s6),
     };
     finish(p, known->branch, known->last, q, known->free, answers);
 }
 
-/* Block 11: AnklePitch. */
+/* Block 11: HipPitch. */
 static void block_11(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = 0.7071067811865475 * known->left_s1;
-    const double r3 = 0.5 * p->right_r21 + 0.5 * p->right_r31;
-    const double r7 = 0.0 - p->right_r11;
-    const double r12 = p->right_r11 * known->left_c1 + (0.0 - (p->right_r31 - p->right_r21)) * r0;
-    const double r15 = (p->right_r21 - r3) * known->left_c1 + r7 * r0;
-    const double r18 = (p->right_r31 - r3) * known->left_c1 + (0.0 - r7) * r0;
-    const double r31 = (r3 + r18) * known->right_c2 + (0.0 - (r3 + r15)) * known->right_s2;
-    const double r32 = r12 + (r12 - r12) * known->right_c2;
-    const double r39 = r32 * known->right_c3 + (0.0 - r31) * known->right_s3;
-    const double r43 = r31 * known->right_c3 + (0.0 - (0.0 - r32)) * known->right_s3;
-    const double r51 = r39 * known->right_c4 + (0.0 - r43) * known->right_s4;
-    const double r55 = r43 * known->right_c4 + (0.0 - (0.0 - r39)) * known->right_s4;
-    const double r61 = 0.0 - (0.0 - (0.0 - r55));
-    const double r62 = 0.0 - (0.0 - (0.0 - r51));
-    const Shared11 own = { r61, r62 };
+    const double r1 = -0.1029 * known->right_s5;
+    const double r4 = 0.1029 * known->right_c5 - 0.2879 + 0.2879;
+    const double r11 = r1 + (r1 - r1) * known->right_c6;
+    const double r14 = (0.0 - (0.0 - r4)) * known->right_s6 - 0.05 + 0.05;
+    const double r15 = r4 * known->right_c6 - 0.2879 + 0.33309;
+    const double r20 = r11 * p->right_r11 + r14 * p->right_r12 + r15 * p->right_r13;
+    const double r25 = r11 * p->right_r21 + r14 * p->right_r22 + r15 * p->right_r23;
+    const double r30 = r11 * p->right_r31 + r14 * p->right_r32 + r15 * p->right_r33;
+    const double r41 = p->right_pz + r30 + 0.085 - (p->right_py + r25 + 0.05);
+    const double r47 = (p->right_px + r20) * known->left_c1 + (0.0 - r41) * r0;
+    const double r59 = 0.0 - known->right_c4;
+    const double r60 = 0.0 - known->right_s4;
+    const double r66 = r59 * known->right_c5 + (0.0 - r60) * known->right_s5;
+    const double r69 = r60 * known->right_c5 + (0.0 - (0.0 - r59)) * known->right_s5;
+    const double r74 = (0.0 - (0.0 - r69)) * known->right_s6;
+    const double r75 = r69 * known->right_c6;
+    const double r76 = r66 + (r66 - r66) * known->right_c6;
+    const double r81 = r76 * p->right_r11 + r74 * p->right_r12 + r75 * p->right_r13;
+    const double r86 = r76 * p->right_r21 + r74 * p->right_r22 + r75 * p->right_r23;
+    const double r91 = r76 * p->right_r31 + r74 * p->right_r32 + r75 * p->right_r33;
+    const double r103 = r81 * known->left_c1 + (0.0 - (r91 - r86)) * r0;
+    const double r113 = 0.0 - (0.0 - r47);
+    const double r114 = 0.1 * (0.0 - r103);
+    const Shared11 own = { r113, r114 };
     const Shared11 *const shared = &own;
     chart_11_1(p, known, shared, answers);
 }
 
 /* What the charts of block 10 share. */
 typedef struct {
-    double r1;
-    double r37;
-    double r57;
-    double r58;
-    double r86;
-    double r87;
+    double r34;
+    double r35;
 } Shared10;
 
 /* Chart 1 of block 10: generic.
- * It runs where A^2 + B^2 is not zero.
  */
 static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
-    const double r90 = shared->r1 * shared->r1 + shared->r37 * shared->r37;
-    if (!is_away(r90, 7755.348199999999)) {
-        return;
-    }
-    const double r93 = shared->r37 * shared->r57 - shared->r1 * shared->r58;
-    const double r95 = (0.0 - r93) / r90;
-    const double r99 = 0.0 - shared->r1 * shared->r57 - shared->r37 * shared->r58;
-    const double r101 = (0.0 - r99) / r90;
-    const double r105 = sqrt(fmax(r101 * r101 + r95 * r95, 0.0));
-    const double right_c3 = r101 / r105;
-    const double right_s3 = r95 / r105;
+    const double r37 = 0.0 - (0.0 - shared->r34);
+    const double r40 = 0.0 - (-0.0 - (0.0 - shared->r35));
+    const double r44 = sqrt(fmax(r40 * r40 + r37 * r37, 0.0));
+    const double right_c2 = r40 / r44;
+    const double right_s2 = r37 / r44;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.right_c3 = right_c3;
-    next.right_s3 = right_s3;
+    next.branch = known->branch;
+    next.last = known->last;
+    next.right_c2 = right_c2;
+    next.right_s2 = right_s2;
     block_11(p, &next, answers);
 }
 
-/* Chart 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
- * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: right_HipPitch.
- */
-static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
+/* Block 10: HipRoll. */
+static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r90 = shared->r1 * shared->r1 + shared->r37 * shared->r37;
-    if (!(is_near(r90, 7.755348200000001e-8) && is_near(shared->r58, 0.01 * shared->r87) && is_near(shared->r57, 0.01 * shared->r86))) {
+    const double r0 = 0.7071067811865475 * known->left_s1;
+    const double r1 = 0.0 - known->right_s6;
+    const double r4 = known->right_c6 * p->right_r12 + r1 * p->right_r13;
+    const double r7 = known->right_c6 * p->right_r22 + r1 * p->right_r23;
+    const double r10 = known->right_c6 * p->right_r32 + r1 * p->right_r33;
+    const double r13 = 0.5 * r7 + 0.5 * r10;
+    const double r17 = 0.0 - r4;
+    const double r28 = (r10 - r13) * known->left_c1 + (0.0 - r17) * r0;
+    const double r29 = r13 + ((r7 - r13) * known->left_c1 + r17 * r0);
+    const double r34 = 0.0 - (0.0 - (r13 + r28));
+    const double r35 = 0.0 - (0.0 - (0.0 - r29));
+    const Shared10 own = { r34, r35 };
+    const Shared10 *const shared = &own;
+    chart_10_1(p, known, shared, answers);
+}
+
+/* What the charts of block 9 share. */
+typedef struct {
+    double r89;
+    double r136;
+    double r137;
+    double r138;
+    double r184;
+    double r185;
+    double r186;
+} Shared9;
+
+/* Chart 1 of block 9: generic.
+ * It runs where A^2 + B^2 is not zero.
+ */
+static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+{
+    const double r189 = shared->r89 * shared->r89 + shared->r136 * shared->r136;
+    const double r192 = shared->r184 * shared->r184 + shared->r185 * shared->r185;
+    if (!is_away(r189, 10000.0 * r192)) {
+        return;
+    }
+    const double r196 = shared->r136 * shared->r137 - shared->r89 * shared->r138;
+    const double r198 = (0.0 - r196) / r189;
+    const double r202 = 0.0 - shared->r89 * shared->r137 - shared->r136 * shared->r138;
+    const double r204 = (0.0 - r202) / r189;
+    const double r208 = sqrt(fmax(r204 * r204 + r198 * r198, 0.0));
+    const double right_c5 = r204 / r208;
+    const double right_s5 = r198 / r208;
+    Known next = *known;
+    next.branch = 2 * known->branch;
+    next.last = 2 * known->last;
+    next.right_c5 = right_c5;
+    next.right_s5 = right_s5;
+    block_10(p, &next, answers);
+}
+
+/* Chart 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
+ * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
+ * Free: right_AnklePitch.
+ */
+static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+{
+    const double r189 = shared->r89 * shared->r89 + shared->r136 * shared->r136;
+    const double r192 = shared->r184 * shared->r184 + shared->r185 * shared->r185;
+    if (!(is_near(r189, 1.0000000000000001e-7 * r192) && is_near(shared->r138, 0.00055566) && is_near(shared->r137, 0.01 * shared->r186))) {
         return;
     }
     static const double samples0[8][2] = {
@@ -1549,57 +1604,275 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
         { -0.9266488253107329, 0.3759281241809912 },
     };
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c3 = samples0[i0][0];
-        const double right_s3 = samples0[i0][1];
+        const double right_c5 = samples0[i0][0];
+        const double right_s5 = samples0[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.free[7] = true;
-        next.right_c3 = right_c3;
-        next.right_s3 = right_s3;
-        block_11(p, &next, answers);
+        next.free[9] = true;
+        next.right_c5 = right_c5;
+        next.right_s5 = right_s5;
+        block_10(p, &next, answers);
     }
 }
 
-/* Block 10: HipPitch. */
-static void block_10(const Parameters *p, const Known *known, Answers *answers)
+/* Block 9: AnklePitch. */
+static void block_9(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s1;
-    const double r1 = -0.1029 * known->right_s4;
-    const double r9 = p->right_px + 0.04519 * p->right_r13;
-    const double r12 = p->right_py + 0.04519 * p->right_r23 + 0.05;
-    const double r13 = p->right_pz + 0.04519 * p->right_r33 + 0.085;
-    const double r16 = 0.5 * r12 + 0.5 * r13;
-    const double r20 = 0.0 - r9;
-    const double r25 = r9 * known->left_c1 + (0.0 - (r13 - r12)) * r0;
-    const double r31 = (r13 - r16) * known->left_c1 + (0.0 - r20) * r0;
-    const double r32 = r16 + ((r12 - r16) * known->left_c1 + r20 * r0);
-    const double r37 = 0.0 - (-0.1029 * known->right_c4 - 0.185 + 0.085);
-    const double r49 = (r16 + r31 - 0.085 + 0.085) * known->right_c2;
-    const double r50 = (0.0 - (r32 - 0.05 + 0.05)) * known->right_s2;
-    const double r57 = 0.0 - (0.0 - r25);
-    const double r58 = 0.0 - (0.085 - (0.0 - (r49 + r50 - 0.085)));
-    const double r59 = p->magnitude + 0.72099;
-    const double r60 = r59 + 0.05;
-    const double r61 = r59 + 0.085;
-    const double r64 = 0.5 * r60 + 0.5 * r61;
-    const double r79 = r64 + (r61 + r64 + r59) + 0.085 + 0.085 + (r64 + (r60 + r64 + r59) + 0.05 + 0.05);
-    const double r86 = fabs(0.0 - (r59 + (r61 + r60)));
-    const double r87 = fabs(0.0 - (r79 + 0.085 + 0.085));
-    const Shared10 own = { r1, r37, r57, r58, r86, r87 };
-    const Shared10 *const shared = &own;
-    chart_10_1(p, known, shared, answers);
-    chart_10_2(p, known, shared, answers);
+    const double r1 = 0.1029 * known->right_s6;
+    const double r2 = 0.1029 * known->right_c6;
+    const double r3 = -0.05 * r1;
+    const double r5 = r3 + -0.2879 * r2;
+    const double r12 = -0.1029 * p->right_r21;
+    const double r16 = r1 * p->right_r22 + r2 * p->right_r23;
+    const double r17 = -0.1029 * p->right_r31;
+    const double r21 = r1 * p->right_r32 + r2 * p->right_r33;
+    const double r23 = p->right_py + 0.04519 * p->right_r23;
+    const double r24 = p->right_pz + 0.04519 * p->right_r33;
+    const double r26 = r3 + -0.33309 * r2;
+    const double r29 = p->right_px * (p->right_px + 0.04519 * p->right_r13);
+    const double r30 = p->right_px * (r1 * p->right_r12 + r2 * p->right_r13);
+    const double r40 = p->right_px * (-0.1029 * p->right_r11) + p->right_py * r12;
+    const double r41 = r29 + p->right_py * r23 + p->right_pz * r24;
+    const double r42 = r30 + p->right_py * r16 + p->right_pz * r21;
+    const double r43 = r40 + p->right_pz * r17;
+    const double r50 = p->right_px * p->right_px + p->right_py * p->right_py;
+    const double r52 = r41 + r41 - (r50 + p->right_pz * p->right_pz);
+    const double r70 = -0.05 * (-0.05 - r23) + -0.085 * (-0.085 - r24);
+    const double r83 = r5 + r5 - (r26 + r26) + (r42 + r42) + (-0.05 * (0.0 - r16) + -0.085 * (0.0 - r21));
+    const double r84 = r43 + r43 + (-0.05 * (0.0 - r12) + -0.085 * (0.0 - r17));
+    const double r85 = r52 + 0.0126305461 + r70 - (-0.05 * r23 + -0.085 * r24);
+    const double r89 = 0.0 - (r83 - (-0.05 * r16 + -0.085 * r21));
+    const double r94 = -0.085 * known->right_s4 - -0.185 * known->right_s4;
+    const double r136 = 0.0 - (0.0 - (r84 - (-0.05 * r12 + -0.085 * r17)));
+    const double r137 = 0.0 - (0.01 - r85);
+    const double r138 = -0.2058 * r94;
+    const double r139 = p->magnitude + 2.27259;
+    const double r140 = p->magnitude * r139;
+    const double r141 = 1.3458 * p->magnitude;
+    const double r142 = 1.4187 * p->magnitude;
+    const double r146 = r140 + r140 + r140;
+    const double r147 = r141 + r141 + r141;
+    const double r148 = r142 + r142 + r142;
+    const double r152 = p->magnitude * p->magnitude;
+    const double r156 = r146 + r146 + (r152 + r152 + r152) + 2.4510423541;
+    const double r162 = 0.05 * (r139 + 0.05) + 0.085 * (r139 + 0.085);
+    const double r170 = r147 + r147 + 1.554899982 + 0.181683 + 0.181683;
+    const double r172 = r156 + r162 + (0.05 * r139 + 0.085 * r139) + 0.0829;
+    const double r184 = fabs(r170);
+    const double r185 = fabs(0.0 - (r148 + r148 + 0.1915245 + 0.1915245));
+    const double r186 = fabs(0.0 - r172);
+    const Shared9 own = { r89, r136, r137, r138, r184, r185, r186 };
+    const Shared9 *const shared = &own;
+    chart_9_1(p, known, shared, answers);
+    chart_9_2(p, known, shared, answers);
 }
 
-/* What the charts of block 9 share. */
+/* What the charts of block 8 share. */
+typedef struct {
+    double r23;
+    double r24;
+    double r65;
+    double r66;
+    double r73;
+    double r74;
+    double r75;
+    double r76;
+    double r77;
+    double r78;
+    double r79;
+    double r81;
+} Shared8;
+
+/* Chart 1 of block 8: generic.
+ * It runs where B*E - A*F is not zero.
+ */
+static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+{
+    const double r82 = shared->r76 - shared->r75;
+    if (!is_away(r82, 10000.0 * (shared->r79 + shared->r78))) {
+        return;
+    }
+    const double r85 = -0.0 / r82;
+    const double r86 = r85 * r85;
+    const double r89 = r85 / sqrt(fmax(r86 + r86, 0.0));
+    const double right_c6 = r89;
+    const double right_s6 = r89;
+    Known next = *known;
+    next.branch = 7 * known->branch;
+    next.last = 7 * known->last;
+    next.right_c6 = right_c6;
+    next.right_s6 = right_s6;
+    block_9(p, &next, answers);
+}
+
+/* Chart 2 of block 8: generic.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+ */
+static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+{
+    const double r82 = shared->r23 * shared->r23;
+    const double r83 = shared->r24 * shared->r24;
+    const double r84 = r82 + r83;
+    const double r87 = shared->r73 * shared->r73 + shared->r74 * shared->r74;
+    if (!(is_near(shared->r77, shared->r81) && is_away(r84, 10000.0 * r87))) {
+        return;
+    }
+    const double choice0_0[3] = {0.0 - r82 - r83, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r87, 0.0)));
+    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+        const double right_w6 = roots0.values[i0];
+        const double r95 = (0.0 - (0.0 - shared->r23 * right_w6)) / r84;
+        const double r98 = (0.0 - shared->r24 * right_w6) / r84;
+        const double r102 = sqrt(fmax(r98 * r98 + r95 * r95, 0.0));
+        const double right_c6 = r98 / r102;
+        const double right_s6 = r95 / r102;
+        Known next = *known;
+        next.branch = 7 * known->branch + 1 + i0;
+        next.last = 7 * known->last;
+        next.right_c6 = right_c6;
+        next.right_s6 = right_s6;
+        block_9(p, &next, answers);
+    }
+}
+
+/* Chart 3 of block 8: A = 0, B = 0, C = 0.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+ * Free: right_AnkleRoll.
+ */
+static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+{
+    const double r84 = shared->r23 * shared->r23 + shared->r24 * shared->r24;
+    const double r87 = shared->r73 * shared->r73 + shared->r74 * shared->r74;
+    if (!(is_near(shared->r77, shared->r81) && is_near(r84, 1.0000000000000001e-7 * r87))) {
+        return;
+    }
+    static const double samples0[8][2] = {
+        { -0.9210609940028851, -0.3894183423086505 },
+        { -0.37592812418099103, -0.926648825310733 },
+        { 0.38941834230865047, -0.9210609940028851 },
+        { 0.926648825310733, -0.375928124180991 },
+        { 0.9210609940028851, 0.3894183423086505 },
+        { 0.37592812418099114, 0.926648825310733 },
+        { -0.38941834230865036, 0.9210609940028851 },
+        { -0.9266488253107329, 0.3759281241809912 },
+    };
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double right_c6 = samples0[i0][0];
+        const double right_s6 = samples0[i0][1];
+        Known next = *known;
+        next.branch = 7 * known->branch + 3;
+        next.last = 7 * known->last;
+        next.free[10] = true;
+        next.right_c6 = right_c6;
+        next.right_s6 = right_s6;
+        block_9(p, &next, answers);
+    }
+}
+
+/* Chart 4 of block 8: generic.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+ */
+static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+{
+    const double r82 = shared->r65 * shared->r65;
+    const double r83 = shared->r66 * shared->r66;
+    const double r84 = r82 + r83;
+    if (!(is_near(shared->r77, shared->r81) && is_away(r84, 180000.0))) {
+        return;
+    }
+    const double choice0_0[3] = {0.0 - r82 - r83, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, 4.242640687119285);
+    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+        const double right_w6 = roots0.values[i0];
+        const double r90 = (0.0 - (0.0 - shared->r65 * right_w6)) / r84;
+        const double r93 = (0.0 - shared->r66 * right_w6) / r84;
+        const double r97 = sqrt(fmax(r93 * r93 + r90 * r90, 0.0));
+        const double right_c6 = r93 / r97;
+        const double right_s6 = r90 / r97;
+        Known next = *known;
+        next.branch = 7 * known->branch + 4 + i0;
+        next.last = 7 * known->last;
+        next.right_c6 = right_c6;
+        next.right_s6 = right_s6;
+        block_9(p, &next, answers);
+    }
+}
+
+/* Chart 5 of block 8: A = 0, B = 0, C = 0.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+ * Free: right_AnkleRoll.
+ */
+static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+{
+    const double r84 = shared->r65 * shared->r65 + shared->r66 * shared->r66;
+    if (!(is_near(shared->r77, shared->r81) && is_near(r84, 1.8000000000000001e-6))) {
+        return;
+    }
+    static const double samples0[8][2] = {
+        { -0.9210609940028851, -0.3894183423086505 },
+        { -0.37592812418099103, -0.926648825310733 },
+        { 0.38941834230865047, -0.9210609940028851 },
+        { 0.926648825310733, -0.375928124180991 },
+        { 0.9210609940028851, 0.3894183423086505 },
+        { 0.37592812418099114, 0.926648825310733 },
+        { -0.38941834230865036, 0.9210609940028851 },
+        { -0.9266488253107329, 0.3759281241809912 },
+    };
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double right_c6 = samples0[i0][0];
+        const double right_s6 = samples0[i0][1];
+        Known next = *known;
+        next.branch = 7 * known->branch + 6;
+        next.last = 7 * known->last;
+        next.free[10] = true;
+        next.right_c6 = right_c6;
+        next.right_s6 = right_s6;
+        block_9(p, &next, answers);
+    }
+}
+
+/* Block 8: AnkleRoll. */
+static void block_8(const Parameters *p, const Known *known, Answers *answers)
+{
+    const double r0 = 0.7071067811865475 * known->left_s1;
+    const double r1 = 0.0 - p->right_r13;
+    const double r2 = 0.0 - p->right_r23;
+    const double r3 = 0.0 - p->right_r33;
+    const double r10 = p->right_px * p->right_r12 + p->right_py * p->right_r22;
+    const double r13 = p->right_px * r1 + p->right_py * r2 + p->right_pz * r3;
+    const double r21 = -0.05 * p->right_r22 + -0.085 * p->right_r32 - (r10 + p->right_pz * p->right_r32);
+    const double r23 = 0.0 - r21;
+    const double r24 = 0.0 - (-0.05 * r2 + -0.085 * r3 - (r13 - 0.04519));
+    const double r47 = p->right_r12 * known->left_c1 + (0.0 - (p->right_r32 - p->right_r22)) * r0;
+    const double r65 = 0.0 - r47;
+    const double r66 = 0.0 - (r1 * known->left_c1 + (0.0 - (r3 - r2)) * r0);
+    const double r68 = p->magnitude + p->magnitude + p->magnitude;
+    const double r73 = fabs(r68 + 0.1 + 0.135);
+    const double r74 = fabs(r68 + 0.62099 + 0.135);
+    const double r75 = r23 * r66;
+    const double r76 = r24 * r65;
+    const double r77 = r75 - r76;
+    const double r78 = 3.0 * r73;
+    const double r79 = 3.0 * r74;
+    const double r81 = 0.001 * (r78 + r79);
+    const Shared8 own = { r23, r24, r65, r66, r73, r74, r75, r76, r77, r78, r79, r81 };
+    const Shared8 *const shared = &own;
+    chart_8_1(p, known, shared, answers);
+    chart_8_2(p, known, shared, answers);
+    chart_8_3(p, known, shared, answers);
+    chart_8_4(p, known, shared, answers);
+    chart_8_5(p, known, shared, answers);
+}
+
+/* What the charts of block 7 share. */
 typedef struct {
     double r31;
-} Shared9;
+} Shared7;
 
-/* Chart 1 of block 9: generic.
+/* Chart 1 of block 7: generic.
  */
-static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r33 = shared->r31 * shared->r31 - 0.00042353640000000005;
     const double choice0_0[3] = {r33, 0.0, 1.0};
@@ -1616,12 +1889,12 @@ static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *sh
         next.last = 2 * known->last;
         next.right_c4 = right_c4;
         next.right_s4 = right_s4;
-        block_10(p, &next, answers);
+        block_8(p, &next, answers);
     }
 }
 
-/* Block 9: KneePitch. */
-static void block_9(const Parameters *p, const Known *known, Answers *answers)
+/* Block 7: KneePitch. */
+static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r5 = p->right_py + 0.04519 * p->right_r23;
     const double r6 = p->right_pz + 0.04519 * p->right_r33;
@@ -1632,230 +1905,153 @@ static void block_9(const Parameters *p, const Known *known, Answers *answers)
     const double r25 = -0.05 * (-0.05 - r5) + -0.085 * (-0.085 - r6);
     const double r30 = r18 + 0.0020421361 + r25 - (-0.05 * r5 + -0.085 * r6);
     const double r31 = 0.02058841 - r30;
-    const Shared9 own = { r31 };
-    const Shared9 *const shared = &own;
-    chart_9_1(p, known, shared, answers);
-}
-
-/* What the charts of block 8 share. */
-typedef struct {
-    double r69;
-    double r70;
-} Shared8;
-
-/* Chart 1 of block 8: generic.
- */
-static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
-{
-    const double r71 = 0.0 - shared->r70;
-    const double r73 = 0.0 - (-0.0 - shared->r69);
-    const double r77 = sqrt(fmax(r73 * r73 + r71 * r71, 0.0));
-    const double right_c6 = r73 / r77;
-    const double right_s6 = r71 / r77;
-    Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.right_c6 = right_c6;
-    next.right_s6 = right_s6;
-    block_9(p, &next, answers);
-}
-
-/* Block 8: AnkleRoll. */
-static void block_8(const Parameters *p, const Known *known, Answers *answers)
-{
-    const double r0 = 0.7071067811865475 * known->left_s1;
-    const double r3 = 0.5 * p->right_r23 + 0.5 * p->right_r33;
-    const double r7 = 0.0 - p->right_r13;
-    const double r15 = (p->right_r23 - r3) * known->left_c1 + r7 * r0;
-    const double r18 = (p->right_r33 - r3) * known->left_c1 + (0.0 - r7) * r0;
-    const double r28 = (r3 + r15) * known->right_c2 + (0.0 - (0.0 - (r3 + r18))) * known->right_s2;
-    const double r35 = 0.0 - p->right_r22;
-    const double r36 = 0.0 - p->right_r32;
-    const double r39 = 0.5 * r35 + 0.5 * r36;
-    const double r43 = 0.0 - (0.0 - p->right_r12);
-    const double r54 = (r36 - r39) * known->left_c1 + (0.0 - r43) * r0;
-    const double r55 = r39 + ((r35 - r39) * known->left_c1 + r43 * r0);
-    const double r63 = (0.0 - (0.0 - (r39 + r54))) * known->right_s2;
-    const double r69 = 0.0 - (r55 * known->right_c2 + r63);
-    const double r70 = 0.0 - (0.0 - r28);
-    const Shared8 own = { r69, r70 };
-    const Shared8 *const shared = &own;
-    chart_8_1(p, known, shared, answers);
-}
-
-/* What the charts of block 7 share. */
-typedef struct {
-    double r24;
-    double r25;
-} Shared7;
-
-/* Chart 1 of block 7: generic.
- * It runs where A^2 + B^2 is not zero.
- */
-static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
-{
-    const double r26 = shared->r24 * shared->r24;
-    const double r27 = shared->r25 * shared->r25;
-    const double r28 = r26 + r27;
-    if (!is_away(r28, 320000.0)) {
-        return;
-    }
-    const double choice0_0[3] = {0.0 - r26 - r27, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 5.656854249492381);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w2 = roots0.values[i0];
-        const double r34 = (0.0 - (0.0 - shared->r24 * right_w2)) / r28;
-        const double r37 = (0.0 - shared->r25 * right_w2) / r28;
-        const double r41 = sqrt(fmax(r37 * r37 + r34 * r34, 0.0));
-        const double right_c2 = r37 / r41;
-        const double right_s2 = r34 / r41;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.right_c2 = right_c2;
-        next.right_s2 = right_s2;
-        block_8(p, &next, answers);
-    }
-}
-
-/* Chart 2 of block 7: A = 0, B = 0, C = 0.
- * It runs where A^2 + B^2 is near zero.
- * Free: right_HipRoll.
- */
-static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
-{
-    const double r28 = shared->r24 * shared->r24 + shared->r25 * shared->r25;
-    if (!is_near(r28, 3.2000000000000003e-6)) {
-        return;
-    }
-    static const double samples0[8][2] = {
-        { -0.9210609940028851, -0.3894183423086505 },
-        { -0.37592812418099103, -0.926648825310733 },
-        { 0.38941834230865047, -0.9210609940028851 },
-        { 0.926648825310733, -0.375928124180991 },
-        { 0.9210609940028851, 0.3894183423086505 },
-        { 0.37592812418099114, 0.926648825310733 },
-        { -0.38941834230865036, 0.9210609940028851 },
-        { -0.9266488253107329, 0.3759281241809912 },
-    };
-    for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c2 = samples0[i0][0];
-        const double right_s2 = samples0[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[6] = true;
-        next.right_c2 = right_c2;
-        next.right_s2 = right_s2;
-        block_8(p, &next, answers);
-    }
-}
-
-/* Block 7: HipRoll. */
-static void block_7(const Parameters *p, const Known *known, Answers *answers)
-{
-    const double r0 = 0.7071067811865475 * known->left_s1;
-    const double r3 = 0.5 * p->right_r21 + 0.5 * p->right_r31;
-    const double r7 = 0.0 - p->right_r11;
-    const double r15 = (p->right_r21 - r3) * known->left_c1 + r7 * r0;
-    const double r18 = (p->right_r31 - r3) * known->left_c1 + (0.0 - r7) * r0;
-    const double r24 = 0.0 - (r3 + r15);
-    const double r25 = 0.0 - (0.0 - (0.0 - (r3 + r18)));
-    const Shared7 own = { r24, r25 };
+    const Shared7 own = { r31 };
     const Shared7 *const shared = &own;
     chart_7_1(p, known, shared, answers);
-    chart_7_2(p, known, shared, answers);
 }
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r62;
-    double r63;
+    double r115;
+    double r116;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r65 = 0.0 - (0.0 - shared->r62);
-    const double r68 = 0.0 - (-0.0 - (0.0 - shared->r63));
-    const double r72 = sqrt(fmax(r68 * r68 + r65 * r65, 0.0));
-    const double left_c5 = r68 / r72;
-    const double left_s5 = r65 / r72;
+    const double r137 = (0.0 - 0.1 * shared->r115) / 0.010000000000000002;
+    const double r141 = (0.0 - (-0.0 - 0.1 * shared->r116)) / 0.010000000000000002;
+    const double r145 = sqrt(fmax(r141 * r141 + r137 * r137, 0.0));
+    const double left_c3 = r141 / r145;
+    const double left_s3 = r137 / r145;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
-    next.left_c5 = left_c5;
-    next.left_s5 = left_s5;
+    next.left_c3 = left_c3;
+    next.left_s3 = left_s3;
     block_7(p, &next, answers);
 }
 
-/* Block 6: AnklePitch. */
+/* Block 6: HipPitch. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = 0.7071067811865475 * known->left_s1;
-    const double r3 = 0.5 * p->left_r21 + -0.5 * p->left_r31;
-    const double r4 = 0.0 - r3;
-    const double r13 = (0.0 - (p->left_r31 - (0.0 - p->left_r21))) * r0;
-    const double r14 = p->left_r11 * known->left_c1 + r13;
-    const double r16 = (0.0 - (0.0 - p->left_r11)) * r0;
-    const double r20 = r3 + ((p->left_r21 - r3) * known->left_c1 + r16);
-    const double r21 = r4 + ((p->left_r31 - r4) * known->left_c1 + r16);
-    const double r32 = r21 * known->left_c2 + (0.0 - r20) * known->left_s2;
-    const double r33 = r14 + (r14 - r14) * known->left_c2;
-    const double r40 = r33 * known->left_c3 + (0.0 - r32) * known->left_s3;
-    const double r44 = r32 * known->left_c3 + (0.0 - (0.0 - r33)) * known->left_s3;
-    const double r52 = r40 * known->left_c4 + (0.0 - r44) * known->left_s4;
-    const double r56 = r44 * known->left_c4 + (0.0 - (0.0 - r40)) * known->left_s4;
-    const double r62 = 0.0 - (0.0 - (0.0 - r56));
-    const double r63 = 0.0 - (0.0 - (0.0 - r52));
-    const Shared6 own = { r62, r63 };
+    const double r1 = -0.1029 * known->left_s5;
+    const double r4 = 0.1029 * known->left_c5 - 0.2879 + 0.2879;
+    const double r11 = r1 + (r1 - r1) * known->left_c6;
+    const double r14 = (0.0 - (0.0 - r4)) * known->left_s6 + 0.05 - 0.05;
+    const double r15 = r4 * known->left_c6 - 0.2879 + 0.33309;
+    const double r20 = r11 * p->left_r11 + r14 * p->left_r12 + r15 * p->left_r13;
+    const double r25 = r11 * p->left_r21 + r14 * p->left_r22 + r15 * p->left_r23;
+    const double r30 = r11 * p->left_r31 + r14 * p->left_r32 + r15 * p->left_r33;
+    const double r43 = p->left_pz + r30 + 0.085 - (0.0 - (p->left_py + r25 - 0.05));
+    const double r49 = (p->left_px + r20) * known->left_c1 + (0.0 - r43) * r0;
+    const double r60 = 0.0 - known->left_c4;
+    const double r61 = 0.0 - known->left_s4;
+    const double r67 = r60 * known->left_c5 + (0.0 - r61) * known->left_s5;
+    const double r70 = r61 * known->left_c5 + (0.0 - (0.0 - r60)) * known->left_s5;
+    const double r75 = (0.0 - (0.0 - r70)) * known->left_s6;
+    const double r76 = r70 * known->left_c6;
+    const double r77 = r67 + (r67 - r67) * known->left_c6;
+    const double r82 = r77 * p->left_r11 + r75 * p->left_r12 + r76 * p->left_r13;
+    const double r87 = r77 * p->left_r21 + r75 * p->left_r22 + r76 * p->left_r23;
+    const double r92 = r77 * p->left_r31 + r75 * p->left_r32 + r76 * p->left_r33;
+    const double r106 = r82 * known->left_c1 + (0.0 - (r92 - (0.0 - r87))) * r0;
+    const double r115 = 0.0 - (0.0 - r49);
+    const double r116 = 0.1 * (0.0 - r106);
+    const Shared6 own = { r115, r116 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r1;
-    double r38;
-    double r58;
-    double r59;
-    double r87;
-    double r88;
+    double r35;
+    double r36;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
- * It runs where A^2 + B^2 is not zero.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r91 = shared->r1 * shared->r1 + shared->r38 * shared->r38;
-    if (!is_away(r91, 7755.348199999999)) {
-        return;
-    }
-    const double r94 = shared->r38 * shared->r58 - shared->r1 * shared->r59;
-    const double r96 = (0.0 - r94) / r91;
-    const double r100 = 0.0 - shared->r1 * shared->r58 - shared->r38 * shared->r59;
-    const double r102 = (0.0 - r100) / r91;
-    const double r106 = sqrt(fmax(r102 * r102 + r96 * r96, 0.0));
-    const double left_c3 = r102 / r106;
-    const double left_s3 = r96 / r106;
+    const double r38 = 0.0 - (0.0 - shared->r35);
+    const double r41 = 0.0 - (-0.0 - (0.0 - shared->r36));
+    const double r45 = sqrt(fmax(r41 * r41 + r38 * r38, 0.0));
+    const double left_c2 = r41 / r45;
+    const double left_s2 = r38 / r45;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.left_c3 = left_c3;
-    next.left_s3 = left_s3;
+    next.branch = known->branch;
+    next.last = known->last;
+    next.left_c2 = left_c2;
+    next.left_s2 = left_s2;
     block_6(p, &next, answers);
 }
 
-/* Chart 2 of block 5: A = 0, B = 0, Y = 0, X = 0.
- * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: left_HipPitch.
- */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+/* Block 5: HipRoll. */
+static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r91 = shared->r1 * shared->r1 + shared->r38 * shared->r38;
-    if (!(is_near(r91, 7.755348200000001e-8) && is_near(shared->r59, 0.01 * shared->r88) && is_near(shared->r58, 0.01 * shared->r87))) {
+    const double r1 = 0.0 - known->left_s6;
+    const double r4 = known->left_c6 * p->left_r12 + r1 * p->left_r13;
+    const double r7 = known->left_c6 * p->left_r22 + r1 * p->left_r23;
+    const double r10 = known->left_c6 * p->left_r32 + r1 * p->left_r33;
+    const double r13 = 0.5 * r7 + -0.5 * r10;
+    const double r14 = 0.0 - r13;
+    const double r26 = (0.0 - (0.0 - r4)) * (0.7071067811865475 * known->left_s1);
+    const double r32 = 0.0 - (r14 + ((r10 - r14) * known->left_c1 + r26));
+    const double r33 = 0.0 - (r13 + ((r7 - r13) * known->left_c1 + r26));
+    const double r35 = 0.0 - r32;
+    const double r36 = 0.0 - (0.0 - r33);
+    const Shared5 own = { r35, r36 };
+    const Shared5 *const shared = &own;
+    chart_5_1(p, known, shared, answers);
+}
+
+/* What the charts of block 4 share. */
+typedef struct {
+    double r89;
+    double r136;
+    double r137;
+    double r138;
+    double r184;
+    double r185;
+    double r186;
+} Shared4;
+
+/* Chart 1 of block 4: generic.
+ * It runs where A^2 + B^2 is not zero.
+ */
+static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+{
+    const double r189 = shared->r89 * shared->r89 + shared->r136 * shared->r136;
+    const double r192 = shared->r184 * shared->r184 + shared->r185 * shared->r185;
+    if (!is_away(r189, 10000.0 * r192)) {
+        return;
+    }
+    const double r196 = shared->r136 * shared->r137 - shared->r89 * shared->r138;
+    const double r198 = (0.0 - r196) / r189;
+    const double r202 = 0.0 - shared->r89 * shared->r137 - shared->r136 * shared->r138;
+    const double r204 = (0.0 - r202) / r189;
+    const double r208 = sqrt(fmax(r204 * r204 + r198 * r198, 0.0));
+    const double left_c5 = r204 / r208;
+    const double left_s5 = r198 / r208;
+    Known next = *known;
+    next.branch = 2 * known->branch;
+    next.last = 2 * known->last;
+    next.left_c5 = left_c5;
+    next.left_s5 = left_s5;
+    block_5(p, &next, answers);
+}
+
+/* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
+ * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
+ * Free: left_AnklePitch.
+ */
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+{
+    const double r189 = shared->r89 * shared->r89 + shared->r136 * shared->r136;
+    const double r192 = shared->r184 * shared->r184 + shared->r185 * shared->r185;
+    if (!(is_near(r189, 1.0000000000000001e-7 * r192) && is_near(shared->r138, 0.00055566) && is_near(shared->r137, 0.01 * shared->r186))) {
         return;
     }
     static const double samples0[8][2] = {
@@ -1869,57 +2065,276 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         { -0.9266488253107329, 0.3759281241809912 },
     };
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c3 = samples0[i0][0];
-        const double left_s3 = samples0[i0][1];
+        const double left_c5 = samples0[i0][0];
+        const double left_s5 = samples0[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.free[2] = true;
-        next.left_c3 = left_c3;
-        next.left_s3 = left_s3;
-        block_6(p, &next, answers);
+        next.free[4] = true;
+        next.left_c5 = left_c5;
+        next.left_s5 = left_s5;
+        block_5(p, &next, answers);
     }
 }
 
-/* Block 5: HipPitch. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
+/* Block 4: AnklePitch. */
+static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s1;
-    const double r1 = -0.1029 * known->left_s4;
-    const double r9 = p->left_px + 0.04519 * p->left_r13;
-    const double r12 = p->left_py + 0.04519 * p->left_r23 - 0.05;
-    const double r13 = p->left_pz + 0.04519 * p->left_r33 + 0.085;
-    const double r16 = 0.5 * r12 + -0.5 * r13;
-    const double r17 = 0.0 - r16;
-    const double r27 = r9 * known->left_c1 + (0.0 - (r13 - (0.0 - r12))) * r0;
-    const double r29 = (0.0 - (0.0 - r9)) * r0;
-    const double r35 = r16 + ((r12 - r16) * known->left_c1 + r29) + 0.05;
-    const double r36 = r17 + ((r13 - r17) * known->left_c1 + r29) - 0.085;
-    const double r38 = 0.0 - (-0.1029 * known->left_c4 - 0.185 + 0.085);
-    const double r52 = (r36 + 0.085) * known->left_c2 + (0.0 - (r35 - 0.05)) * known->left_s2;
-    const double r58 = 0.0 - (0.0 - r27);
-    const double r59 = 0.0 - (0.085 - (0.0 - (r52 - 0.085)));
-    const double r60 = p->magnitude + 0.72099;
-    const double r61 = r60 + 0.05;
-    const double r62 = r60 + 0.085;
-    const double r65 = 0.5 * r61 + 0.5 * r62;
-    const double r80 = r65 + (r62 + r65 + r60) + 0.085 + 0.085 + (r65 + (r61 + r65 + r60) + 0.05 + 0.05);
-    const double r87 = fabs(0.0 - (r60 + (r62 + r61)));
-    const double r88 = fabs(0.0 - (r80 + 0.085 + 0.085));
-    const Shared5 own = { r1, r38, r58, r59, r87, r88 };
-    const Shared5 *const shared = &own;
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
+    const double r1 = 0.1029 * known->left_s6;
+    const double r2 = 0.1029 * known->left_c6;
+    const double r3 = 0.05 * r1;
+    const double r5 = r3 + -0.2879 * r2;
+    const double r12 = -0.1029 * p->left_r21;
+    const double r16 = r1 * p->left_r22 + r2 * p->left_r23;
+    const double r17 = -0.1029 * p->left_r31;
+    const double r21 = r1 * p->left_r32 + r2 * p->left_r33;
+    const double r23 = p->left_py + 0.04519 * p->left_r23;
+    const double r24 = p->left_pz + 0.04519 * p->left_r33;
+    const double r26 = r3 + -0.33309 * r2;
+    const double r29 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
+    const double r30 = p->left_px * (r1 * p->left_r12 + r2 * p->left_r13);
+    const double r40 = p->left_px * (-0.1029 * p->left_r11) + p->left_py * r12;
+    const double r41 = r29 + p->left_py * r23 + p->left_pz * r24;
+    const double r42 = r30 + p->left_py * r16 + p->left_pz * r21;
+    const double r43 = r40 + p->left_pz * r17;
+    const double r50 = p->left_px * p->left_px + p->left_py * p->left_py;
+    const double r53 = r41 + r41 - (r50 + p->left_pz * p->left_pz) + 0.0126305461;
+    const double r70 = 0.05 * (0.05 - r23) + -0.085 * (-0.085 - r24);
+    const double r83 = r5 + r5 - (r26 + r26) + (r42 + r42) + (0.05 * (0.0 - r16) + -0.085 * (0.0 - r21));
+    const double r84 = r43 + r43 + (0.05 * (0.0 - r12) + -0.085 * (0.0 - r17));
+    const double r88 = 0.01 - (r53 + r70 - (0.05 * r23 + -0.085 * r24));
+    const double r89 = 0.0 - (r83 - (0.05 * r16 + -0.085 * r21));
+    const double r94 = -0.085 * known->left_s4 - -0.185 * known->left_s4;
+    const double r136 = 0.0 - (0.0 - (r84 - (0.05 * r12 + -0.085 * r17)));
+    const double r137 = 0.0 - r88;
+    const double r138 = -0.2058 * r94;
+    const double r139 = p->magnitude + 2.27259;
+    const double r140 = p->magnitude * r139;
+    const double r141 = 1.3458 * p->magnitude;
+    const double r142 = 1.4187 * p->magnitude;
+    const double r146 = r140 + r140 + r140;
+    const double r147 = r141 + r141 + r141;
+    const double r148 = r142 + r142 + r142;
+    const double r152 = p->magnitude * p->magnitude;
+    const double r156 = r146 + r146 + (r152 + r152 + r152) + 2.4510423541;
+    const double r162 = 0.05 * (r139 + 0.05) + 0.085 * (r139 + 0.085);
+    const double r170 = r147 + r147 + 1.554899982 + 0.181683 + 0.181683;
+    const double r172 = r156 + r162 + (0.05 * r139 + 0.085 * r139) + 0.0829;
+    const double r184 = fabs(r170);
+    const double r185 = fabs(0.0 - (r148 + r148 + 0.1915245 + 0.1915245));
+    const double r186 = fabs(0.0 - r172);
+    const Shared4 own = { r89, r136, r137, r138, r184, r185, r186 };
+    const Shared4 *const shared = &own;
+    chart_4_1(p, known, shared, answers);
+    chart_4_2(p, known, shared, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the charts of block 3 share. */
+typedef struct {
+    double r23;
+    double r24;
+    double r67;
+    double r68;
+    double r75;
+    double r76;
+    double r77;
+    double r78;
+    double r79;
+    double r80;
+    double r81;
+    double r83;
+} Shared3;
+
+/* Chart 1 of block 3: generic.
+ * It runs where B*E - A*F is not zero.
+ */
+static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+{
+    const double r84 = shared->r78 - shared->r77;
+    if (!is_away(r84, 10000.0 * (shared->r81 + shared->r80))) {
+        return;
+    }
+    const double r87 = -0.0 / r84;
+    const double r88 = r87 * r87;
+    const double r91 = r87 / sqrt(fmax(r88 + r88, 0.0));
+    const double left_c6 = r91;
+    const double left_s6 = r91;
+    Known next = *known;
+    next.branch = 7 * known->branch;
+    next.last = 7 * known->last;
+    next.left_c6 = left_c6;
+    next.left_s6 = left_s6;
+    block_4(p, &next, answers);
+}
+
+/* Chart 2 of block 3: generic.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+ */
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+{
+    const double r84 = shared->r23 * shared->r23;
+    const double r85 = shared->r24 * shared->r24;
+    const double r86 = r84 + r85;
+    const double r89 = shared->r75 * shared->r75 + shared->r76 * shared->r76;
+    if (!(is_near(shared->r79, shared->r83) && is_away(r86, 10000.0 * r89))) {
+        return;
+    }
+    const double choice0_0[3] = {0.0 - r84 - r85, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r89, 0.0)));
+    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+        const double left_w6 = roots0.values[i0];
+        const double r97 = (0.0 - (0.0 - shared->r23 * left_w6)) / r86;
+        const double r100 = (0.0 - shared->r24 * left_w6) / r86;
+        const double r104 = sqrt(fmax(r100 * r100 + r97 * r97, 0.0));
+        const double left_c6 = r100 / r104;
+        const double left_s6 = r97 / r104;
+        Known next = *known;
+        next.branch = 7 * known->branch + 1 + i0;
+        next.last = 7 * known->last;
+        next.left_c6 = left_c6;
+        next.left_s6 = left_s6;
+        block_4(p, &next, answers);
+    }
+}
+
+/* Chart 3 of block 3: A = 0, B = 0, C = 0.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+ * Free: left_AnkleRoll.
+ */
+static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+{
+    const double r86 = shared->r23 * shared->r23 + shared->r24 * shared->r24;
+    const double r89 = shared->r75 * shared->r75 + shared->r76 * shared->r76;
+    if (!(is_near(shared->r79, shared->r83) && is_near(r86, 1.0000000000000001e-7 * r89))) {
+        return;
+    }
+    static const double samples0[8][2] = {
+        { -0.9210609940028851, -0.3894183423086505 },
+        { -0.37592812418099103, -0.926648825310733 },
+        { 0.38941834230865047, -0.9210609940028851 },
+        { 0.926648825310733, -0.375928124180991 },
+        { 0.9210609940028851, 0.3894183423086505 },
+        { 0.37592812418099114, 0.926648825310733 },
+        { -0.38941834230865036, 0.9210609940028851 },
+        { -0.9266488253107329, 0.3759281241809912 },
+    };
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double left_c6 = samples0[i0][0];
+        const double left_s6 = samples0[i0][1];
+        Known next = *known;
+        next.branch = 7 * known->branch + 3;
+        next.last = 7 * known->last;
+        next.free[5] = true;
+        next.left_c6 = left_c6;
+        next.left_s6 = left_s6;
+        block_4(p, &next, answers);
+    }
+}
+
+/* Chart 4 of block 3: generic.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+ */
+static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+{
+    const double r84 = shared->r67 * shared->r67;
+    const double r85 = shared->r68 * shared->r68;
+    const double r86 = r84 + r85;
+    if (!(is_near(shared->r79, shared->r83) && is_away(r86, 180000.0))) {
+        return;
+    }
+    const double choice0_0[3] = {0.0 - r84 - r85, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, 4.242640687119285);
+    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+        const double left_w6 = roots0.values[i0];
+        const double r92 = (0.0 - (0.0 - shared->r67 * left_w6)) / r86;
+        const double r95 = (0.0 - shared->r68 * left_w6) / r86;
+        const double r99 = sqrt(fmax(r95 * r95 + r92 * r92, 0.0));
+        const double left_c6 = r95 / r99;
+        const double left_s6 = r92 / r99;
+        Known next = *known;
+        next.branch = 7 * known->branch + 4 + i0;
+        next.last = 7 * known->last;
+        next.left_c6 = left_c6;
+        next.left_s6 = left_s6;
+        block_4(p, &next, answers);
+    }
+}
+
+/* Chart 5 of block 3: A = 0, B = 0, C = 0.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+ * Free: left_AnkleRoll.
+ */
+static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+{
+    const double r86 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
+    if (!(is_near(shared->r79, shared->r83) && is_near(r86, 1.8000000000000001e-6))) {
+        return;
+    }
+    static const double samples0[8][2] = {
+        { -0.9210609940028851, -0.3894183423086505 },
+        { -0.37592812418099103, -0.926648825310733 },
+        { 0.38941834230865047, -0.9210609940028851 },
+        { 0.926648825310733, -0.375928124180991 },
+        { 0.9210609940028851, 0.3894183423086505 },
+        { 0.37592812418099114, 0.926648825310733 },
+        { -0.38941834230865036, 0.9210609940028851 },
+        { -0.9266488253107329, 0.3759281241809912 },
+    };
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double left_c6 = samples0[i0][0];
+        const double left_s6 = samples0[i0][1];
+        Known next = *known;
+        next.branch = 7 * known->branch + 6;
+        next.last = 7 * known->last;
+        next.free[5] = true;
+        next.left_c6 = left_c6;
+        next.left_s6 = left_s6;
+        block_4(p, &next, answers);
+    }
+}
+
+/* Block 3: AnkleRoll. */
+static void block_3(const Parameters *p, const Known *known, Answers *answers)
+{
+    const double r0 = 0.7071067811865475 * known->left_s1;
+    const double r1 = 0.0 - p->left_r13;
+    const double r2 = 0.0 - p->left_r23;
+    const double r3 = 0.0 - p->left_r33;
+    const double r10 = p->left_px * p->left_r12 + p->left_py * p->left_r22;
+    const double r13 = p->left_px * r1 + p->left_py * r2 + p->left_pz * r3;
+    const double r21 = 0.05 * p->left_r22 + -0.085 * p->left_r32 - (r10 + p->left_pz * p->left_r32);
+    const double r23 = 0.0 - r21;
+    const double r24 = 0.0 - (0.05 * r2 + -0.085 * r3 - (r13 - 0.04519));
+    const double r49 = (0.0 - (p->left_r32 - (0.0 - p->left_r22))) * r0;
+    const double r52 = r1 * known->left_c1 + (0.0 - (r3 - (0.0 - r2))) * r0;
+    const double r67 = 0.0 - (p->left_r12 * known->left_c1 + r49);
+    const double r68 = 0.0 - r52;
+    const double r70 = p->magnitude + p->magnitude + p->magnitude;
+    const double r75 = fabs(r70 + 0.1 + 0.135);
+    const double r76 = fabs(r70 + 0.62099 + 0.135);
+    const double r77 = r23 * r68;
+    const double r78 = r24 * r67;
+    const double r79 = r77 - r78;
+    const double r80 = 3.0 * r75;
+    const double r81 = 3.0 * r76;
+    const double r83 = 0.001 * (r80 + r81);
+    const Shared3 own = { r23, r24, r67, r68, r75, r76, r77, r78, r79, r80, r81, r83 };
+    const Shared3 *const shared = &own;
+    chart_3_1(p, known, shared, answers);
+    chart_3_2(p, known, shared, answers);
+    chart_3_3(p, known, shared, answers);
+    chart_3_4(p, known, shared, answers);
+    chart_3_5(p, known, shared, answers);
+}
+
+/* What the charts of block 2 share. */
 typedef struct {
     double r31;
-} Shared4;
+} Shared2;
 
-/* Chart 1 of block 4: generic.
+/* Chart 1 of block 2: generic.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r33 = shared->r31 * shared->r31 - 0.00042353640000000005;
     const double choice0_0[3] = {r33, 0.0, 1.0};
@@ -1936,12 +2351,12 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         next.last = 2 * known->last;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        block_5(p, &next, answers);
+        block_3(p, &next, answers);
     }
 }
 
-/* Block 4: KneePitch. */
-static void block_4(const Parameters *p, const Known *known, Answers *answers)
+/* Block 2: KneePitch. */
+static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r5 = p->left_py + 0.04519 * p->left_r23;
     const double r6 = p->left_pz + 0.04519 * p->left_r33;
@@ -1951,140 +2366,9 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r19 = r11 + r11 - (r16 + p->left_pz * p->left_pz) + 0.0020421361;
     const double r29 = r19 + (0.05 * (0.05 - r5) + -0.085 * (-0.085 - r6));
     const double r31 = 0.02058841 - (r29 - (0.05 * r5 + -0.085 * r6));
-    const Shared4 own = { r31 };
-    const Shared4 *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-}
-
-/* What the charts of block 3 share. */
-typedef struct {
-    double r71;
-    double r72;
-} Shared3;
-
-/* Chart 1 of block 3: generic.
- */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
-{
-    const double r73 = 0.0 - shared->r72;
-    const double r75 = 0.0 - (-0.0 - shared->r71);
-    const double r79 = sqrt(fmax(r75 * r75 + r73 * r73, 0.0));
-    const double left_c6 = r75 / r79;
-    const double left_s6 = r73 / r79;
-    Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.left_c6 = left_c6;
-    next.left_s6 = left_s6;
-    block_4(p, &next, answers);
-}
-
-/* Block 3: AnkleRoll. */
-static void block_3(const Parameters *p, const Known *known, Answers *answers)
-{
-    const double r0 = 0.7071067811865475 * known->left_s1;
-    const double r3 = 0.5 * p->left_r23 + -0.5 * p->left_r33;
-    const double r4 = 0.0 - r3;
-    const double r16 = (0.0 - (0.0 - p->left_r13)) * r0;
-    const double r20 = r3 + ((p->left_r23 - r3) * known->left_c1 + r16);
-    const double r21 = r4 + ((p->left_r33 - r4) * known->left_c1 + r16);
-    const double r29 = r20 * known->left_c2 + (0.0 - (0.0 - r21)) * known->left_s2;
-    const double r36 = 0.0 - p->left_r22;
-    const double r37 = 0.0 - p->left_r32;
-    const double r40 = 0.5 * r36 + -0.5 * r37;
-    const double r41 = 0.0 - r40;
-    const double r53 = (0.0 - (0.0 - (0.0 - p->left_r12))) * r0;
-    const double r60 = 0.0 - (r41 + ((r37 - r41) * known->left_c1 + r53));
-    const double r64 = (r40 + ((r36 - r40) * known->left_c1 + r53)) * known->left_c2;
-    const double r71 = 0.0 - (r64 + (0.0 - r60) * known->left_s2);
-    const double r72 = 0.0 - (0.0 - r29);
-    const Shared3 own = { r71, r72 };
-    const Shared3 *const shared = &own;
-    chart_3_1(p, known, shared, answers);
-}
-
-/* What the charts of block 2 share. */
-typedef struct {
-    double r25;
-    double r26;
-} Shared2;
-
-/* Chart 1 of block 2: generic.
- * It runs where A^2 + B^2 is not zero.
- */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
-{
-    const double r27 = shared->r25 * shared->r25;
-    const double r28 = shared->r26 * shared->r26;
-    const double r29 = r27 + r28;
-    if (!is_away(r29, 320000.0)) {
-        return;
-    }
-    const double choice0_0[3] = {0.0 - r27 - r28, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 5.656854249492381);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w2 = roots0.values[i0];
-        const double r35 = (0.0 - (0.0 - shared->r25 * left_w2)) / r29;
-        const double r38 = (0.0 - shared->r26 * left_w2) / r29;
-        const double r42 = sqrt(fmax(r38 * r38 + r35 * r35, 0.0));
-        const double left_c2 = r38 / r42;
-        const double left_s2 = r35 / r42;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.left_c2 = left_c2;
-        next.left_s2 = left_s2;
-        block_3(p, &next, answers);
-    }
-}
-
-/* Chart 2 of block 2: A = 0, B = 0, C = 0.
- * It runs where A^2 + B^2 is near zero.
- * Free: left_HipRoll.
- */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
-{
-    const double r29 = shared->r25 * shared->r25 + shared->r26 * shared->r26;
-    if (!is_near(r29, 3.2000000000000003e-6)) {
-        return;
-    }
-    static const double samples0[8][2] = {
-        { -0.9210609940028851, -0.3894183423086505 },
-        { -0.37592812418099103, -0.926648825310733 },
-        { 0.38941834230865047, -0.9210609940028851 },
-        { 0.926648825310733, -0.375928124180991 },
-        { 0.9210609940028851, 0.3894183423086505 },
-        { 0.37592812418099114, 0.926648825310733 },
-        { -0.38941834230865036, 0.9210609940028851 },
-        { -0.9266488253107329, 0.3759281241809912 },
-    };
-    for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c2 = samples0[i0][0];
-        const double left_s2 = samples0[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[1] = true;
-        next.left_c2 = left_c2;
-        next.left_s2 = left_s2;
-        block_3(p, &next, answers);
-    }
-}
-
-/* Block 2: HipRoll. */
-static void block_2(const Parameters *p, const Known *known, Answers *answers)
-{
-    const double r3 = 0.5 * p->left_r21 + -0.5 * p->left_r31;
-    const double r4 = 0.0 - r3;
-    const double r16 = (0.0 - (0.0 - p->left_r11)) * (0.7071067811865475 * known->left_s1);
-    const double r20 = r3 + ((p->left_r21 - r3) * known->left_c1 + r16);
-    const double r21 = r4 + ((p->left_r31 - r4) * known->left_c1 + r16);
-    const double r25 = 0.0 - r20;
-    const double r26 = 0.0 - (0.0 - (0.0 - r21));
-    const Shared2 own = { r25, r26 };
+    const Shared2 own = { r31 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
 }
 
 /* What the charts of block 1 share. */

@@ -263,27 +263,27 @@ struct Known {
     free: [bool; JOINTS],
     left_c1: f64,
     left_s1: f64,
-    left_c2: f64,
-    left_s2: f64,
-    left_c6: f64,
-    left_s6: f64,
     left_c4: f64,
     left_s4: f64,
-    left_c3: f64,
-    left_s3: f64,
+    left_c6: f64,
+    left_s6: f64,
     left_c5: f64,
     left_s5: f64,
-    right_c2: f64,
-    right_s2: f64,
-    right_c6: f64,
-    right_s6: f64,
+    left_c2: f64,
+    left_s2: f64,
+    left_c3: f64,
+    left_s3: f64,
     right_c4: f64,
     right_s4: f64,
-    right_c3: f64,
-    right_s3: f64,
+    right_c6: f64,
+    right_s6: f64,
+    right_c5: f64,
+    right_s5: f64,
+    right_c2: f64,
+    right_s2: f64,
 }
 
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, free: NONE_FREE, left_c1: 0.0, left_s1: 0.0, left_c2: 0.0, left_s2: 0.0, left_c6: 0.0, left_s6: 0.0, left_c4: 0.0, left_s4: 0.0, left_c3: 0.0, left_s3: 0.0, left_c5: 0.0, left_s5: 0.0, right_c2: 0.0, right_s2: 0.0, right_c6: 0.0, right_s6: 0.0, right_c4: 0.0, right_s4: 0.0, right_c3: 0.0, right_s3: 0.0 };
+const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, free: NONE_FREE, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c6: 0.0, left_s6: 0.0, left_c5: 0.0, left_s5: 0.0, left_c2: 0.0, left_s2: 0.0, left_c3: 0.0, left_s3: 0.0, right_c4: 0.0, right_s4: 0.0, right_c6: 0.0, right_s6: 0.0, right_c5: 0.0, right_s5: 0.0, right_c2: 0.0, right_s2: 0.0 };
 
 /// Block 1: HipYawPitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
@@ -486,111 +486,8 @@ fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     }
 }
 
-/// Block 2: HipRoll.
+/// Block 2: KneePitch.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = 0.5 * p.left_r21 + -0.5 * p.left_r31;
-    let r4 = 0.0 - r3;
-    let r16 = (0.0 - (0.0 - p.left_r11)) * (0.7071067811865475 * known.left_s1);
-    let r20 = r3 + ((p.left_r21 - r3) * known.left_c1 + r16);
-    let r21 = r4 + ((p.left_r31 - r4) * known.left_c1 + r16);
-    let r25 = 0.0 - r20;
-    let r26 = 0.0 - (0.0 - (0.0 - r21));
-    let shared = &Shared2 { r25, r26 };
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
-}
-
-/// What the charts of block 2 share.
-struct Shared2 {
-    r25: f64,
-    r26: f64,
-}
-
-/// Chart 1 of block 2: generic.
-/// It runs where A^2 + B^2 is not zero.
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r27 = shared.r25 * shared.r25;
-    let r28 = shared.r26 * shared.r26;
-    let r29 = r27 + r28;
-    if !is_away(r29, 320000.0) {
-        return;
-    }
-    let roots0 = real_roots(&[0.0 - r27 - r28, 0.0, 1.0], 5.656854249492381);
-    for (i0, &left_w2) in roots0.as_slice().iter().enumerate() {
-        let r35 = (0.0 - (0.0 - shared.r25 * left_w2)) / r29;
-        let r38 = (0.0 - shared.r26 * left_w2) / r29;
-        let r42 = f64::max(r38 * r38 + r35 * r35, 0.0).sqrt();
-        let left_c2 = r38 / r42;
-        let left_s2 = r35 / r42;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, left_c2, left_s2, ..*known };
-        block_3(p, &next, answers);
-    }
-}
-
-/// Chart 2 of block 2: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: left_HipRoll.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r29 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
-    if !is_near(r29, 3.2000000000000003e-6) {
-        return;
-    }
-    for [left_c2, left_s2] in [
-        [-0.9210609940028851, -0.3894183423086505],
-        [-0.37592812418099103, -0.926648825310733],
-        [0.38941834230865047, -0.9210609940028851],
-        [0.926648825310733, -0.375928124180991],
-        [0.9210609940028851, 0.3894183423086505],
-        [0.37592812418099114, 0.926648825310733],
-        [-0.38941834230865036, 0.9210609940028851],
-        [-0.9266488253107329, 0.3759281241809912],
-    ] {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, free: [known.free[0], true, known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10]], left_c2, left_s2, ..*known };
-        block_3(p, &next, answers);
-    }
-}
-
-/// Block 3: AnkleRoll.
-fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s1;
-    let r3 = 0.5 * p.left_r23 + -0.5 * p.left_r33;
-    let r4 = 0.0 - r3;
-    let r16 = (0.0 - (0.0 - p.left_r13)) * r0;
-    let r20 = r3 + ((p.left_r23 - r3) * known.left_c1 + r16);
-    let r21 = r4 + ((p.left_r33 - r4) * known.left_c1 + r16);
-    let r29 = r20 * known.left_c2 + (0.0 - (0.0 - r21)) * known.left_s2;
-    let r36 = 0.0 - p.left_r22;
-    let r37 = 0.0 - p.left_r32;
-    let r40 = 0.5 * r36 + -0.5 * r37;
-    let r41 = 0.0 - r40;
-    let r53 = (0.0 - (0.0 - (0.0 - p.left_r12))) * r0;
-    let r60 = 0.0 - (r41 + ((r37 - r41) * known.left_c1 + r53));
-    let r64 = (r40 + ((r36 - r40) * known.left_c1 + r53)) * known.left_c2;
-    let r71 = 0.0 - (r64 + (0.0 - r60) * known.left_s2);
-    let r72 = 0.0 - (0.0 - r29);
-    let shared = &Shared3 { r71, r72 };
-    chart_3_1(p, known, shared, answers);
-}
-
-/// What the charts of block 3 share.
-struct Shared3 {
-    r71: f64,
-    r72: f64,
-}
-
-/// Chart 1 of block 3: generic.
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r73 = 0.0 - shared.r72;
-    let r75 = 0.0 - (-0.0 - shared.r71);
-    let r79 = f64::max(r75 * r75 + r73 * r73, 0.0).sqrt();
-    let left_c6 = r75 / r79;
-    let left_s6 = r73 / r79;
-    let next = Known { branch: known.branch, last: known.last, left_c6, left_s6, ..*known };
-    block_4(p, &next, answers);
-}
-
-/// Block 4: KneePitch.
-fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r5 = p.left_py + 0.04519 * p.left_r23;
     let r6 = p.left_pz + 0.04519 * p.left_r33;
     let r7 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
@@ -599,17 +496,17 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r19 = r11 + r11 - (r16 + p.left_pz * p.left_pz) + 0.0020421361;
     let r29 = r19 + (0.05 * (0.05 - r5) + -0.085 * (-0.085 - r6));
     let r31 = 0.02058841 - (r29 - (0.05 * r5 + -0.085 * r6));
-    let shared = &Shared4 { r31 };
-    chart_4_1(p, known, shared, answers);
+    let shared = &Shared2 { r31 };
+    chart_2_1(p, known, shared, answers);
 }
 
-/// What the charts of block 4 share.
-struct Shared4 {
+/// What the charts of block 2 share.
+struct Shared2 {
     r31: f64,
 }
 
-/// Chart 1 of block 4: generic.
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+/// Chart 1 of block 2: generic.
+fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r33 = shared.r31 * shared.r31 - 0.00042353640000000005;
     let roots0 = real_roots(&[r33, 0.0, 1.0], 1.4142135623730951);
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
@@ -619,76 +516,106 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         let left_c4 = r40 / r44;
         let left_s4 = r37 / r44;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, left_c4, left_s4, ..*known };
-        block_5(p, &next, answers);
+        block_3(p, &next, answers);
     }
 }
 
-/// Block 5: HipPitch.
-fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+/// Block 3: AnkleRoll.
+fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = 0.7071067811865475 * known.left_s1;
-    let r1 = -0.1029 * known.left_s4;
-    let r9 = p.left_px + 0.04519 * p.left_r13;
-    let r12 = p.left_py + 0.04519 * p.left_r23 - 0.05;
-    let r13 = p.left_pz + 0.04519 * p.left_r33 + 0.085;
-    let r16 = 0.5 * r12 + -0.5 * r13;
-    let r17 = 0.0 - r16;
-    let r27 = r9 * known.left_c1 + (0.0 - (r13 - (0.0 - r12))) * r0;
-    let r29 = (0.0 - (0.0 - r9)) * r0;
-    let r35 = r16 + ((r12 - r16) * known.left_c1 + r29) + 0.05;
-    let r36 = r17 + ((r13 - r17) * known.left_c1 + r29) - 0.085;
-    let r38 = 0.0 - (-0.1029 * known.left_c4 - 0.185 + 0.085);
-    let r52 = (r36 + 0.085) * known.left_c2 + (0.0 - (r35 - 0.05)) * known.left_s2;
-    let r58 = 0.0 - (0.0 - r27);
-    let r59 = 0.0 - (0.085 - (0.0 - (r52 - 0.085)));
-    let r60 = p.magnitude + 0.72099;
-    let r61 = r60 + 0.05;
-    let r62 = r60 + 0.085;
-    let r65 = 0.5 * r61 + 0.5 * r62;
-    let r80 = r65 + (r62 + r65 + r60) + 0.085 + 0.085 + (r65 + (r61 + r65 + r60) + 0.05 + 0.05);
-    let r87 = f64::abs(0.0 - (r60 + (r62 + r61)));
-    let r88 = f64::abs(0.0 - (r80 + 0.085 + 0.085));
-    let shared = &Shared5 { r1, r38, r58, r59, r87, r88 };
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
+    let r1 = 0.0 - p.left_r13;
+    let r2 = 0.0 - p.left_r23;
+    let r3 = 0.0 - p.left_r33;
+    let r10 = p.left_px * p.left_r12 + p.left_py * p.left_r22;
+    let r13 = p.left_px * r1 + p.left_py * r2 + p.left_pz * r3;
+    let r21 = 0.05 * p.left_r22 + -0.085 * p.left_r32 - (r10 + p.left_pz * p.left_r32);
+    let r23 = 0.0 - r21;
+    let r24 = 0.0 - (0.05 * r2 + -0.085 * r3 - (r13 - 0.04519));
+    let r49 = (0.0 - (p.left_r32 - (0.0 - p.left_r22))) * r0;
+    let r52 = r1 * known.left_c1 + (0.0 - (r3 - (0.0 - r2))) * r0;
+    let r67 = 0.0 - (p.left_r12 * known.left_c1 + r49);
+    let r68 = 0.0 - r52;
+    let r70 = p.magnitude + p.magnitude + p.magnitude;
+    let r75 = f64::abs(r70 + 0.1 + 0.135);
+    let r76 = f64::abs(r70 + 0.62099 + 0.135);
+    let r77 = r23 * r68;
+    let r78 = r24 * r67;
+    let r79 = r77 - r78;
+    let r80 = 3.0 * r75;
+    let r81 = 3.0 * r76;
+    let r83 = 0.001 * (r80 + r81);
+    let shared = &Shared3 { r23, r24, r67, r68, r75, r76, r77, r78, r79, r80, r81, r83 };
+    chart_3_1(p, known, shared, answers);
+    chart_3_2(p, known, shared, answers);
+    chart_3_3(p, known, shared, answers);
+    chart_3_4(p, known, shared, answers);
+    chart_3_5(p, known, shared, answers);
 }
 
-/// What the charts of block 5 share.
-struct Shared5 {
-    r1: f64,
-    r38: f64,
-    r58: f64,
-    r59: f64,
-    r87: f64,
-    r88: f64,
+/// What the charts of block 3 share.
+struct Shared3 {
+    r23: f64,
+    r24: f64,
+    r67: f64,
+    r68: f64,
+    r75: f64,
+    r76: f64,
+    r77: f64,
+    r78: f64,
+    r79: f64,
+    r80: f64,
+    r81: f64,
+    r83: f64,
 }
 
-/// Chart 1 of block 5: generic.
-/// It runs where A^2 + B^2 is not zero.
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r91 = shared.r1 * shared.r1 + shared.r38 * shared.r38;
-    if !is_away(r91, 7755.348199999999) {
+/// Chart 1 of block 3: generic.
+/// It runs where B*E - A*F is not zero.
+fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+    let r84 = shared.r78 - shared.r77;
+    if !is_away(r84, 10000.0 * (shared.r81 + shared.r80)) {
         return;
     }
-    let r94 = shared.r38 * shared.r58 - shared.r1 * shared.r59;
-    let r96 = (0.0 - r94) / r91;
-    let r100 = 0.0 - shared.r1 * shared.r58 - shared.r38 * shared.r59;
-    let r102 = (0.0 - r100) / r91;
-    let r106 = f64::max(r102 * r102 + r96 * r96, 0.0).sqrt();
-    let left_c3 = r102 / r106;
-    let left_s3 = r96 / r106;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, left_c3, left_s3, ..*known };
-    block_6(p, &next, answers);
+    let r87 = -0.0 / r84;
+    let r88 = r87 * r87;
+    let r91 = r87 / f64::max(r88 + r88, 0.0).sqrt();
+    let left_c6 = r91;
+    let left_s6 = r91;
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, left_c6, left_s6, ..*known };
+    block_4(p, &next, answers);
 }
 
-/// Chart 2 of block 5: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: left_HipPitch.
-fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r91 = shared.r1 * shared.r1 + shared.r38 * shared.r38;
-    if !(is_near(r91, 7.755348200000001e-8) && is_near(shared.r59, 0.01 * shared.r88) && is_near(shared.r58, 0.01 * shared.r87)) {
+/// Chart 2 of block 3: generic.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+    let r84 = shared.r23 * shared.r23;
+    let r85 = shared.r24 * shared.r24;
+    let r86 = r84 + r85;
+    let r89 = shared.r75 * shared.r75 + shared.r76 * shared.r76;
+    if !(is_near(shared.r79, shared.r83) && is_away(r86, 10000.0 * r89)) {
         return;
     }
-    for [left_c3, left_s3] in [
+    let roots0 = real_roots(&[0.0 - r84 - r85, 0.0, 1.0], f64::max(r89, 0.0).sqrt());
+    for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
+        let r97 = (0.0 - (0.0 - shared.r23 * left_w6)) / r86;
+        let r100 = (0.0 - shared.r24 * left_w6) / r86;
+        let r104 = f64::max(r100 * r100 + r97 * r97, 0.0).sqrt();
+        let left_c6 = r100 / r104;
+        let left_s6 = r97 / r104;
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, left_c6, left_s6, ..*known };
+        block_4(p, &next, answers);
+    }
+}
+
+/// Chart 3 of block 3: A = 0, B = 0, C = 0.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+/// Free: left_AnkleRoll.
+fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+    let r86 = shared.r23 * shared.r23 + shared.r24 * shared.r24;
+    let r89 = shared.r75 * shared.r75 + shared.r76 * shared.r76;
+    if !(is_near(shared.r79, shared.r83) && is_near(r86, 1.0000000000000001e-7 * r89)) {
+        return;
+    }
+    for [left_c6, left_s6] in [
         [-0.9210609940028851, -0.3894183423086505],
         [-0.37592812418099103, -0.926648825310733],
         [0.38941834230865047, -0.9210609940028851],
@@ -698,154 +625,242 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
         [-0.38941834230865036, 0.9210609940028851],
         [-0.9266488253107329, 0.3759281241809912],
     ] {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], true, known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10]], left_c3, left_s3, ..*known };
-        block_6(p, &next, answers);
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], true, known.free[6], known.free[7], known.free[8], known.free[9], known.free[10]], left_c6, left_s6, ..*known };
+        block_4(p, &next, answers);
     }
 }
 
-/// Block 6: AnklePitch.
+/// Chart 4 of block 3: generic.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+    let r84 = shared.r67 * shared.r67;
+    let r85 = shared.r68 * shared.r68;
+    let r86 = r84 + r85;
+    if !(is_near(shared.r79, shared.r83) && is_away(r86, 180000.0)) {
+        return;
+    }
+    let roots0 = real_roots(&[0.0 - r84 - r85, 0.0, 1.0], 4.242640687119285);
+    for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
+        let r92 = (0.0 - (0.0 - shared.r67 * left_w6)) / r86;
+        let r95 = (0.0 - shared.r68 * left_w6) / r86;
+        let r99 = f64::max(r95 * r95 + r92 * r92, 0.0).sqrt();
+        let left_c6 = r95 / r99;
+        let left_s6 = r92 / r99;
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, left_c6, left_s6, ..*known };
+        block_4(p, &next, answers);
+    }
+}
+
+/// Chart 5 of block 3: A = 0, B = 0, C = 0.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+/// Free: left_AnkleRoll.
+fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+    let r86 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
+    if !(is_near(shared.r79, shared.r83) && is_near(r86, 1.8000000000000001e-6)) {
+        return;
+    }
+    for [left_c6, left_s6] in [
+        [-0.9210609940028851, -0.3894183423086505],
+        [-0.37592812418099103, -0.926648825310733],
+        [0.38941834230865047, -0.9210609940028851],
+        [0.926648825310733, -0.375928124180991],
+        [0.9210609940028851, 0.3894183423086505],
+        [0.37592812418099114, 0.926648825310733],
+        [-0.38941834230865036, 0.9210609940028851],
+        [-0.9266488253107329, 0.3759281241809912],
+    ] {
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], true, known.free[6], known.free[7], known.free[8], known.free[9], known.free[10]], left_c6, left_s6, ..*known };
+        block_4(p, &next, answers);
+    }
+}
+
+/// Block 4: AnklePitch.
+fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let r1 = 0.1029 * known.left_s6;
+    let r2 = 0.1029 * known.left_c6;
+    let r3 = 0.05 * r1;
+    let r5 = r3 + -0.2879 * r2;
+    let r12 = -0.1029 * p.left_r21;
+    let r16 = r1 * p.left_r22 + r2 * p.left_r23;
+    let r17 = -0.1029 * p.left_r31;
+    let r21 = r1 * p.left_r32 + r2 * p.left_r33;
+    let r23 = p.left_py + 0.04519 * p.left_r23;
+    let r24 = p.left_pz + 0.04519 * p.left_r33;
+    let r26 = r3 + -0.33309 * r2;
+    let r29 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
+    let r30 = p.left_px * (r1 * p.left_r12 + r2 * p.left_r13);
+    let r40 = p.left_px * (-0.1029 * p.left_r11) + p.left_py * r12;
+    let r41 = r29 + p.left_py * r23 + p.left_pz * r24;
+    let r42 = r30 + p.left_py * r16 + p.left_pz * r21;
+    let r43 = r40 + p.left_pz * r17;
+    let r50 = p.left_px * p.left_px + p.left_py * p.left_py;
+    let r53 = r41 + r41 - (r50 + p.left_pz * p.left_pz) + 0.0126305461;
+    let r70 = 0.05 * (0.05 - r23) + -0.085 * (-0.085 - r24);
+    let r83 = r5 + r5 - (r26 + r26) + (r42 + r42) + (0.05 * (0.0 - r16) + -0.085 * (0.0 - r21));
+    let r84 = r43 + r43 + (0.05 * (0.0 - r12) + -0.085 * (0.0 - r17));
+    let r88 = 0.01 - (r53 + r70 - (0.05 * r23 + -0.085 * r24));
+    let r89 = 0.0 - (r83 - (0.05 * r16 + -0.085 * r21));
+    let r94 = -0.085 * known.left_s4 - -0.185 * known.left_s4;
+    let r136 = 0.0 - (0.0 - (r84 - (0.05 * r12 + -0.085 * r17)));
+    let r137 = 0.0 - r88;
+    let r138 = -0.2058 * r94;
+    let r139 = p.magnitude + 2.27259;
+    let r140 = p.magnitude * r139;
+    let r141 = 1.3458 * p.magnitude;
+    let r142 = 1.4187 * p.magnitude;
+    let r146 = r140 + r140 + r140;
+    let r147 = r141 + r141 + r141;
+    let r148 = r142 + r142 + r142;
+    let r152 = p.magnitude * p.magnitude;
+    let r156 = r146 + r146 + (r152 + r152 + r152) + 2.4510423541;
+    let r162 = 0.05 * (r139 + 0.05) + 0.085 * (r139 + 0.085);
+    let r170 = r147 + r147 + 1.554899982 + 0.181683 + 0.181683;
+    let r172 = r156 + r162 + (0.05 * r139 + 0.085 * r139) + 0.0829;
+    let r184 = f64::abs(r170);
+    let r185 = f64::abs(0.0 - (r148 + r148 + 0.1915245 + 0.1915245));
+    let r186 = f64::abs(0.0 - r172);
+    let shared = &Shared4 { r89, r136, r137, r138, r184, r185, r186 };
+    chart_4_1(p, known, shared, answers);
+    chart_4_2(p, known, shared, answers);
+}
+
+/// What the charts of block 4 share.
+struct Shared4 {
+    r89: f64,
+    r136: f64,
+    r137: f64,
+    r138: f64,
+    r184: f64,
+    r185: f64,
+    r186: f64,
+}
+
+/// Chart 1 of block 4: generic.
+/// It runs where A^2 + B^2 is not zero.
+fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+    let r189 = shared.r89 * shared.r89 + shared.r136 * shared.r136;
+    let r192 = shared.r184 * shared.r184 + shared.r185 * shared.r185;
+    if !is_away(r189, 10000.0 * r192) {
+        return;
+    }
+    let r196 = shared.r136 * shared.r137 - shared.r89 * shared.r138;
+    let r198 = (0.0 - r196) / r189;
+    let r202 = 0.0 - shared.r89 * shared.r137 - shared.r136 * shared.r138;
+    let r204 = (0.0 - r202) / r189;
+    let r208 = f64::max(r204 * r204 + r198 * r198, 0.0).sqrt();
+    let left_c5 = r204 / r208;
+    let left_s5 = r198 / r208;
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, left_c5, left_s5, ..*known };
+    block_5(p, &next, answers);
+}
+
+/// Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
+/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
+/// Free: left_AnklePitch.
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+    let r189 = shared.r89 * shared.r89 + shared.r136 * shared.r136;
+    let r192 = shared.r184 * shared.r184 + shared.r185 * shared.r185;
+    if !(is_near(r189, 1.0000000000000001e-7 * r192) && is_near(shared.r138, 0.00055566) && is_near(shared.r137, 0.01 * shared.r186)) {
+        return;
+    }
+    for [left_c5, left_s5] in [
+        [-0.9210609940028851, -0.3894183423086505],
+        [-0.37592812418099103, -0.926648825310733],
+        [0.38941834230865047, -0.9210609940028851],
+        [0.926648825310733, -0.375928124180991],
+        [0.9210609940028851, 0.3894183423086505],
+        [0.37592812418099114, 0.926648825310733],
+        [-0.38941834230865036, 0.9210609940028851],
+        [-0.9266488253107329, 0.3759281241809912],
+    ] {
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], true, known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10]], left_c5, left_s5, ..*known };
+        block_5(p, &next, answers);
+    }
+}
+
+/// Block 5: HipRoll.
+fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let r1 = 0.0 - known.left_s6;
+    let r7 = known.left_c6 * p.left_r22 + r1 * p.left_r23;
+    let r10 = known.left_c6 * p.left_r32 + r1 * p.left_r33;
+    let r13 = 0.5 * r7 + -0.5 * r10;
+    let r14 = 0.0 - r13;
+    let r19 = 0.0 - (known.left_c6 * p.left_r12 + r1 * p.left_r13);
+    let r26 = (0.0 - r19) * (0.7071067811865475 * known.left_s1);
+    let r32 = 0.0 - (r14 + ((r10 - r14) * known.left_c1 + r26));
+    let r33 = 0.0 - (r13 + ((r7 - r13) * known.left_c1 + r26));
+    let r35 = 0.0 - r32;
+    let r36 = 0.0 - (0.0 - r33);
+    let shared = &Shared5 { r35, r36 };
+    chart_5_1(p, known, shared, answers);
+}
+
+/// What the charts of block 5 share.
+struct Shared5 {
+    r35: f64,
+    r36: f64,
+}
+
+/// Chart 1 of block 5: generic.
+fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+    let r38 = 0.0 - (0.0 - shared.r35);
+    let r41 = 0.0 - (-0.0 - (0.0 - shared.r36));
+    let r45 = f64::max(r41 * r41 + r38 * r38, 0.0).sqrt();
+    let left_c2 = r41 / r45;
+    let left_s2 = r38 / r45;
+    let next = Known { branch: known.branch, last: known.last, left_c2, left_s2, ..*known };
+    block_6(p, &next, answers);
+}
+
+/// Block 6: HipPitch.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = 0.7071067811865475 * known.left_s1;
-    let r3 = 0.5 * p.left_r21 + -0.5 * p.left_r31;
-    let r4 = 0.0 - r3;
-    let r13 = (0.0 - (p.left_r31 - (0.0 - p.left_r21))) * r0;
-    let r14 = p.left_r11 * known.left_c1 + r13;
-    let r16 = (0.0 - (0.0 - p.left_r11)) * r0;
-    let r20 = r3 + ((p.left_r21 - r3) * known.left_c1 + r16);
-    let r21 = r4 + ((p.left_r31 - r4) * known.left_c1 + r16);
-    let r32 = r21 * known.left_c2 + (0.0 - r20) * known.left_s2;
-    let r33 = r14 + (r14 - r14) * known.left_c2;
-    let r40 = r33 * known.left_c3 + (0.0 - r32) * known.left_s3;
-    let r44 = r32 * known.left_c3 + (0.0 - (0.0 - r33)) * known.left_s3;
-    let r52 = r40 * known.left_c4 + (0.0 - r44) * known.left_s4;
-    let r56 = r44 * known.left_c4 + (0.0 - (0.0 - r40)) * known.left_s4;
-    let r62 = 0.0 - (0.0 - (0.0 - r56));
-    let r63 = 0.0 - (0.0 - (0.0 - r52));
-    let shared = &Shared6 { r62, r63 };
+    let r1 = -0.1029 * known.left_s5;
+    let r4 = 0.1029 * known.left_c5 - 0.2879 + 0.2879;
+    let r11 = r1 + (r1 - r1) * known.left_c6;
+    let r14 = (0.0 - (0.0 - r4)) * known.left_s6 + 0.05 - 0.05;
+    let r15 = r4 * known.left_c6 - 0.2879 + 0.33309;
+    let r20 = r11 * p.left_r11 + r14 * p.left_r12 + r15 * p.left_r13;
+    let r25 = r11 * p.left_r21 + r14 * p.left_r22 + r15 * p.left_r23;
+    let r30 = r11 * p.left_r31 + r14 * p.left_r32 + r15 * p.left_r33;
+    let r43 = p.left_pz + r30 + 0.085 - (0.0 - (p.left_py + r25 - 0.05));
+    let r49 = (p.left_px + r20) * known.left_c1 + (0.0 - r43) * r0;
+    let r60 = 0.0 - known.left_c4;
+    let r61 = 0.0 - known.left_s4;
+    let r67 = r60 * known.left_c5 + (0.0 - r61) * known.left_s5;
+    let r70 = r61 * known.left_c5 + (0.0 - (0.0 - r60)) * known.left_s5;
+    let r75 = (0.0 - (0.0 - r70)) * known.left_s6;
+    let r76 = r70 * known.left_c6;
+    let r77 = r67 + (r67 - r67) * known.left_c6;
+    let r82 = r77 * p.left_r11 + r75 * p.left_r12 + r76 * p.left_r13;
+    let r87 = r77 * p.left_r21 + r75 * p.left_r22 + r76 * p.left_r23;
+    let r92 = r77 * p.left_r31 + r75 * p.left_r32 + r76 * p.left_r33;
+    let r106 = r82 * known.left_c1 + (0.0 - (r92 - (0.0 - r87))) * r0;
+    let r115 = 0.0 - (0.0 - r49);
+    let r116 = 0.1 * (0.0 - r106);
+    let shared = &Shared6 { r115, r116 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r62: f64,
-    r63: f64,
+    r115: f64,
+    r116: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r65 = 0.0 - (0.0 - shared.r62);
-    let r68 = 0.0 - (-0.0 - (0.0 - shared.r63));
-    let r72 = f64::max(r68 * r68 + r65 * r65, 0.0).sqrt();
-    let left_c5 = r68 / r72;
-    let left_s5 = r65 / r72;
-    let next = Known { branch: known.branch, last: known.last, left_c5, left_s5, ..*known };
+    let r137 = (0.0 - 0.1 * shared.r115) / 0.010000000000000002;
+    let r141 = (0.0 - (-0.0 - 0.1 * shared.r116)) / 0.010000000000000002;
+    let r145 = f64::max(r141 * r141 + r137 * r137, 0.0).sqrt();
+    let left_c3 = r141 / r145;
+    let left_s3 = r137 / r145;
+    let next = Known { branch: known.branch, last: known.last, left_c3, left_s3, ..*known };
     block_7(p, &next, answers);
 }
 
-/// Block 7: HipRoll.
+/// Block 7: KneePitch.
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s1;
-    let r3 = 0.5 * p.right_r21 + 0.5 * p.right_r31;
-    let r7 = 0.0 - p.right_r11;
-    let r18 = (p.right_r31 - r3) * known.left_c1 + (0.0 - r7) * r0;
-    let r19 = r3 + ((p.right_r21 - r3) * known.left_c1 + r7 * r0);
-    let r24 = 0.0 - r19;
-    let r25 = 0.0 - (0.0 - (0.0 - (r3 + r18)));
-    let shared = &Shared7 { r24, r25 };
-    chart_7_1(p, known, shared, answers);
-    chart_7_2(p, known, shared, answers);
-}
-
-/// What the charts of block 7 share.
-struct Shared7 {
-    r24: f64,
-    r25: f64,
-}
-
-/// Chart 1 of block 7: generic.
-/// It runs where A^2 + B^2 is not zero.
-fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r26 = shared.r24 * shared.r24;
-    let r27 = shared.r25 * shared.r25;
-    let r28 = r26 + r27;
-    if !is_away(r28, 320000.0) {
-        return;
-    }
-    let roots0 = real_roots(&[0.0 - r26 - r27, 0.0, 1.0], 5.656854249492381);
-    for (i0, &right_w2) in roots0.as_slice().iter().enumerate() {
-        let r34 = (0.0 - (0.0 - shared.r24 * right_w2)) / r28;
-        let r37 = (0.0 - shared.r25 * right_w2) / r28;
-        let r41 = f64::max(r37 * r37 + r34 * r34, 0.0).sqrt();
-        let right_c2 = r37 / r41;
-        let right_s2 = r34 / r41;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, right_c2, right_s2, ..*known };
-        block_8(p, &next, answers);
-    }
-}
-
-/// Chart 2 of block 7: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: right_HipRoll.
-fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r28 = shared.r24 * shared.r24 + shared.r25 * shared.r25;
-    if !is_near(r28, 3.2000000000000003e-6) {
-        return;
-    }
-    for [right_c2, right_s2] in [
-        [-0.9210609940028851, -0.3894183423086505],
-        [-0.37592812418099103, -0.926648825310733],
-        [0.38941834230865047, -0.9210609940028851],
-        [0.926648825310733, -0.375928124180991],
-        [0.9210609940028851, 0.3894183423086505],
-        [0.37592812418099114, 0.926648825310733],
-        [-0.38941834230865036, 0.9210609940028851],
-        [-0.9266488253107329, 0.3759281241809912],
-    ] {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], true, known.free[7], known.free[8], known.free[9], known.free[10]], right_c2, right_s2, ..*known };
-        block_8(p, &next, answers);
-    }
-}
-
-/// Block 8: AnkleRoll.
-fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s1;
-    let r3 = 0.5 * p.right_r23 + 0.5 * p.right_r33;
-    let r7 = 0.0 - p.right_r13;
-    let r18 = (p.right_r33 - r3) * known.left_c1 + (0.0 - r7) * r0;
-    let r19 = r3 + ((p.right_r23 - r3) * known.left_c1 + r7 * r0);
-    let r28 = r19 * known.right_c2 + (0.0 - (0.0 - (r3 + r18))) * known.right_s2;
-    let r35 = 0.0 - p.right_r22;
-    let r36 = 0.0 - p.right_r32;
-    let r39 = 0.5 * r35 + 0.5 * r36;
-    let r43 = 0.0 - (0.0 - p.right_r12);
-    let r54 = (r36 - r39) * known.left_c1 + (0.0 - r43) * r0;
-    let r55 = r39 + ((r35 - r39) * known.left_c1 + r43 * r0);
-    let r64 = r55 * known.right_c2 + (0.0 - (0.0 - (r39 + r54))) * known.right_s2;
-    let r69 = 0.0 - r64;
-    let r70 = 0.0 - (0.0 - r28);
-    let shared = &Shared8 { r69, r70 };
-    chart_8_1(p, known, shared, answers);
-}
-
-/// What the charts of block 8 share.
-struct Shared8 {
-    r69: f64,
-    r70: f64,
-}
-
-/// Chart 1 of block 8: generic.
-fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r71 = 0.0 - shared.r70;
-    let r73 = 0.0 - (-0.0 - shared.r69);
-    let r77 = f64::max(r73 * r73 + r71 * r71, 0.0).sqrt();
-    let right_c6 = r73 / r77;
-    let right_s6 = r71 / r77;
-    let next = Known { branch: known.branch, last: known.last, right_c6, right_s6, ..*known };
-    block_9(p, &next, answers);
-}
-
-/// Block 9: KneePitch.
-fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r5 = p.right_py + 0.04519 * p.right_r23;
     let r6 = p.right_pz + 0.04519 * p.right_r33;
     let r7 = p.right_px * (p.right_px + 0.04519 * p.right_r13);
@@ -854,17 +869,17 @@ fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r19 = r11 + r11 - (r16 + p.right_pz * p.right_pz) + 0.0020421361;
     let r25 = -0.05 * (-0.05 - r5) + -0.085 * (-0.085 - r6);
     let r31 = 0.02058841 - (r19 + r25 - (-0.05 * r5 + -0.085 * r6));
-    let shared = &Shared9 { r31 };
-    chart_9_1(p, known, shared, answers);
+    let shared = &Shared7 { r31 };
+    chart_7_1(p, known, shared, answers);
 }
 
-/// What the charts of block 9 share.
-struct Shared9 {
+/// What the charts of block 7 share.
+struct Shared7 {
     r31: f64,
 }
 
-/// Chart 1 of block 9: generic.
-fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
+/// Chart 1 of block 7: generic.
+fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
     let r33 = shared.r31 * shared.r31 - 0.00042353640000000005;
     let roots0 = real_roots(&[r33, 0.0, 1.0], 1.4142135623730951);
     for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
@@ -874,75 +889,105 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
         let right_c4 = r40 / r44;
         let right_s4 = r37 / r44;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, right_c4, right_s4, ..*known };
-        block_10(p, &next, answers);
+        block_8(p, &next, answers);
     }
 }
 
-/// Block 10: HipPitch.
-fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+/// Block 8: AnkleRoll.
+fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = 0.7071067811865475 * known.left_s1;
-    let r1 = -0.1029 * known.right_s4;
-    let r9 = p.right_px + 0.04519 * p.right_r13;
-    let r12 = p.right_py + 0.04519 * p.right_r23 + 0.05;
-    let r13 = p.right_pz + 0.04519 * p.right_r33 + 0.085;
-    let r16 = 0.5 * r12 + 0.5 * r13;
-    let r20 = 0.0 - r9;
-    let r25 = r9 * known.left_c1 + (0.0 - (r13 - r12)) * r0;
-    let r31 = (r13 - r16) * known.left_c1 + (0.0 - r20) * r0;
-    let r32 = r16 + ((r12 - r16) * known.left_c1 + r20 * r0);
-    let r37 = 0.0 - (-0.1029 * known.right_c4 - 0.185 + 0.085);
-    let r51 = (r16 + r31 - 0.085 + 0.085) * known.right_c2 + (0.0 - (r32 - 0.05 + 0.05)) * known.right_s2;
-    let r57 = 0.0 - (0.0 - r25);
-    let r58 = 0.0 - (0.085 - (0.0 - (r51 - 0.085)));
-    let r59 = p.magnitude + 0.72099;
-    let r60 = r59 + 0.05;
-    let r61 = r59 + 0.085;
-    let r64 = 0.5 * r60 + 0.5 * r61;
-    let r79 = r64 + (r61 + r64 + r59) + 0.085 + 0.085 + (r64 + (r60 + r64 + r59) + 0.05 + 0.05);
-    let r86 = f64::abs(0.0 - (r59 + (r61 + r60)));
-    let r87 = f64::abs(0.0 - (r79 + 0.085 + 0.085));
-    let shared = &Shared10 { r1, r37, r57, r58, r86, r87 };
-    chart_10_1(p, known, shared, answers);
-    chart_10_2(p, known, shared, answers);
+    let r1 = 0.0 - p.right_r13;
+    let r2 = 0.0 - p.right_r23;
+    let r3 = 0.0 - p.right_r33;
+    let r10 = p.right_px * p.right_r12 + p.right_py * p.right_r22;
+    let r13 = p.right_px * r1 + p.right_py * r2 + p.right_pz * r3;
+    let r21 = -0.05 * p.right_r22 + -0.085 * p.right_r32 - (r10 + p.right_pz * p.right_r32);
+    let r23 = 0.0 - r21;
+    let r24 = 0.0 - (-0.05 * r2 + -0.085 * r3 - (r13 - 0.04519));
+    let r47 = p.right_r12 * known.left_c1 + (0.0 - (p.right_r32 - p.right_r22)) * r0;
+    let r65 = 0.0 - r47;
+    let r66 = 0.0 - (r1 * known.left_c1 + (0.0 - (r3 - r2)) * r0);
+    let r68 = p.magnitude + p.magnitude + p.magnitude;
+    let r73 = f64::abs(r68 + 0.1 + 0.135);
+    let r74 = f64::abs(r68 + 0.62099 + 0.135);
+    let r75 = r23 * r66;
+    let r76 = r24 * r65;
+    let r77 = r75 - r76;
+    let r78 = 3.0 * r73;
+    let r79 = 3.0 * r74;
+    let r81 = 0.001 * (r78 + r79);
+    let shared = &Shared8 { r23, r24, r65, r66, r73, r74, r75, r76, r77, r78, r79, r81 };
+    chart_8_1(p, known, shared, answers);
+    chart_8_2(p, known, shared, answers);
+    chart_8_3(p, known, shared, answers);
+    chart_8_4(p, known, shared, answers);
+    chart_8_5(p, known, shared, answers);
 }
 
-/// What the charts of block 10 share.
-struct Shared10 {
-    r1: f64,
-    r37: f64,
-    r57: f64,
-    r58: f64,
-    r86: f64,
-    r87: f64,
+/// What the charts of block 8 share.
+struct Shared8 {
+    r23: f64,
+    r24: f64,
+    r65: f64,
+    r66: f64,
+    r73: f64,
+    r74: f64,
+    r75: f64,
+    r76: f64,
+    r77: f64,
+    r78: f64,
+    r79: f64,
+    r81: f64,
 }
 
-/// Chart 1 of block 10: generic.
-/// It runs where A^2 + B^2 is not zero.
-fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r90 = shared.r1 * shared.r1 + shared.r37 * shared.r37;
-    if !is_away(r90, 7755.348199999999) {
+/// Chart 1 of block 8: generic.
+/// It runs where B*E - A*F is not zero.
+fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+    let r82 = shared.r76 - shared.r75;
+    if !is_away(r82, 10000.0 * (shared.r79 + shared.r78)) {
         return;
     }
-    let r93 = shared.r37 * shared.r57 - shared.r1 * shared.r58;
-    let r95 = (0.0 - r93) / r90;
-    let r99 = 0.0 - shared.r1 * shared.r57 - shared.r37 * shared.r58;
-    let r101 = (0.0 - r99) / r90;
-    let r105 = f64::max(r101 * r101 + r95 * r95, 0.0).sqrt();
-    let right_c3 = r101 / r105;
-    let right_s3 = r95 / r105;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, right_c3, right_s3, ..*known };
-    block_11(p, &next, answers);
+    let r85 = -0.0 / r82;
+    let r86 = r85 * r85;
+    let r89 = r85 / f64::max(r86 + r86, 0.0).sqrt();
+    let right_c6 = r89;
+    let right_s6 = r89;
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, right_c6, right_s6, ..*known };
+    block_9(p, &next, answers);
 }
 
-/// Chart 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: right_HipPitch.
-fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r90 = shared.r1 * shared.r1 + shared.r37 * shared.r37;
-    if !(is_near(r90, 7.755348200000001e-8) && is_near(shared.r58, 0.01 * shared.r87) && is_near(shared.r57, 0.01 * shared.r86)) {
+/// Chart 2 of block 8: generic.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+    let r82 = shared.r23 * shared.r23;
+    let r83 = shared.r24 * shared.r24;
+    let r84 = r82 + r83;
+    let r87 = shared.r73 * shared.r73 + shared.r74 * shared.r74;
+    if !(is_near(shared.r77, shared.r81) && is_away(r84, 10000.0 * r87)) {
         return;
     }
-    for [right_c3, right_s3] in [
+    let roots0 = real_roots(&[0.0 - r82 - r83, 0.0, 1.0], f64::max(r87, 0.0).sqrt());
+    for (i0, &right_w6) in roots0.as_slice().iter().enumerate() {
+        let r95 = (0.0 - (0.0 - shared.r23 * right_w6)) / r84;
+        let r98 = (0.0 - shared.r24 * right_w6) / r84;
+        let r102 = f64::max(r98 * r98 + r95 * r95, 0.0).sqrt();
+        let right_c6 = r98 / r102;
+        let right_s6 = r95 / r102;
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, right_c6, right_s6, ..*known };
+        block_9(p, &next, answers);
+    }
+}
+
+/// Chart 3 of block 8: A = 0, B = 0, C = 0.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+/// Free: right_AnkleRoll.
+fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+    let r84 = shared.r23 * shared.r23 + shared.r24 * shared.r24;
+    let r87 = shared.r73 * shared.r73 + shared.r74 * shared.r74;
+    if !(is_near(shared.r77, shared.r81) && is_near(r84, 1.0000000000000001e-7 * r87)) {
+        return;
+    }
+    for [right_c6, right_s6] in [
         [-0.9210609940028851, -0.3894183423086505],
         [-0.37592812418099103, -0.926648825310733],
         [0.38941834230865047, -0.9210609940028851],
@@ -952,44 +997,236 @@ fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
         [-0.38941834230865036, 0.9210609940028851],
         [-0.9266488253107329, 0.3759281241809912],
     ] {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], true, known.free[8], known.free[9], known.free[10]], right_c3, right_s3, ..*known };
-        block_11(p, &next, answers);
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], true], right_c6, right_s6, ..*known };
+        block_9(p, &next, answers);
     }
 }
 
-/// Block 11: AnklePitch.
+/// Chart 4 of block 8: generic.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+    let r82 = shared.r65 * shared.r65;
+    let r83 = shared.r66 * shared.r66;
+    let r84 = r82 + r83;
+    if !(is_near(shared.r77, shared.r81) && is_away(r84, 180000.0)) {
+        return;
+    }
+    let roots0 = real_roots(&[0.0 - r82 - r83, 0.0, 1.0], 4.242640687119285);
+    for (i0, &right_w6) in roots0.as_slice().iter().enumerate() {
+        let r90 = (0.0 - (0.0 - shared.r65 * right_w6)) / r84;
+        let r93 = (0.0 - shared.r66 * right_w6) / r84;
+        let r97 = f64::max(r93 * r93 + r90 * r90, 0.0).sqrt();
+        let right_c6 = r93 / r97;
+        let right_s6 = r90 / r97;
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, right_c6, right_s6, ..*known };
+        block_9(p, &next, answers);
+    }
+}
+
+/// Chart 5 of block 8: A = 0, B = 0, C = 0.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+/// Free: right_AnkleRoll.
+fn chart_8_5(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+    let r84 = shared.r65 * shared.r65 + shared.r66 * shared.r66;
+    if !(is_near(shared.r77, shared.r81) && is_near(r84, 1.8000000000000001e-6)) {
+        return;
+    }
+    for [right_c6, right_s6] in [
+        [-0.9210609940028851, -0.3894183423086505],
+        [-0.37592812418099103, -0.926648825310733],
+        [0.38941834230865047, -0.9210609940028851],
+        [0.926648825310733, -0.375928124180991],
+        [0.9210609940028851, 0.3894183423086505],
+        [0.37592812418099114, 0.926648825310733],
+        [-0.38941834230865036, 0.9210609940028851],
+        [-0.9266488253107329, 0.3759281241809912],
+    ] {
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], true], right_c6, right_s6, ..*known };
+        block_9(p, &next, answers);
+    }
+}
+
+/// Block 9: AnklePitch.
+fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let r1 = 0.1029 * known.right_s6;
+    let r2 = 0.1029 * known.right_c6;
+    let r3 = -0.05 * r1;
+    let r5 = r3 + -0.2879 * r2;
+    let r12 = -0.1029 * p.right_r21;
+    let r16 = r1 * p.right_r22 + r2 * p.right_r23;
+    let r17 = -0.1029 * p.right_r31;
+    let r21 = r1 * p.right_r32 + r2 * p.right_r33;
+    let r23 = p.right_py + 0.04519 * p.right_r23;
+    let r24 = p.right_pz + 0.04519 * p.right_r33;
+    let r26 = r3 + -0.33309 * r2;
+    let r29 = p.right_px * (p.right_px + 0.04519 * p.right_r13);
+    let r30 = p.right_px * (r1 * p.right_r12 + r2 * p.right_r13);
+    let r40 = p.right_px * (-0.1029 * p.right_r11) + p.right_py * r12;
+    let r41 = r29 + p.right_py * r23 + p.right_pz * r24;
+    let r42 = r30 + p.right_py * r16 + p.right_pz * r21;
+    let r43 = r40 + p.right_pz * r17;
+    let r50 = p.right_px * p.right_px + p.right_py * p.right_py;
+    let r53 = r41 + r41 - (r50 + p.right_pz * p.right_pz) + 0.0126305461;
+    let r70 = -0.05 * (-0.05 - r23) + -0.085 * (-0.085 - r24);
+    let r83 = r5 + r5 - (r26 + r26) + (r42 + r42) + (-0.05 * (0.0 - r16) + -0.085 * (0.0 - r21));
+    let r84 = r43 + r43 + (-0.05 * (0.0 - r12) + -0.085 * (0.0 - r17));
+    let r88 = 0.01 - (r53 + r70 - (-0.05 * r23 + -0.085 * r24));
+    let r89 = 0.0 - (r83 - (-0.05 * r16 + -0.085 * r21));
+    let r94 = -0.085 * known.right_s4 - -0.185 * known.right_s4;
+    let r136 = 0.0 - (0.0 - (r84 - (-0.05 * r12 + -0.085 * r17)));
+    let r137 = 0.0 - r88;
+    let r138 = -0.2058 * r94;
+    let r139 = p.magnitude + 2.27259;
+    let r140 = p.magnitude * r139;
+    let r141 = 1.3458 * p.magnitude;
+    let r142 = 1.4187 * p.magnitude;
+    let r146 = r140 + r140 + r140;
+    let r147 = r141 + r141 + r141;
+    let r148 = r142 + r142 + r142;
+    let r152 = p.magnitude * p.magnitude;
+    let r156 = r146 + r146 + (r152 + r152 + r152) + 2.4510423541;
+    let r162 = 0.05 * (r139 + 0.05) + 0.085 * (r139 + 0.085);
+    let r170 = r147 + r147 + 1.554899982 + 0.181683 + 0.181683;
+    let r172 = r156 + r162 + (0.05 * r139 + 0.085 * r139) + 0.0829;
+    let r184 = f64::abs(r170);
+    let r185 = f64::abs(0.0 - (r148 + r148 + 0.1915245 + 0.1915245));
+    let r186 = f64::abs(0.0 - r172);
+    let shared = &Shared9 { r89, r136, r137, r138, r184, r185, r186 };
+    chart_9_1(p, known, shared, answers);
+    chart_9_2(p, known, shared, answers);
+}
+
+/// What the charts of block 9 share.
+struct Shared9 {
+    r89: f64,
+    r136: f64,
+    r137: f64,
+    r138: f64,
+    r184: f64,
+    r185: f64,
+    r186: f64,
+}
+
+/// Chart 1 of block 9: generic.
+/// It runs where A^2 + B^2 is not zero.
+fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
+    let r189 = shared.r89 * shared.r89 + shared.r136 * shared.r136;
+    let r192 = shared.r184 * shared.r184 + shared.r185 * shared.r185;
+    if !is_away(r189, 10000.0 * r192) {
+        return;
+    }
+    let r196 = shared.r136 * shared.r137 - shared.r89 * shared.r138;
+    let r198 = (0.0 - r196) / r189;
+    let r202 = 0.0 - shared.r89 * shared.r137 - shared.r136 * shared.r138;
+    let r204 = (0.0 - r202) / r189;
+    let r208 = f64::max(r204 * r204 + r198 * r198, 0.0).sqrt();
+    let right_c5 = r204 / r208;
+    let right_s5 = r198 / r208;
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, right_c5, right_s5, ..*known };
+    block_10(p, &next, answers);
+}
+
+/// Chart 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
+/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
+/// Free: right_AnklePitch.
+fn chart_9_2(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
+    let r189 = shared.r89 * shared.r89 + shared.r136 * shared.r136;
+    let r192 = shared.r184 * shared.r184 + shared.r185 * shared.r185;
+    if !(is_near(r189, 1.0000000000000001e-7 * r192) && is_near(shared.r138, 0.00055566) && is_near(shared.r137, 0.01 * shared.r186)) {
+        return;
+    }
+    for [right_c5, right_s5] in [
+        [-0.9210609940028851, -0.3894183423086505],
+        [-0.37592812418099103, -0.926648825310733],
+        [0.38941834230865047, -0.9210609940028851],
+        [0.926648825310733, -0.375928124180991],
+        [0.9210609940028851, 0.3894183423086505],
+        [0.37592812418099114, 0.926648825310733],
+        [-0.38941834230865036, 0.9210609940028851],
+        [-0.9266488253107329, 0.3759281241809912],
+    ] {
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], true, known.free[10]], right_c5, right_s5, ..*known };
+        block_10(p, &next, answers);
+    }
+}
+
+/// Block 10: HipRoll.
+fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let r0 = 0.7071067811865475 * known.left_s1;
+    let r1 = 0.0 - known.right_s6;
+    let r4 = known.right_c6 * p.right_r12 + r1 * p.right_r13;
+    let r7 = known.right_c6 * p.right_r22 + r1 * p.right_r23;
+    let r10 = known.right_c6 * p.right_r32 + r1 * p.right_r33;
+    let r13 = 0.5 * r7 + 0.5 * r10;
+    let r17 = 0.0 - r4;
+    let r28 = (r10 - r13) * known.left_c1 + (0.0 - r17) * r0;
+    let r29 = r13 + ((r7 - r13) * known.left_c1 + r17 * r0);
+    let r34 = 0.0 - (0.0 - (r13 + r28));
+    let r35 = 0.0 - (0.0 - (0.0 - r29));
+    let shared = &Shared10 { r34, r35 };
+    chart_10_1(p, known, shared, answers);
+}
+
+/// What the charts of block 10 share.
+struct Shared10 {
+    r34: f64,
+    r35: f64,
+}
+
+/// Chart 1 of block 10: generic.
+fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
+    let r37 = 0.0 - (0.0 - shared.r34);
+    let r40 = 0.0 - (-0.0 - (0.0 - shared.r35));
+    let r44 = f64::max(r40 * r40 + r37 * r37, 0.0).sqrt();
+    let right_c2 = r40 / r44;
+    let right_s2 = r37 / r44;
+    let next = Known { branch: known.branch, last: known.last, right_c2, right_s2, ..*known };
+    block_11(p, &next, answers);
+}
+
+/// Block 11: HipPitch.
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = 0.7071067811865475 * known.left_s1;
-    let r3 = 0.5 * p.right_r21 + 0.5 * p.right_r31;
-    let r7 = 0.0 - p.right_r11;
-    let r12 = p.right_r11 * known.left_c1 + (0.0 - (p.right_r31 - p.right_r21)) * r0;
-    let r18 = (p.right_r31 - r3) * known.left_c1 + (0.0 - r7) * r0;
-    let r19 = r3 + ((p.right_r21 - r3) * known.left_c1 + r7 * r0);
-    let r31 = (r3 + r18) * known.right_c2 + (0.0 - r19) * known.right_s2;
-    let r32 = r12 + (r12 - r12) * known.right_c2;
-    let r39 = r32 * known.right_c3 + (0.0 - r31) * known.right_s3;
-    let r43 = r31 * known.right_c3 + (0.0 - (0.0 - r32)) * known.right_s3;
-    let r51 = r39 * known.right_c4 + (0.0 - r43) * known.right_s4;
-    let r55 = r43 * known.right_c4 + (0.0 - (0.0 - r39)) * known.right_s4;
-    let r61 = 0.0 - (0.0 - (0.0 - r55));
-    let r62 = 0.0 - (0.0 - (0.0 - r51));
-    let shared = &Shared11 { r61, r62 };
+    let r1 = -0.1029 * known.right_s5;
+    let r4 = 0.1029 * known.right_c5 - 0.2879 + 0.2879;
+    let r11 = r1 + (r1 - r1) * known.right_c6;
+    let r14 = (0.0 - (0.0 - r4)) * known.right_s6 - 0.05 + 0.05;
+    let r15 = r4 * known.right_c6 - 0.2879 + 0.33309;
+    let r20 = r11 * p.right_r11 + r14 * p.right_r12 + r15 * p.right_r13;
+    let r25 = r11 * p.right_r21 + r14 * p.right_r22 + r15 * p.right_r23;
+    let r30 = r11 * p.right_r31 + r14 * p.right_r32 + r15 * p.right_r33;
+    let r41 = p.right_pz + r30 + 0.085 - (p.right_py + r25 + 0.05);
+    let r47 = (p.right_px + r20) * known.left_c1 + (0.0 - r41) * r0;
+    let r59 = 0.0 - known.right_c4;
+    let r60 = 0.0 - known.right_s4;
+    let r66 = r59 * known.right_c5 + (0.0 - r60) * known.right_s5;
+    let r69 = r60 * known.right_c5 + (0.0 - (0.0 - r59)) * known.right_s5;
+    let r74 = (0.0 - (0.0 - r69)) * known.right_s6;
+    let r75 = r69 * known.right_c6;
+    let r76 = r66 + (r66 - r66) * known.right_c6;
+    let r81 = r76 * p.right_r11 + r74 * p.right_r12 + r75 * p.right_r13;
+    let r86 = r76 * p.right_r21 + r74 * p.right_r22 + r75 * p.right_r23;
+    let r91 = r76 * p.right_r31 + r74 * p.right_r32 + r75 * p.right_r33;
+    let r103 = r81 * known.left_c1 + (0.0 - (r91 - r86)) * r0;
+    let r113 = 0.0 - (0.0 - r47);
+    let r114 = 0.1 * (0.0 - r103);
+    let shared = &Shared11 { r113, r114 };
     chart_11_1(p, known, shared, answers);
 }
 
 /// What the charts of block 11 share.
 struct Shared11 {
-    r61: f64,
-    r62: f64,
+    r113: f64,
+    r114: f64,
 }
 
 /// Chart 1 of block 11: generic.
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r64 = 0.0 - (0.0 - shared.r61);
-    let r67 = 0.0 - (-0.0 - (0.0 - shared.r62));
-    let r71 = f64::max(r67 * r67 + r64 * r64, 0.0).sqrt();
-    let right_c5 = r67 / r71;
-    let right_s5 = r64 / r71;
+    let r135 = (0.0 - 0.1 * shared.r113) / 0.010000000000000002;
+    let r139 = (0.0 - (-0.0 - 0.1 * shared.r114)) / 0.010000000000000002;
+    let r143 = f64::max(r139 * r139 + r135 * r135, 0.0).sqrt();
+    let right_c3 = r139 / r143;
+    let right_s3 = r135 / r143;
     let q = [
         angle(known.left_c1, known.left_s1),
         angle(known.left_c2, known.left_s2),
@@ -998,9 +1235,9 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
         angle(known.left_c5, known.left_s5),
         angle(known.left_c6, known.left_s6),
         angle(known.right_c2, known.right_s2),
-        angle(known.right_c3, known.right_s3),
+        angle(right_c3, right_s3),
         angle(known.right_c4, known.right_s4),
-        angle(right_c5, right_s5),
+        angle(known.right_c5, known.right_s5),
         angle(known.right_c6, known.right_s6),
     ];
     answers.finish(p, known.branch, known.last, q, known.free);

@@ -1746,43 +1746,43 @@ typedef struct {
     double left_s1;
     double left_c4;
     double left_s4;
-    double left_c5;
-    double left_s5;
-    double left_c9;
-    double left_s9;
     double left_c7;
     double left_s7;
-    double left_c6;
-    double left_s6;
+    double left_c9;
+    double left_s9;
     double left_c8;
     double left_s8;
-    double right_c5;
-    double right_s5;
-    double right_c9;
-    double right_s9;
+    double left_c5;
+    double left_s5;
+    double left_c6;
+    double left_s6;
     double right_c7;
     double right_s7;
-    double right_c6;
-    double right_s6;
+    double right_c9;
+    double right_s9;
+    double right_c8;
+    double right_s8;
+    double right_c5;
+    double right_s5;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* What the charts of block 14 share. */
 typedef struct {
-    double r97;
-    double r98;
+    double r185;
+    double r186;
 } Shared14;
 
 /* Chart 1 of block 14: generic.
  */
 static void chart_14_1(const Parameters *p, const Known *known, const Shared14 *shared, Answers *answers)
 {
-    const double r100 = 0.0 - (0.0 - shared->r97);
-    const double r103 = 0.0 - (-0.0 - (0.0 - shared->r98));
-    const double r107 = sqrt(fmax(r103 * r103 + r100 * r100, 0.0));
-    const double right_c8 = r103 / r107;
-    const double right_s8 = r100 / r107;
+    const double r217 = (0.0 - 0.1 * shared->r185) / 0.010000000000000002;
+    const double r221 = (0.0 - (-0.0 - 0.1 * shared->r186)) / 0.010000000000000002;
+    const double r225 = sqrt(fmax(r221 * r221 + r217 * r217, 0.0));
+    const double right_c6 = r221 / r225;
+    const double right_s6 = r217 / r225;
     const double q[JOINTS] = {
         angle(known->left_c1, known->left_s1),
         angle(known->left_c2_, known->left_s2_),
@@ -1794,89 +1794,159 @@ static void chart_14_1(const Parameters *p, const Known *known, const Shared14 *
         angle(known->left_c8, known->left_s8),
         angle(known->left_c9, known->left_s9),
         angle(known->right_c5, known->right_s5),
-        angle(known->right_c6, known->right_s6),
+        angle(right_c6, right_s6),
         angle(known->right_c7, known->right_s7),
-        angle(right_c8, right_s8),
+        angle(known->right_c8, known->right_s8),
         angle(known->right_c9, known->right_s9),
     };
     finish(p, known->branch, known->last, q, known->free, answers);
 }
 
-/* Block 14: AnklePitch. */
+/* Block 14: HipPitch. */
 static void block_14(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = 0.7071067811865475 * known->left_s4;
-    const double r6 = (0.0 - (0.0 - p->right_r21)) * known->left_s1;
-    const double r7 = p->right_r11 * known->left_c1 + r6;
-    const double r10 = p->right_r21 * known->left_c1 + (0.0 - p->right_r11) * known->left_s1;
-    const double r11 = (p->right_r31 - p->right_r31) * known->left_c1;
-    const double r12 = p->right_r31 + r11;
-    const double r19 = r7 * known->left_c2_ + (0.0 - r12) * known->left_s2_;
-    const double r23 = r12 * known->left_c2_ + (0.0 - (0.0 - r7)) * known->left_s2_;
-    const double r24 = r10 + (r10 - r10) * known->left_c2_;
-    const double r32 = r24 * known->left_c3_ + (0.0 - (0.0 - r23)) * known->left_s3_;
-    const double r35 = r23 * known->left_c3_ + (0.0 - r24) * known->left_s3_;
-    const double r36 = r19 + (r19 - r19) * known->left_c3_;
-    const double r39 = 0.5 * r32 + 0.5 * r35;
-    const double r43 = 0.0 - r36;
-    const double r48 = r36 * known->left_c4 + (0.0 - (r35 - r32)) * r0;
-    const double r54 = (r35 - r39) * known->left_c4 + (0.0 - r43) * r0;
-    const double r55 = r39 + ((r32 - r39) * known->left_c4 + r43 * r0);
-    const double r67 = (r39 + r54) * known->right_c5 + (0.0 - r55) * known->right_s5;
-    const double r68 = r48 + (r48 - r48) * known->right_c5;
-    const double r75 = r68 * known->right_c6 + (0.0 - r67) * known->right_s6;
-    const double r79 = r67 * known->right_c6 + (0.0 - (0.0 - r68)) * known->right_s6;
-    const double r87 = r75 * known->right_c7 + (0.0 - r79) * known->right_s7;
-    const double r91 = r79 * known->right_c7 + (0.0 - (0.0 - r75)) * known->right_s7;
-    const double r97 = 0.0 - (0.0 - (0.0 - r91));
-    const double r98 = 0.0 - (0.0 - (0.0 - r87));
-    const Shared14 own = { r97, r98 };
+    const double r1 = -0.1029 * known->right_s8;
+    const double r4 = 0.1029 * known->right_c8 - 0.2879 + 0.2879;
+    const double r11 = r1 + (r1 - r1) * known->right_c9;
+    const double r14 = (0.0 - (0.0 - r4)) * known->right_s9 - 0.05 + 0.05;
+    const double r15 = r4 * known->right_c9 - 0.2879 + 0.33309;
+    const double r20 = r11 * p->right_r11 + r14 * p->right_r12 + r15 * p->right_r13;
+    const double r25 = r11 * p->right_r21 + r14 * p->right_r22 + r15 * p->right_r23;
+    const double r30 = r11 * p->right_r31 + r14 * p->right_r32 + r15 * p->right_r33;
+    const double r31 = p->right_px + r20;
+    const double r32 = p->right_py + r25;
+    const double r33 = p->right_pz + r30;
+    const double r40 = r31 * known->left_c1 + (0.0 - (0.0 - r32)) * known->left_s1;
+    const double r43 = r32 * known->left_c1 + (0.0 - r31) * known->left_s1;
+    const double r45 = r33 + (r33 - r33) * known->left_c1;
+    const double r52 = r40 * known->left_c2_ + (0.0 - r45) * known->left_s2_;
+    const double r56 = r45 * known->left_c2_ + (0.0 - (0.0 - r40)) * known->left_s2_;
+    const double r57 = r43 + (r43 - r43) * known->left_c2_;
+    const double r65 = r57 * known->left_c3_ + (0.0 - (0.0 - r56)) * known->left_s3_;
+    const double r68 = r56 * known->left_c3_ + (0.0 - r57) * known->left_s3_;
+    const double r81 = (r52 + (r52 - r52) * known->left_c3_) * known->left_c4;
+    const double r83 = r81 + (0.0 - (r68 + 0.085 - (r65 + 0.05))) * r0;
+    const double r95 = 0.0 - known->right_c7;
+    const double r96 = 0.0 - known->right_s7;
+    const double r102 = r95 * known->right_c8 + (0.0 - r96) * known->right_s8;
+    const double r105 = r96 * known->right_c8 + (0.0 - (0.0 - r95)) * known->right_s8;
+    const double r110 = (0.0 - (0.0 - r105)) * known->right_s9;
+    const double r111 = r105 * known->right_c9;
+    const double r112 = r102 + (r102 - r102) * known->right_c9;
+    const double r117 = r112 * p->right_r11 + r110 * p->right_r12 + r111 * p->right_r13;
+    const double r122 = r112 * p->right_r21 + r110 * p->right_r22 + r111 * p->right_r23;
+    const double r127 = r112 * p->right_r31 + r110 * p->right_r32 + r111 * p->right_r33;
+    const double r134 = r117 * known->left_c1 + (0.0 - (0.0 - r122)) * known->left_s1;
+    const double r137 = r122 * known->left_c1 + (0.0 - r117) * known->left_s1;
+    const double r139 = r127 + (r127 - r127) * known->left_c1;
+    const double r146 = r134 * known->left_c2_ + (0.0 - r139) * known->left_s2_;
+    const double r150 = r139 * known->left_c2_ + (0.0 - (0.0 - r134)) * known->left_s2_;
+    const double r151 = r137 + (r137 - r137) * known->left_c2_;
+    const double r159 = r151 * known->left_c3_ + (0.0 - (0.0 - r150)) * known->left_s3_;
+    const double r162 = r150 * known->left_c3_ + (0.0 - r151) * known->left_s3_;
+    const double r173 = (r146 + (r146 - r146) * known->left_c3_) * known->left_c4;
+    const double r185 = 0.0 - (0.0 - r83);
+    const double r186 = 0.1 * (0.0 - (r173 + (0.0 - (r162 - r159)) * r0));
+    const Shared14 own = { r185, r186 };
     const Shared14 *const shared = &own;
     chart_14_1(p, known, shared, answers);
 }
 
 /* What the charts of block 13 share. */
 typedef struct {
-    double r1;
-    double r73;
-    double r93;
-    double r94;
-    double r132;
-    double r133;
+    double r70;
+    double r71;
 } Shared13;
 
 /* Chart 1 of block 13: generic.
- * It runs where A^2 + B^2 is not zero.
  */
 static void chart_13_1(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
 {
-    const double r136 = shared->r1 * shared->r1 + shared->r73 * shared->r73;
-    if (!is_away(r136, 7755.348199999999)) {
-        return;
-    }
-    const double r139 = shared->r73 * shared->r93 - shared->r1 * shared->r94;
-    const double r141 = (0.0 - r139) / r136;
-    const double r145 = 0.0 - shared->r1 * shared->r93 - shared->r73 * shared->r94;
-    const double r147 = (0.0 - r145) / r136;
-    const double r151 = sqrt(fmax(r147 * r147 + r141 * r141, 0.0));
-    const double right_c6 = r147 / r151;
-    const double right_s6 = r141 / r151;
+    const double r73 = 0.0 - (0.0 - shared->r70);
+    const double r76 = 0.0 - (-0.0 - (0.0 - shared->r71));
+    const double r80 = sqrt(fmax(r76 * r76 + r73 * r73, 0.0));
+    const double right_c5 = r76 / r80;
+    const double right_s5 = r73 / r80;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.right_c6 = right_c6;
-    next.right_s6 = right_s6;
+    next.branch = known->branch;
+    next.last = known->last;
+    next.right_c5 = right_c5;
+    next.right_s5 = right_s5;
     block_14(p, &next, answers);
 }
 
-/* Chart 2 of block 13: A = 0, B = 0, Y = 0, X = 0.
- * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: right_HipPitch.
- */
-static void chart_13_2(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
+/* Block 13: HipRoll. */
+static void block_13(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r136 = shared->r1 * shared->r1 + shared->r73 * shared->r73;
-    if (!(is_near(r136, 7.755348200000001e-8) && is_near(shared->r94, 0.01 * shared->r133) && is_near(shared->r93, 0.01 * shared->r132))) {
+    const double r0 = 0.7071067811865475 * known->left_s4;
+    const double r1 = 0.0 - known->right_s9;
+    const double r4 = known->right_c9 * p->right_r12 + r1 * p->right_r13;
+    const double r7 = known->right_c9 * p->right_r22 + r1 * p->right_r23;
+    const double r10 = known->right_c9 * p->right_r32 + r1 * p->right_r33;
+    const double r17 = r4 * known->left_c1 + (0.0 - (0.0 - r7)) * known->left_s1;
+    const double r20 = r7 * known->left_c1 + (0.0 - r4) * known->left_s1;
+    const double r22 = r10 + (r10 - r10) * known->left_c1;
+    const double r29 = r17 * known->left_c2_ + (0.0 - r22) * known->left_s2_;
+    const double r33 = r22 * known->left_c2_ + (0.0 - (0.0 - r17)) * known->left_s2_;
+    const double r34 = r20 + (r20 - r20) * known->left_c2_;
+    const double r42 = r34 * known->left_c3_ + (0.0 - (0.0 - r33)) * known->left_s3_;
+    const double r45 = r33 * known->left_c3_ + (0.0 - r34) * known->left_s3_;
+    const double r49 = 0.5 * r42 + 0.5 * r45;
+    const double r53 = 0.0 - (r29 + (r29 - r29) * known->left_c3_);
+    const double r64 = (r45 - r49) * known->left_c4 + (0.0 - r53) * r0;
+    const double r65 = r49 + ((r42 - r49) * known->left_c4 + r53 * r0);
+    const double r70 = 0.0 - (0.0 - (r49 + r64));
+    const double r71 = 0.0 - (0.0 - (0.0 - r65));
+    const Shared13 own = { r70, r71 };
+    const Shared13 *const shared = &own;
+    chart_13_1(p, known, shared, answers);
+}
+
+/* What the charts of block 12 share. */
+typedef struct {
+    double r162;
+    double r322;
+    double r323;
+    double r324;
+    double r331;
+    double r332;
+} Shared12;
+
+/* Chart 1 of block 12: generic.
+ * It runs where A^2 + B^2 is not zero.
+ */
+static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
+{
+    const double r335 = shared->r162 * shared->r162 + shared->r322 * shared->r322;
+    const double r338 = shared->r331 * shared->r331 + shared->r332 * shared->r332;
+    if (!is_away(r335, 10000.0 * r338)) {
+        return;
+    }
+    const double r342 = shared->r322 * shared->r323 - shared->r162 * shared->r324;
+    const double r344 = (0.0 - r342) / r335;
+    const double r348 = 0.0 - shared->r162 * shared->r323 - shared->r322 * shared->r324;
+    const double r350 = (0.0 - r348) / r335;
+    const double r354 = sqrt(fmax(r350 * r350 + r344 * r344, 0.0));
+    const double right_c8 = r350 / r354;
+    const double right_s8 = r344 / r354;
+    Known next = *known;
+    next.branch = 2 * known->branch;
+    next.last = 2 * known->last;
+    next.right_c8 = right_c8;
+    next.right_s8 = right_s8;
+    block_13(p, &next, answers);
+}
+
+/* Chart 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
+ * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
+ * Free: right_AnklePitch.
+ */
+static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
+{
+    const double r335 = shared->r162 * shared->r162 + shared->r322 * shared->r322;
+    const double r338 = shared->r331 * shared->r331 + shared->r332 * shared->r332;
+    if (!(is_near(r335, 1.0000000000000001e-7 * r338) && is_near(shared->r324, 0.004729) && is_near(shared->r323, 0.011129))) {
         return;
     }
     static const double samples0[8][2] = {
@@ -1890,74 +1960,299 @@ static void chart_13_2(const Parameters *p, const Known *known, const Shared13 *
         { -0.9266488253107329, 0.3759281241809912 },
     };
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c6 = samples0[i0][0];
-        const double right_s6 = samples0[i0][1];
+        const double right_c8 = samples0[i0][0];
+        const double right_s8 = samples0[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.free[10] = true;
-        next.right_c6 = right_c6;
-        next.right_s6 = right_s6;
-        block_14(p, &next, answers);
+        next.free[12] = true;
+        next.right_c8 = right_c8;
+        next.right_s8 = right_s8;
+        block_13(p, &next, answers);
     }
 }
 
-/* Block 13: HipPitch. */
-static void block_13(const Parameters *p, const Known *known, Answers *answers)
+/* Block 12: AnklePitch. */
+static void block_12(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s4;
-    const double r1 = -0.1029 * known->right_s7;
-    const double r9 = p->right_px + 0.04519 * p->right_r13;
-    const double r10 = p->right_py + 0.04519 * p->right_r23;
-    const double r11 = p->right_pz + 0.04519 * p->right_r33;
-    const double r18 = r9 * known->left_c1 + (0.0 - (0.0 - r10)) * known->left_s1;
-    const double r21 = r10 * known->left_c1 + (0.0 - r9) * known->left_s1;
-    const double r23 = r11 + (r11 - r11) * known->left_c1;
-    const double r30 = r18 * known->left_c2_ + (0.0 - r23) * known->left_s2_;
-    const double r34 = r23 * known->left_c2_ + (0.0 - (0.0 - r18)) * known->left_s2_;
-    const double r35 = r21 + (r21 - r21) * known->left_c2_;
-    const double r43 = r35 * known->left_c3_ + (0.0 - (0.0 - r34)) * known->left_s3_;
-    const double r46 = r34 * known->left_c3_ + (0.0 - r35) * known->left_s3_;
-    const double r47 = r30 + (r30 - r30) * known->left_c3_;
-    const double r48 = r43 + 0.05;
-    const double r49 = r46 + 0.085;
-    const double r52 = 0.5 * r48 + 0.5 * r49;
-    const double r56 = 0.0 - r47;
-    const double r61 = r47 * known->left_c4 + (0.0 - (r49 - r48)) * r0;
-    const double r67 = (r49 - r52) * known->left_c4 + (0.0 - r56) * r0;
-    const double r68 = r52 + ((r48 - r52) * known->left_c4 + r56 * r0);
-    const double r73 = 0.0 - (-0.1029 * known->right_c7 - 0.185 + 0.085);
-    const double r85 = (r52 + r67 - 0.085 + 0.085) * known->right_c5;
-    const double r86 = (0.0 - (r68 - 0.05 + 0.05)) * known->right_s5;
-    const double r93 = 0.0 - (0.0 - r61);
-    const double r94 = 0.0 - (0.085 - (0.0 - (r85 + r86 - 0.085)));
-    const double r95 = p->magnitude + 0.72099;
-    const double r96 = r95 + r95;
-    const double r97 = r95 + r96;
-    const double r99 = r96 + r97;
-    const double r100 = r97 + r96;
-    const double r101 = r96 + (r96 + r96);
-    const double r105 = r99 + (r99 + r99);
-    const double r106 = r101 + r100 + 0.05;
-    const double r107 = r100 + r101 + 0.085;
-    const double r110 = 0.5 * r106 + 0.5 * r107;
-    const double r125 = r110 + (r107 + r110 + r105) + 0.085 + 0.085 + (r110 + (r106 + r110 + r105) + 0.05 + 0.05);
-    const double r132 = fabs(0.0 - (r105 + (r107 + r106)));
-    const double r133 = fabs(0.0 - (r125 + 0.085 + 0.085));
-    const Shared13 own = { r1, r73, r93, r94, r132, r133 };
-    const Shared13 *const shared = &own;
-    chart_13_1(p, known, shared, answers);
-    chart_13_2(p, known, shared, answers);
+    const double r1 = 0.0 - known->right_c7;
+    const double r3 = 0.0 - known->right_s7;
+    const double r4 = 0.0 - r1;
+    const double r5 = 0.0 - r3;
+    const double r6 = -0.2879 * r1;
+    const double r7 = -0.2879 * r5;
+    const double r14 = (known->right_s7 - known->right_s7) * known->right_c9;
+    const double r16 = (0.0 - r4) * known->right_s9;
+    const double r17 = (0.0 - (0.0 - r5)) * known->right_s9;
+    const double r18 = r1 * known->right_c9;
+    const double r19 = r5 * known->right_c9;
+    const double r20 = known->right_s7 + r14;
+    const double r21 = r4 + (r4 - r4) * known->right_c9;
+    const double r22 = -0.05 * r16;
+    const double r23 = -0.05 * r17;
+    const double r40 = r20 * p->right_r11 + r16 * p->right_r12 + r18 * p->right_r13;
+    const double r41 = r21 * p->right_r11 + r17 * p->right_r12 + r19 * p->right_r13;
+    const double r50 = r20 * p->right_r21 + r16 * p->right_r22 + r18 * p->right_r23;
+    const double r51 = r21 * p->right_r21 + r17 * p->right_r22 + r19 * p->right_r23;
+    const double r60 = r20 * p->right_r31 + r16 * p->right_r32 + r18 * p->right_r33;
+    const double r61 = r21 * p->right_r31 + r17 * p->right_r32 + r19 * p->right_r33;
+    const double r74 = p->right_px * r40 + p->right_py * r50 + p->right_pz * r60;
+    const double r75 = p->right_px * r41 + p->right_py * r51 + p->right_pz * r61;
+    const double r76 = r6 - r6 + (r22 + -0.2879 * r18) - (r22 + -0.33309 * r18);
+    const double r77 = r7 - r7 + (r23 + -0.2879 * r19) - (r23 + -0.33309 * r19);
+    const double r92 = r40 * known->left_c1 + (0.0 - (0.0 - r50)) * known->left_s1;
+    const double r93 = r41 * known->left_c1 + (0.0 - (0.0 - r51)) * known->left_s1;
+    const double r98 = r50 * known->left_c1 + (0.0 - r40) * known->left_s1;
+    const double r99 = r51 * known->left_c1 + (0.0 - r41) * known->left_s1;
+    const double r120 = (r60 + (r60 - r60) * known->left_c1) * known->left_c2_;
+    const double r121 = (r61 + (r61 - r61) * known->left_c1) * known->left_c2_;
+    const double r124 = r120 + (0.0 - (0.0 - r92)) * known->left_s2_;
+    const double r125 = r121 + (0.0 - (0.0 - r93)) * known->left_s2_;
+    const double r126 = r98 + (r98 - r98) * known->left_c2_;
+    const double r127 = r99 + (r99 - r99) * known->left_c2_;
+    const double r142 = r126 * known->left_c3_ + (0.0 - (0.0 - r124)) * known->left_s3_;
+    const double r143 = r127 * known->left_c3_ + (0.0 - (0.0 - r125)) * known->left_s3_;
+    const double r148 = r124 * known->left_c3_ + (0.0 - r126) * known->left_s3_;
+    const double r149 = r125 * known->left_c3_ + (0.0 - r127) * known->left_s3_;
+    const double r162 = 0.0 - (-0.05 * r142 + -0.085 * r148 - (r76 + r74));
+    const double r163 = 0.0 - (-0.05 * r143 + -0.085 * r149 - (r77 + r75));
+    const double r322 = 0.0 - r163;
+    const double r323 = 0.0 - (-0.1 - (0.0 - (-0.185 * r1 - r6)));
+    const double r324 = 0.0 - (0.0 - (0.0 - (-0.185 * r3 - -0.2879 * r3)));
+    const double r325 = 5.0 * p->magnitude;
+    const double r329 = r325 + r325 + r325 + 1.29679 + 7.425;
+    const double r331 = fabs(r329);
+    const double r332 = fabs(0.0 - r329);
+    const Shared12 own = { r162, r322, r323, r324, r331, r332 };
+    const Shared12 *const shared = &own;
+    chart_12_1(p, known, shared, answers);
+    chart_12_2(p, known, shared, answers);
 }
 
-/* What the charts of block 12 share. */
+/* What the charts of block 11 share. */
+typedef struct {
+    double r95;
+    double r96;
+    double r137;
+    double r138;
+    double r145;
+    double r146;
+    double r147;
+    double r148;
+    double r149;
+    double r150;
+    double r151;
+    double r153;
+} Shared11;
+
+/* Chart 1 of block 11: generic.
+ * It runs where B*E - A*F is not zero.
+ */
+static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+{
+    const double r154 = shared->r148 - shared->r147;
+    if (!is_away(r154, 10000.0 * (shared->r151 + shared->r150))) {
+        return;
+    }
+    const double r157 = -0.0 / r154;
+    const double r158 = r157 * r157;
+    const double r161 = r157 / sqrt(fmax(r158 + r158, 0.0));
+    const double right_c9 = r161;
+    const double right_s9 = r161;
+    Known next = *known;
+    next.branch = 7 * known->branch;
+    next.last = 7 * known->last;
+    next.right_c9 = right_c9;
+    next.right_s9 = right_s9;
+    block_12(p, &next, answers);
+}
+
+/* Chart 2 of block 11: generic.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+ */
+static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+{
+    const double r154 = shared->r95 * shared->r95;
+    const double r155 = shared->r96 * shared->r96;
+    const double r156 = r154 + r155;
+    const double r159 = shared->r145 * shared->r145 + shared->r146 * shared->r146;
+    if (!(is_near(shared->r149, shared->r153) && is_away(r156, 10000.0 * r159))) {
+        return;
+    }
+    const double choice0_0[3] = {0.0 - r154 - r155, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r159, 0.0)));
+    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+        const double right_w9 = roots0.values[i0];
+        const double r167 = (0.0 - (0.0 - shared->r95 * right_w9)) / r156;
+        const double r170 = (0.0 - shared->r96 * right_w9) / r156;
+        const double r174 = sqrt(fmax(r170 * r170 + r167 * r167, 0.0));
+        const double right_c9 = r170 / r174;
+        const double right_s9 = r167 / r174;
+        Known next = *known;
+        next.branch = 7 * known->branch + 1 + i0;
+        next.last = 7 * known->last;
+        next.right_c9 = right_c9;
+        next.right_s9 = right_s9;
+        block_12(p, &next, answers);
+    }
+}
+
+/* Chart 3 of block 11: A = 0, B = 0, C = 0.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+ * Free: right_AnkleRoll.
+ */
+static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+{
+    const double r156 = shared->r95 * shared->r95 + shared->r96 * shared->r96;
+    const double r159 = shared->r145 * shared->r145 + shared->r146 * shared->r146;
+    if (!(is_near(shared->r149, shared->r153) && is_near(r156, 1.0000000000000001e-7 * r159))) {
+        return;
+    }
+    static const double samples0[8][2] = {
+        { -0.9210609940028851, -0.3894183423086505 },
+        { -0.37592812418099103, -0.926648825310733 },
+        { 0.38941834230865047, -0.9210609940028851 },
+        { 0.926648825310733, -0.375928124180991 },
+        { 0.9210609940028851, 0.3894183423086505 },
+        { 0.37592812418099114, 0.926648825310733 },
+        { -0.38941834230865036, 0.9210609940028851 },
+        { -0.9266488253107329, 0.3759281241809912 },
+    };
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double right_c9 = samples0[i0][0];
+        const double right_s9 = samples0[i0][1];
+        Known next = *known;
+        next.branch = 7 * known->branch + 3;
+        next.last = 7 * known->last;
+        next.free[13] = true;
+        next.right_c9 = right_c9;
+        next.right_s9 = right_s9;
+        block_12(p, &next, answers);
+    }
+}
+
+/* Chart 4 of block 11: generic.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+ */
+static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+{
+    const double r154 = shared->r137 * shared->r137;
+    const double r155 = shared->r138 * shared->r138;
+    const double r156 = r154 + r155;
+    if (!(is_near(shared->r149, shared->r153) && is_away(r156, 27380000.0))) {
+        return;
+    }
+    const double choice0_0[3] = {0.0 - r154 - r155, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, 52.32590180780452);
+    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+        const double right_w9 = roots0.values[i0];
+        const double r162 = (0.0 - (0.0 - shared->r137 * right_w9)) / r156;
+        const double r165 = (0.0 - shared->r138 * right_w9) / r156;
+        const double r169 = sqrt(fmax(r165 * r165 + r162 * r162, 0.0));
+        const double right_c9 = r165 / r169;
+        const double right_s9 = r162 / r169;
+        Known next = *known;
+        next.branch = 7 * known->branch + 4 + i0;
+        next.last = 7 * known->last;
+        next.right_c9 = right_c9;
+        next.right_s9 = right_s9;
+        block_12(p, &next, answers);
+    }
+}
+
+/* Chart 5 of block 11: A = 0, B = 0, C = 0.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+ * Free: right_AnkleRoll.
+ */
+static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+{
+    const double r156 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
+    if (!(is_near(shared->r149, shared->r153) && is_near(r156, 0.00027380000000000004))) {
+        return;
+    }
+    static const double samples0[8][2] = {
+        { -0.9210609940028851, -0.3894183423086505 },
+        { -0.37592812418099103, -0.926648825310733 },
+        { 0.38941834230865047, -0.9210609940028851 },
+        { 0.926648825310733, -0.375928124180991 },
+        { 0.9210609940028851, 0.3894183423086505 },
+        { 0.37592812418099114, 0.926648825310733 },
+        { -0.38941834230865036, 0.9210609940028851 },
+        { -0.9266488253107329, 0.3759281241809912 },
+    };
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double right_c9 = samples0[i0][0];
+        const double right_s9 = samples0[i0][1];
+        Known next = *known;
+        next.branch = 7 * known->branch + 6;
+        next.last = 7 * known->last;
+        next.free[13] = true;
+        next.right_c9 = right_c9;
+        next.right_s9 = right_s9;
+        block_12(p, &next, answers);
+    }
+}
+
+/* Block 11: AnkleRoll. */
+static void block_11(const Parameters *p, const Known *known, Answers *answers)
+{
+    const double r0 = 0.7071067811865475 * known->left_s4;
+    const double r1 = 0.0 - p->right_r13;
+    const double r2 = 0.0 - p->right_r23;
+    const double r3 = 0.0 - p->right_r33;
+    const double r10 = p->right_px * p->right_r12 + p->right_py * p->right_r22;
+    const double r13 = p->right_px * r1 + p->right_py * r2 + p->right_pz * r3;
+    const double r25 = (0.0 - (0.0 - p->right_r22)) * known->left_s1;
+    const double r27 = p->right_r12 * known->left_c1 + r25;
+    const double r28 = r1 * known->left_c1 + (0.0 - (0.0 - r2)) * known->left_s1;
+    const double r33 = p->right_r22 * known->left_c1 + (0.0 - p->right_r12) * known->left_s1;
+    const double r34 = r2 * known->left_c1 + (0.0 - r1) * known->left_s1;
+    const double r35 = (p->right_r32 - p->right_r32) * known->left_c1;
+    const double r37 = p->right_r32 + r35;
+    const double r38 = r3 + (r3 - r3) * known->left_c1;
+    const double r51 = r27 * known->left_c2_ + (0.0 - r37) * known->left_s2_;
+    const double r52 = r28 * known->left_c2_ + (0.0 - r38) * known->left_s2_;
+    const double r59 = r37 * known->left_c2_ + (0.0 - (0.0 - r27)) * known->left_s2_;
+    const double r60 = r38 * known->left_c2_ + (0.0 - (0.0 - r28)) * known->left_s2_;
+    const double r61 = r33 + (r33 - r33) * known->left_c2_;
+    const double r62 = r34 + (r34 - r34) * known->left_c2_;
+    const double r77 = r61 * known->left_c3_ + (0.0 - (0.0 - r59)) * known->left_s3_;
+    const double r78 = r62 * known->left_c3_ + (0.0 - (0.0 - r60)) * known->left_s3_;
+    const double r83 = r59 * known->left_c3_ + (0.0 - r61) * known->left_s3_;
+    const double r84 = r60 * known->left_c3_ + (0.0 - r62) * known->left_s3_;
+    const double r93 = -0.05 * r77 + -0.085 * r83 - (r10 + p->right_pz * p->right_r32);
+    const double r95 = 0.0 - r93;
+    const double r96 = 0.0 - (-0.05 * r78 + -0.085 * r84 - (r13 - 0.04519));
+    const double r115 = (r51 + (r51 - r51) * known->left_c3_) * known->left_c4;
+    const double r116 = (r52 + (r52 - r52) * known->left_c3_) * known->left_c4;
+    const double r137 = 0.0 - (r115 + (0.0 - (r83 - r77)) * r0);
+    const double r138 = 0.0 - (r116 + (0.0 - (r84 - r78)) * r0);
+    const double r140 = p->magnitude + p->magnitude + p->magnitude;
+    const double r145 = fabs(r140 + 0.1 + 1.485);
+    const double r146 = fabs(r140 + 0.62099 + 1.485);
+    const double r147 = r95 * r138;
+    const double r148 = r96 * r137;
+    const double r149 = r147 - r148;
+    const double r150 = 37.0 * r145;
+    const double r151 = 37.0 * r146;
+    const double r153 = 0.001 * (r150 + r151);
+    const Shared11 own = { r95, r96, r137, r138, r145, r146, r147, r148, r149, r150, r151, r153 };
+    const Shared11 *const shared = &own;
+    chart_11_1(p, known, shared, answers);
+    chart_11_2(p, known, shared, answers);
+    chart_11_3(p, known, shared, answers);
+    chart_11_4(p, known, shared, answers);
+    chart_11_5(p, known, shared, answers);
+}
+
+/* What the charts of block 10 share. */
 typedef struct {
     double r67;
-} Shared12;
+} Shared10;
 
-/* Chart 1 of block 12: generic.
+/* Chart 1 of block 10: generic.
  */
-static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
+static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r69 = shared->r67 * shared->r67 - 0.00042353640000000005;
     const double choice0_0[3] = {r69, 0.0, 1.0};
@@ -1974,12 +2269,12 @@ static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *
         next.last = 2 * known->last;
         next.right_c7 = right_c7;
         next.right_s7 = right_s7;
-        block_13(p, &next, answers);
+        block_11(p, &next, answers);
     }
 }
 
-/* Block 12: KneePitch. */
-static void block_12(const Parameters *p, const Known *known, Answers *answers)
+/* Block 10: KneePitch. */
+static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->right_px + 0.04519 * p->right_r13;
     const double r5 = p->right_py + 0.04519 * p->right_r23;
@@ -1997,267 +2292,181 @@ static void block_12(const Parameters *p, const Known *known, Answers *answers)
     const double r61 = -0.05 * (-0.05 - r51) + -0.085 * (-0.085 - r54);
     const double r66 = r18 + 0.0020421361 + r61 - (-0.05 * r51 + -0.085 * r54);
     const double r67 = 0.02058841 - r66;
-    const Shared12 own = { r67 };
-    const Shared12 *const shared = &own;
-    chart_12_1(p, known, shared, answers);
-}
-
-/* What the charts of block 11 share. */
-typedef struct {
-    double r141;
-    double r142;
-} Shared11;
-
-/* Chart 1 of block 11: generic.
- */
-static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
-{
-    const double r143 = 0.0 - shared->r142;
-    const double r145 = 0.0 - (-0.0 - shared->r141);
-    const double r149 = sqrt(fmax(r145 * r145 + r143 * r143, 0.0));
-    const double right_c9 = r145 / r149;
-    const double right_s9 = r143 / r149;
-    Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.right_c9 = right_c9;
-    next.right_s9 = right_s9;
-    block_12(p, &next, answers);
-}
-
-/* Block 11: AnkleRoll. */
-static void block_11(const Parameters *p, const Known *known, Answers *answers)
-{
-    const double r0 = 0.7071067811865475 * known->left_s4;
-    const double r6 = (0.0 - (0.0 - p->right_r23)) * known->left_s1;
-    const double r7 = p->right_r13 * known->left_c1 + r6;
-    const double r10 = p->right_r23 * known->left_c1 + (0.0 - p->right_r13) * known->left_s1;
-    const double r11 = (p->right_r33 - p->right_r33) * known->left_c1;
-    const double r12 = p->right_r33 + r11;
-    const double r19 = r7 * known->left_c2_ + (0.0 - r12) * known->left_s2_;
-    const double r23 = r12 * known->left_c2_ + (0.0 - (0.0 - r7)) * known->left_s2_;
-    const double r24 = r10 + (r10 - r10) * known->left_c2_;
-    const double r32 = r24 * known->left_c3_ + (0.0 - (0.0 - r23)) * known->left_s3_;
-    const double r35 = r23 * known->left_c3_ + (0.0 - r24) * known->left_s3_;
-    const double r39 = 0.5 * r32 + 0.5 * r35;
-    const double r43 = 0.0 - (r19 + (r19 - r19) * known->left_c3_);
-    const double r54 = (r35 - r39) * known->left_c4 + (0.0 - r43) * r0;
-    const double r55 = r39 + ((r32 - r39) * known->left_c4 + r43 * r0);
-    const double r63 = (0.0 - (0.0 - (r39 + r54))) * known->right_s5;
-    const double r70 = 0.0 - p->right_r12;
-    const double r71 = 0.0 - p->right_r22;
-    const double r72 = 0.0 - p->right_r32;
-    const double r79 = r70 * known->left_c1 + (0.0 - (0.0 - r71)) * known->left_s1;
-    const double r82 = r71 * known->left_c1 + (0.0 - r70) * known->left_s1;
-    const double r84 = r72 + (r72 - r72) * known->left_c1;
-    const double r91 = r79 * known->left_c2_ + (0.0 - r84) * known->left_s2_;
-    const double r95 = r84 * known->left_c2_ + (0.0 - (0.0 - r79)) * known->left_s2_;
-    const double r96 = r82 + (r82 - r82) * known->left_c2_;
-    const double r104 = r96 * known->left_c3_ + (0.0 - (0.0 - r95)) * known->left_s3_;
-    const double r107 = r95 * known->left_c3_ + (0.0 - r96) * known->left_s3_;
-    const double r111 = 0.5 * r104 + 0.5 * r107;
-    const double r115 = 0.0 - (r91 + (r91 - r91) * known->left_c3_);
-    const double r126 = (r107 - r111) * known->left_c4 + (0.0 - r115) * r0;
-    const double r127 = r111 + ((r104 - r111) * known->left_c4 + r115 * r0);
-    const double r135 = (0.0 - (0.0 - (r111 + r126))) * known->right_s5;
-    const double r141 = 0.0 - (r127 * known->right_c5 + r135);
-    const double r142 = 0.0 - (0.0 - (r55 * known->right_c5 + r63));
-    const Shared11 own = { r141, r142 };
-    const Shared11 *const shared = &own;
-    chart_11_1(p, known, shared, answers);
-}
-
-/* What the charts of block 10 share. */
-typedef struct {
-    double r60;
-    double r61;
-} Shared10;
-
-/* Chart 1 of block 10: generic.
- * It runs where A^2 + B^2 is not zero.
- */
-static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
-{
-    const double r62 = shared->r60 * shared->r60;
-    const double r63 = shared->r61 * shared->r61;
-    const double r64 = r62 + r63;
-    if (!is_away(r64, 46080000.0)) {
-        return;
-    }
-    const double choice0_0[3] = {0.0 - r62 - r63, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 67.88225099390856);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w5 = roots0.values[i0];
-        const double r70 = (0.0 - (0.0 - shared->r60 * right_w5)) / r64;
-        const double r73 = (0.0 - shared->r61 * right_w5) / r64;
-        const double r77 = sqrt(fmax(r73 * r73 + r70 * r70, 0.0));
-        const double right_c5 = r73 / r77;
-        const double right_s5 = r70 / r77;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.right_c5 = right_c5;
-        next.right_s5 = right_s5;
-        block_11(p, &next, answers);
-    }
-}
-
-/* Chart 2 of block 10: A = 0, B = 0, C = 0.
- * It runs where A^2 + B^2 is near zero.
- * Free: right_HipRoll.
- */
-static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
-{
-    const double r64 = shared->r60 * shared->r60 + shared->r61 * shared->r61;
-    if (!is_near(r64, 0.00046080000000000003)) {
-        return;
-    }
-    static const double samples0[8][2] = {
-        { -0.9210609940028851, -0.3894183423086505 },
-        { -0.37592812418099103, -0.926648825310733 },
-        { 0.38941834230865047, -0.9210609940028851 },
-        { 0.926648825310733, -0.375928124180991 },
-        { 0.9210609940028851, 0.3894183423086505 },
-        { 0.37592812418099114, 0.926648825310733 },
-        { -0.38941834230865036, 0.9210609940028851 },
-        { -0.9266488253107329, 0.3759281241809912 },
-    };
-    for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c5 = samples0[i0][0];
-        const double right_s5 = samples0[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[9] = true;
-        next.right_c5 = right_c5;
-        next.right_s5 = right_s5;
-        block_11(p, &next, answers);
-    }
-}
-
-/* Block 10: HipRoll. */
-static void block_10(const Parameters *p, const Known *known, Answers *answers)
-{
-    const double r0 = 0.7071067811865475 * known->left_s4;
-    const double r6 = (0.0 - (0.0 - p->right_r21)) * known->left_s1;
-    const double r7 = p->right_r11 * known->left_c1 + r6;
-    const double r10 = p->right_r21 * known->left_c1 + (0.0 - p->right_r11) * known->left_s1;
-    const double r11 = (p->right_r31 - p->right_r31) * known->left_c1;
-    const double r12 = p->right_r31 + r11;
-    const double r19 = r7 * known->left_c2_ + (0.0 - r12) * known->left_s2_;
-    const double r23 = r12 * known->left_c2_ + (0.0 - (0.0 - r7)) * known->left_s2_;
-    const double r24 = r10 + (r10 - r10) * known->left_c2_;
-    const double r32 = r24 * known->left_c3_ + (0.0 - (0.0 - r23)) * known->left_s3_;
-    const double r35 = r23 * known->left_c3_ + (0.0 - r24) * known->left_s3_;
-    const double r39 = 0.5 * r32 + 0.5 * r35;
-    const double r43 = 0.0 - (r19 + (r19 - r19) * known->left_c3_);
-    const double r54 = (r35 - r39) * known->left_c4 + (0.0 - r43) * r0;
-    const double r55 = r39 + ((r32 - r39) * known->left_c4 + r43 * r0);
-    const double r60 = 0.0 - r55;
-    const double r61 = 0.0 - (0.0 - (0.0 - (r39 + r54)));
-    const Shared10 own = { r60, r61 };
+    const Shared10 own = { r67 };
     const Shared10 *const shared = &own;
     chart_10_1(p, known, shared, answers);
-    chart_10_2(p, known, shared, answers);
 }
 
 /* What the charts of block 9 share. */
 typedef struct {
-    double r98;
-    double r99;
+    double r187;
+    double r188;
 } Shared9;
 
 /* Chart 1 of block 9: generic.
  */
 static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
-    const double r101 = 0.0 - (0.0 - shared->r98);
-    const double r104 = 0.0 - (-0.0 - (0.0 - shared->r99));
-    const double r108 = sqrt(fmax(r104 * r104 + r101 * r101, 0.0));
-    const double left_c8 = r104 / r108;
-    const double left_s8 = r101 / r108;
+    const double r219 = (0.0 - 0.1 * shared->r187) / 0.010000000000000002;
+    const double r223 = (0.0 - (-0.0 - 0.1 * shared->r188)) / 0.010000000000000002;
+    const double r227 = sqrt(fmax(r223 * r223 + r219 * r219, 0.0));
+    const double left_c6 = r223 / r227;
+    const double left_s6 = r219 / r227;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
-    next.left_c8 = left_c8;
-    next.left_s8 = left_s8;
+    next.left_c6 = left_c6;
+    next.left_s6 = left_s6;
     block_10(p, &next, answers);
 }
 
-/* Block 9: AnklePitch. */
+/* Block 9: HipPitch. */
 static void block_9(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = 0.7071067811865475 * known->left_s4;
-    const double r7 = p->left_r11 * known->left_c1 + (0.0 - (0.0 - p->left_r21)) * known->left_s1;
-    const double r10 = p->left_r21 * known->left_c1 + (0.0 - p->left_r11) * known->left_s1;
-    const double r12 = p->left_r31 + (p->left_r31 - p->left_r31) * known->left_c1;
-    const double r19 = r7 * known->left_c2_ + (0.0 - r12) * known->left_s2_;
-    const double r23 = r12 * known->left_c2_ + (0.0 - (0.0 - r7)) * known->left_s2_;
-    const double r24 = r10 + (r10 - r10) * known->left_c2_;
-    const double r32 = r24 * known->left_c3_ + (0.0 - (0.0 - r23)) * known->left_s3_;
-    const double r35 = r23 * known->left_c3_ + (0.0 - r24) * known->left_s3_;
-    const double r36 = r19 + (r19 - r19) * known->left_c3_;
-    const double r39 = 0.5 * r32 + -0.5 * r35;
-    const double r40 = 0.0 - r39;
-    const double r50 = r36 * known->left_c4 + (0.0 - (r35 - (0.0 - r32))) * r0;
-    const double r52 = (0.0 - (0.0 - r36)) * r0;
-    const double r61 = 0.0 - (r39 + ((r32 - r39) * known->left_c4 + r52));
-    const double r66 = (r40 + ((r35 - r40) * known->left_c4 + r52)) * known->left_c5;
-    const double r68 = r66 + r61 * known->left_s5;
-    const double r69 = r50 + (r50 - r50) * known->left_c5;
-    const double r76 = r69 * known->left_c6 + (0.0 - r68) * known->left_s6;
-    const double r80 = r68 * known->left_c6 + (0.0 - (0.0 - r69)) * known->left_s6;
-    const double r88 = r76 * known->left_c7 + (0.0 - r80) * known->left_s7;
-    const double r92 = r80 * known->left_c7 + (0.0 - (0.0 - r76)) * known->left_s7;
-    const double r98 = 0.0 - (0.0 - (0.0 - r92));
-    const double r99 = 0.0 - (0.0 - (0.0 - r88));
-    const Shared9 own = { r98, r99 };
+    const double r1 = -0.1029 * known->left_s8;
+    const double r4 = 0.1029 * known->left_c8 - 0.2879 + 0.2879;
+    const double r11 = r1 + (r1 - r1) * known->left_c9;
+    const double r14 = (0.0 - (0.0 - r4)) * known->left_s9 + 0.05 - 0.05;
+    const double r15 = r4 * known->left_c9 - 0.2879 + 0.33309;
+    const double r20 = r11 * p->left_r11 + r14 * p->left_r12 + r15 * p->left_r13;
+    const double r25 = r11 * p->left_r21 + r14 * p->left_r22 + r15 * p->left_r23;
+    const double r30 = r11 * p->left_r31 + r14 * p->left_r32 + r15 * p->left_r33;
+    const double r31 = p->left_px + r20;
+    const double r32 = p->left_py + r25;
+    const double r33 = p->left_pz + r30;
+    const double r40 = r31 * known->left_c1 + (0.0 - (0.0 - r32)) * known->left_s1;
+    const double r43 = r32 * known->left_c1 + (0.0 - r31) * known->left_s1;
+    const double r45 = r33 + (r33 - r33) * known->left_c1;
+    const double r52 = r40 * known->left_c2_ + (0.0 - r45) * known->left_s2_;
+    const double r56 = r45 * known->left_c2_ + (0.0 - (0.0 - r40)) * known->left_s2_;
+    const double r57 = r43 + (r43 - r43) * known->left_c2_;
+    const double r65 = r57 * known->left_c3_ + (0.0 - (0.0 - r56)) * known->left_s3_;
+    const double r68 = r56 * known->left_c3_ + (0.0 - r57) * known->left_s3_;
+    const double r83 = (r52 + (r52 - r52) * known->left_c3_) * known->left_c4;
+    const double r84 = (0.0 - (r68 + 0.085 - (0.0 - (r65 - 0.05)))) * r0;
+    const double r96 = 0.0 - known->left_c7;
+    const double r97 = 0.0 - known->left_s7;
+    const double r103 = r96 * known->left_c8 + (0.0 - r97) * known->left_s8;
+    const double r106 = r97 * known->left_c8 + (0.0 - (0.0 - r96)) * known->left_s8;
+    const double r111 = (0.0 - (0.0 - r106)) * known->left_s9;
+    const double r112 = r106 * known->left_c9;
+    const double r113 = r103 + (r103 - r103) * known->left_c9;
+    const double r118 = r113 * p->left_r11 + r111 * p->left_r12 + r112 * p->left_r13;
+    const double r123 = r113 * p->left_r21 + r111 * p->left_r22 + r112 * p->left_r23;
+    const double r128 = r113 * p->left_r31 + r111 * p->left_r32 + r112 * p->left_r33;
+    const double r135 = r118 * known->left_c1 + (0.0 - (0.0 - r123)) * known->left_s1;
+    const double r138 = r123 * known->left_c1 + (0.0 - r118) * known->left_s1;
+    const double r140 = r128 + (r128 - r128) * known->left_c1;
+    const double r147 = r135 * known->left_c2_ + (0.0 - r140) * known->left_s2_;
+    const double r151 = r140 * known->left_c2_ + (0.0 - (0.0 - r135)) * known->left_s2_;
+    const double r152 = r138 + (r138 - r138) * known->left_c2_;
+    const double r160 = r152 * known->left_c3_ + (0.0 - (0.0 - r151)) * known->left_s3_;
+    const double r163 = r151 * known->left_c3_ + (0.0 - r152) * known->left_s3_;
+    const double r176 = (r147 + (r147 - r147) * known->left_c3_) * known->left_c4;
+    const double r186 = 0.0 - (r176 + (0.0 - (r163 - (0.0 - r160))) * r0);
+    const double r187 = 0.0 - (0.0 - (r83 + r84));
+    const double r188 = 0.1 * r186;
+    const Shared9 own = { r187, r188 };
     const Shared9 *const shared = &own;
     chart_9_1(p, known, shared, answers);
 }
 
 /* What the charts of block 8 share. */
 typedef struct {
-    double r1;
-    double r74;
-    double r94;
-    double r95;
-    double r133;
-    double r134;
+    double r71;
+    double r72;
 } Shared8;
 
 /* Chart 1 of block 8: generic.
- * It runs where A^2 + B^2 is not zero.
  */
 static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r137 = shared->r1 * shared->r1 + shared->r74 * shared->r74;
-    if (!is_away(r137, 7755.348199999999)) {
-        return;
-    }
-    const double r140 = shared->r74 * shared->r94 - shared->r1 * shared->r95;
-    const double r142 = (0.0 - r140) / r137;
-    const double r146 = 0.0 - shared->r1 * shared->r94 - shared->r74 * shared->r95;
-    const double r148 = (0.0 - r146) / r137;
-    const double r152 = sqrt(fmax(r148 * r148 + r142 * r142, 0.0));
-    const double left_c6 = r148 / r152;
-    const double left_s6 = r142 / r152;
+    const double r74 = 0.0 - (0.0 - shared->r71);
+    const double r77 = 0.0 - (-0.0 - (0.0 - shared->r72));
+    const double r81 = sqrt(fmax(r77 * r77 + r74 * r74, 0.0));
+    const double left_c5 = r77 / r81;
+    const double left_s5 = r74 / r81;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.left_c6 = left_c6;
-    next.left_s6 = left_s6;
+    next.branch = known->branch;
+    next.last = known->last;
+    next.left_c5 = left_c5;
+    next.left_s5 = left_s5;
     block_9(p, &next, answers);
 }
 
-/* Chart 2 of block 8: A = 0, B = 0, Y = 0, X = 0.
- * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: left_HipPitch.
- */
-static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+/* Block 8: HipRoll. */
+static void block_8(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r137 = shared->r1 * shared->r1 + shared->r74 * shared->r74;
-    if (!(is_near(r137, 7.755348200000001e-8) && is_near(shared->r95, 0.01 * shared->r134) && is_near(shared->r94, 0.01 * shared->r133))) {
+    const double r1 = 0.0 - known->left_s9;
+    const double r4 = known->left_c9 * p->left_r12 + r1 * p->left_r13;
+    const double r7 = known->left_c9 * p->left_r22 + r1 * p->left_r23;
+    const double r10 = known->left_c9 * p->left_r32 + r1 * p->left_r33;
+    const double r17 = r4 * known->left_c1 + (0.0 - (0.0 - r7)) * known->left_s1;
+    const double r20 = r7 * known->left_c1 + (0.0 - r4) * known->left_s1;
+    const double r22 = r10 + (r10 - r10) * known->left_c1;
+    const double r29 = r17 * known->left_c2_ + (0.0 - r22) * known->left_s2_;
+    const double r33 = r22 * known->left_c2_ + (0.0 - (0.0 - r17)) * known->left_s2_;
+    const double r34 = r20 + (r20 - r20) * known->left_c2_;
+    const double r42 = r34 * known->left_c3_ + (0.0 - (0.0 - r33)) * known->left_s3_;
+    const double r45 = r33 * known->left_c3_ + (0.0 - r34) * known->left_s3_;
+    const double r49 = 0.5 * r42 + -0.5 * r45;
+    const double r50 = 0.0 - r49;
+    const double r57 = 0.0 - (0.0 - (r29 + (r29 - r29) * known->left_c3_));
+    const double r62 = r57 * (0.7071067811865475 * known->left_s4);
+    const double r68 = 0.0 - (r50 + ((r45 - r50) * known->left_c4 + r62));
+    const double r69 = 0.0 - (r49 + ((r42 - r49) * known->left_c4 + r62));
+    const double r71 = 0.0 - r68;
+    const double r72 = 0.0 - (0.0 - r69);
+    const Shared8 own = { r71, r72 };
+    const Shared8 *const shared = &own;
+    chart_8_1(p, known, shared, answers);
+}
+
+/* What the charts of block 7 share. */
+typedef struct {
+    double r162;
+    double r322;
+    double r323;
+    double r324;
+    double r331;
+    double r332;
+} Shared7;
+
+/* Chart 1 of block 7: generic.
+ * It runs where A^2 + B^2 is not zero.
+ */
+static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+{
+    const double r335 = shared->r162 * shared->r162 + shared->r322 * shared->r322;
+    const double r338 = shared->r331 * shared->r331 + shared->r332 * shared->r332;
+    if (!is_away(r335, 10000.0 * r338)) {
+        return;
+    }
+    const double r342 = shared->r322 * shared->r323 - shared->r162 * shared->r324;
+    const double r344 = (0.0 - r342) / r335;
+    const double r348 = 0.0 - shared->r162 * shared->r323 - shared->r322 * shared->r324;
+    const double r350 = (0.0 - r348) / r335;
+    const double r354 = sqrt(fmax(r350 * r350 + r344 * r344, 0.0));
+    const double left_c8 = r350 / r354;
+    const double left_s8 = r344 / r354;
+    Known next = *known;
+    next.branch = 2 * known->branch;
+    next.last = 2 * known->last;
+    next.left_c8 = left_c8;
+    next.left_s8 = left_s8;
+    block_8(p, &next, answers);
+}
+
+/* Chart 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
+ * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
+ * Free: left_AnklePitch.
+ */
+static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+{
+    const double r335 = shared->r162 * shared->r162 + shared->r322 * shared->r322;
+    const double r338 = shared->r331 * shared->r331 + shared->r332 * shared->r332;
+    if (!(is_near(r335, 1.0000000000000001e-7 * r338) && is_near(shared->r324, 0.004729) && is_near(shared->r323, 0.011129))) {
         return;
     }
     static const double samples0[8][2] = {
@@ -2271,74 +2480,297 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
         { -0.9266488253107329, 0.3759281241809912 },
     };
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c6 = samples0[i0][0];
-        const double left_s6 = samples0[i0][1];
+        const double left_c8 = samples0[i0][0];
+        const double left_s8 = samples0[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.free[5] = true;
-        next.left_c6 = left_c6;
-        next.left_s6 = left_s6;
-        block_9(p, &next, answers);
+        next.free[7] = true;
+        next.left_c8 = left_c8;
+        next.left_s8 = left_s8;
+        block_8(p, &next, answers);
     }
 }
 
-/* Block 8: HipPitch. */
-static void block_8(const Parameters *p, const Known *known, Answers *answers)
+/* Block 7: AnklePitch. */
+static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s4;
-    const double r1 = -0.1029 * known->left_s7;
-    const double r9 = p->left_px + 0.04519 * p->left_r13;
-    const double r10 = p->left_py + 0.04519 * p->left_r23;
-    const double r11 = p->left_pz + 0.04519 * p->left_r33;
-    const double r18 = r9 * known->left_c1 + (0.0 - (0.0 - r10)) * known->left_s1;
-    const double r21 = r10 * known->left_c1 + (0.0 - r9) * known->left_s1;
-    const double r23 = r11 + (r11 - r11) * known->left_c1;
-    const double r30 = r18 * known->left_c2_ + (0.0 - r23) * known->left_s2_;
-    const double r34 = r23 * known->left_c2_ + (0.0 - (0.0 - r18)) * known->left_s2_;
-    const double r35 = r21 + (r21 - r21) * known->left_c2_;
-    const double r43 = r35 * known->left_c3_ + (0.0 - (0.0 - r34)) * known->left_s3_;
-    const double r46 = r34 * known->left_c3_ + (0.0 - r35) * known->left_s3_;
-    const double r47 = r30 + (r30 - r30) * known->left_c3_;
-    const double r48 = r43 - 0.05;
-    const double r49 = r46 + 0.085;
-    const double r52 = 0.5 * r48 + -0.5 * r49;
-    const double r53 = 0.0 - r52;
-    const double r63 = r47 * known->left_c4 + (0.0 - (r49 - (0.0 - r48))) * r0;
-    const double r65 = (0.0 - (0.0 - r47)) * r0;
-    const double r71 = r52 + ((r48 - r52) * known->left_c4 + r65) + 0.05;
-    const double r72 = r53 + ((r49 - r53) * known->left_c4 + r65) - 0.085;
-    const double r74 = 0.0 - (-0.1029 * known->left_c7 - 0.185 + 0.085);
-    const double r88 = (r72 + 0.085) * known->left_c5 + (0.0 - (r71 - 0.05)) * known->left_s5;
-    const double r94 = 0.0 - (0.0 - r63);
-    const double r95 = 0.0 - (0.085 - (0.0 - (r88 - 0.085)));
-    const double r96 = p->magnitude + 0.72099;
-    const double r97 = r96 + r96;
-    const double r98 = r96 + r97;
-    const double r100 = r97 + r98;
-    const double r101 = r98 + r97;
-    const double r102 = r97 + (r97 + r97);
-    const double r106 = r100 + (r100 + r100);
-    const double r107 = r102 + r101 + 0.05;
-    const double r108 = r101 + r102 + 0.085;
-    const double r111 = 0.5 * r107 + 0.5 * r108;
-    const double r126 = r111 + (r108 + r111 + r106) + 0.085 + 0.085 + (r111 + (r107 + r111 + r106) + 0.05 + 0.05);
-    const double r133 = fabs(0.0 - (r106 + (r108 + r107)));
-    const double r134 = fabs(0.0 - (r126 + 0.085 + 0.085));
-    const Shared8 own = { r1, r74, r94, r95, r133, r134 };
-    const Shared8 *const shared = &own;
-    chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, answers);
+    const double r1 = 0.0 - known->left_c7;
+    const double r3 = 0.0 - known->left_s7;
+    const double r4 = 0.0 - r1;
+    const double r5 = 0.0 - r3;
+    const double r6 = -0.2879 * r1;
+    const double r7 = -0.2879 * r5;
+    const double r14 = (known->left_s7 - known->left_s7) * known->left_c9;
+    const double r16 = (0.0 - r4) * known->left_s9;
+    const double r17 = (0.0 - (0.0 - r5)) * known->left_s9;
+    const double r18 = r1 * known->left_c9;
+    const double r19 = r5 * known->left_c9;
+    const double r20 = known->left_s7 + r14;
+    const double r21 = r4 + (r4 - r4) * known->left_c9;
+    const double r22 = 0.05 * r16;
+    const double r23 = 0.05 * r17;
+    const double r40 = r20 * p->left_r11 + r16 * p->left_r12 + r18 * p->left_r13;
+    const double r41 = r21 * p->left_r11 + r17 * p->left_r12 + r19 * p->left_r13;
+    const double r50 = r20 * p->left_r21 + r16 * p->left_r22 + r18 * p->left_r23;
+    const double r51 = r21 * p->left_r21 + r17 * p->left_r22 + r19 * p->left_r23;
+    const double r60 = r20 * p->left_r31 + r16 * p->left_r32 + r18 * p->left_r33;
+    const double r61 = r21 * p->left_r31 + r17 * p->left_r32 + r19 * p->left_r33;
+    const double r74 = p->left_px * r40 + p->left_py * r50 + p->left_pz * r60;
+    const double r75 = p->left_px * r41 + p->left_py * r51 + p->left_pz * r61;
+    const double r76 = r6 - r6 + (r22 + -0.2879 * r18) - (r22 + -0.33309 * r18);
+    const double r77 = r7 - r7 + (r23 + -0.2879 * r19) - (r23 + -0.33309 * r19);
+    const double r92 = r40 * known->left_c1 + (0.0 - (0.0 - r50)) * known->left_s1;
+    const double r93 = r41 * known->left_c1 + (0.0 - (0.0 - r51)) * known->left_s1;
+    const double r98 = r50 * known->left_c1 + (0.0 - r40) * known->left_s1;
+    const double r99 = r51 * known->left_c1 + (0.0 - r41) * known->left_s1;
+    const double r120 = (r60 + (r60 - r60) * known->left_c1) * known->left_c2_;
+    const double r121 = (r61 + (r61 - r61) * known->left_c1) * known->left_c2_;
+    const double r124 = r120 + (0.0 - (0.0 - r92)) * known->left_s2_;
+    const double r125 = r121 + (0.0 - (0.0 - r93)) * known->left_s2_;
+    const double r126 = r98 + (r98 - r98) * known->left_c2_;
+    const double r127 = r99 + (r99 - r99) * known->left_c2_;
+    const double r142 = r126 * known->left_c3_ + (0.0 - (0.0 - r124)) * known->left_s3_;
+    const double r143 = r127 * known->left_c3_ + (0.0 - (0.0 - r125)) * known->left_s3_;
+    const double r148 = r124 * known->left_c3_ + (0.0 - r126) * known->left_s3_;
+    const double r149 = r125 * known->left_c3_ + (0.0 - r127) * known->left_s3_;
+    const double r162 = 0.0 - (0.05 * r142 + -0.085 * r148 - (r76 + r74));
+    const double r163 = 0.0 - (0.05 * r143 + -0.085 * r149 - (r77 + r75));
+    const double r322 = 0.0 - r163;
+    const double r323 = 0.0 - (-0.1 - (0.0 - (-0.185 * r1 - r6)));
+    const double r324 = 0.0 - (0.0 - (0.0 - (-0.185 * r3 - -0.2879 * r3)));
+    const double r325 = 5.0 * p->magnitude;
+    const double r329 = r325 + r325 + r325 + 1.29679 + 7.425;
+    const double r331 = fabs(r329);
+    const double r332 = fabs(0.0 - r329);
+    const Shared7 own = { r162, r322, r323, r324, r331, r332 };
+    const Shared7 *const shared = &own;
+    chart_7_1(p, known, shared, answers);
+    chart_7_2(p, known, shared, answers);
 }
 
-/* What the charts of block 7 share. */
+/* What the charts of block 6 share. */
+typedef struct {
+    double r95;
+    double r96;
+    double r139;
+    double r140;
+    double r147;
+    double r148;
+    double r149;
+    double r150;
+    double r151;
+    double r152;
+    double r153;
+    double r155;
+} Shared6;
+
+/* Chart 1 of block 6: generic.
+ * It runs where B*E - A*F is not zero.
+ */
+static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+{
+    const double r156 = shared->r150 - shared->r149;
+    if (!is_away(r156, 10000.0 * (shared->r153 + shared->r152))) {
+        return;
+    }
+    const double r159 = -0.0 / r156;
+    const double r160 = r159 * r159;
+    const double r163 = r159 / sqrt(fmax(r160 + r160, 0.0));
+    const double left_c9 = r163;
+    const double left_s9 = r163;
+    Known next = *known;
+    next.branch = 7 * known->branch;
+    next.last = 7 * known->last;
+    next.left_c9 = left_c9;
+    next.left_s9 = left_s9;
+    block_7(p, &next, answers);
+}
+
+/* Chart 2 of block 6: generic.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+ */
+static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+{
+    const double r156 = shared->r95 * shared->r95;
+    const double r157 = shared->r96 * shared->r96;
+    const double r158 = r156 + r157;
+    const double r161 = shared->r147 * shared->r147 + shared->r148 * shared->r148;
+    if (!(is_near(shared->r151, shared->r155) && is_away(r158, 10000.0 * r161))) {
+        return;
+    }
+    const double choice0_0[3] = {0.0 - r156 - r157, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r161, 0.0)));
+    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+        const double left_w9 = roots0.values[i0];
+        const double r169 = (0.0 - (0.0 - shared->r95 * left_w9)) / r158;
+        const double r172 = (0.0 - shared->r96 * left_w9) / r158;
+        const double r176 = sqrt(fmax(r172 * r172 + r169 * r169, 0.0));
+        const double left_c9 = r172 / r176;
+        const double left_s9 = r169 / r176;
+        Known next = *known;
+        next.branch = 7 * known->branch + 1 + i0;
+        next.last = 7 * known->last;
+        next.left_c9 = left_c9;
+        next.left_s9 = left_s9;
+        block_7(p, &next, answers);
+    }
+}
+
+/* Chart 3 of block 6: A = 0, B = 0, C = 0.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+ * Free: left_AnkleRoll.
+ */
+static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+{
+    const double r158 = shared->r95 * shared->r95 + shared->r96 * shared->r96;
+    const double r161 = shared->r147 * shared->r147 + shared->r148 * shared->r148;
+    if (!(is_near(shared->r151, shared->r155) && is_near(r158, 1.0000000000000001e-7 * r161))) {
+        return;
+    }
+    static const double samples0[8][2] = {
+        { -0.9210609940028851, -0.3894183423086505 },
+        { -0.37592812418099103, -0.926648825310733 },
+        { 0.38941834230865047, -0.9210609940028851 },
+        { 0.926648825310733, -0.375928124180991 },
+        { 0.9210609940028851, 0.3894183423086505 },
+        { 0.37592812418099114, 0.926648825310733 },
+        { -0.38941834230865036, 0.9210609940028851 },
+        { -0.9266488253107329, 0.3759281241809912 },
+    };
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double left_c9 = samples0[i0][0];
+        const double left_s9 = samples0[i0][1];
+        Known next = *known;
+        next.branch = 7 * known->branch + 3;
+        next.last = 7 * known->last;
+        next.free[8] = true;
+        next.left_c9 = left_c9;
+        next.left_s9 = left_s9;
+        block_7(p, &next, answers);
+    }
+}
+
+/* Chart 4 of block 6: generic.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+ */
+static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+{
+    const double r156 = shared->r139 * shared->r139;
+    const double r157 = shared->r140 * shared->r140;
+    const double r158 = r156 + r157;
+    if (!(is_near(shared->r151, shared->r155) && is_away(r158, 27380000.0))) {
+        return;
+    }
+    const double choice0_0[3] = {0.0 - r156 - r157, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, 52.32590180780452);
+    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+        const double left_w9 = roots0.values[i0];
+        const double r164 = (0.0 - (0.0 - shared->r139 * left_w9)) / r158;
+        const double r167 = (0.0 - shared->r140 * left_w9) / r158;
+        const double r171 = sqrt(fmax(r167 * r167 + r164 * r164, 0.0));
+        const double left_c9 = r167 / r171;
+        const double left_s9 = r164 / r171;
+        Known next = *known;
+        next.branch = 7 * known->branch + 4 + i0;
+        next.last = 7 * known->last;
+        next.left_c9 = left_c9;
+        next.left_s9 = left_s9;
+        block_7(p, &next, answers);
+    }
+}
+
+/* Chart 5 of block 6: A = 0, B = 0, C = 0.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+ * Free: left_AnkleRoll.
+ */
+static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+{
+    const double r158 = shared->r139 * shared->r139 + shared->r140 * shared->r140;
+    if (!(is_near(shared->r151, shared->r155) && is_near(r158, 0.00027380000000000004))) {
+        return;
+    }
+    static const double samples0[8][2] = {
+        { -0.9210609940028851, -0.3894183423086505 },
+        { -0.37592812418099103, -0.926648825310733 },
+        { 0.38941834230865047, -0.9210609940028851 },
+        { 0.926648825310733, -0.375928124180991 },
+        { 0.9210609940028851, 0.3894183423086505 },
+        { 0.37592812418099114, 0.926648825310733 },
+        { -0.38941834230865036, 0.9210609940028851 },
+        { -0.9266488253107329, 0.3759281241809912 },
+    };
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double left_c9 = samples0[i0][0];
+        const double left_s9 = samples0[i0][1];
+        Known next = *known;
+        next.branch = 7 * known->branch + 6;
+        next.last = 7 * known->last;
+        next.free[8] = true;
+        next.left_c9 = left_c9;
+        next.left_s9 = left_s9;
+        block_7(p, &next, answers);
+    }
+}
+
+/* Block 6: AnkleRoll. */
+static void block_6(const Parameters *p, const Known *known, Answers *answers)
+{
+    const double r0 = 0.7071067811865475 * known->left_s4;
+    const double r1 = 0.0 - p->left_r13;
+    const double r2 = 0.0 - p->left_r23;
+    const double r3 = 0.0 - p->left_r33;
+    const double r10 = p->left_px * p->left_r12 + p->left_py * p->left_r22;
+    const double r13 = p->left_px * r1 + p->left_py * r2 + p->left_pz * r3;
+    const double r27 = p->left_r12 * known->left_c1 + (0.0 - (0.0 - p->left_r22)) * known->left_s1;
+    const double r28 = r1 * known->left_c1 + (0.0 - (0.0 - r2)) * known->left_s1;
+    const double r33 = p->left_r22 * known->left_c1 + (0.0 - p->left_r12) * known->left_s1;
+    const double r34 = r2 * known->left_c1 + (0.0 - r1) * known->left_s1;
+    const double r37 = p->left_r32 + (p->left_r32 - p->left_r32) * known->left_c1;
+    const double r38 = r3 + (r3 - r3) * known->left_c1;
+    const double r51 = r27 * known->left_c2_ + (0.0 - r37) * known->left_s2_;
+    const double r52 = r28 * known->left_c2_ + (0.0 - r38) * known->left_s2_;
+    const double r59 = r37 * known->left_c2_ + (0.0 - (0.0 - r27)) * known->left_s2_;
+    const double r60 = r38 * known->left_c2_ + (0.0 - (0.0 - r28)) * known->left_s2_;
+    const double r61 = r33 + (r33 - r33) * known->left_c2_;
+    const double r62 = r34 + (r34 - r34) * known->left_c2_;
+    const double r77 = r61 * known->left_c3_ + (0.0 - (0.0 - r59)) * known->left_s3_;
+    const double r78 = r62 * known->left_c3_ + (0.0 - (0.0 - r60)) * known->left_s3_;
+    const double r83 = r59 * known->left_c3_ + (0.0 - r61) * known->left_s3_;
+    const double r84 = r60 * known->left_c3_ + (0.0 - r62) * known->left_s3_;
+    const double r93 = 0.05 * r77 + -0.085 * r83 - (r10 + p->left_pz * p->left_r32);
+    const double r95 = 0.0 - r93;
+    const double r96 = 0.0 - (0.05 * r78 + -0.085 * r84 - (r13 - 0.04519));
+    const double r119 = (r51 + (r51 - r51) * known->left_c3_) * known->left_c4;
+    const double r120 = (r52 + (r52 - r52) * known->left_c3_) * known->left_c4;
+    const double r139 = 0.0 - (r119 + (0.0 - (r83 - (0.0 - r77))) * r0);
+    const double r140 = 0.0 - (r120 + (0.0 - (r84 - (0.0 - r78))) * r0);
+    const double r142 = p->magnitude + p->magnitude + p->magnitude;
+    const double r147 = fabs(r142 + 0.1 + 1.485);
+    const double r148 = fabs(r142 + 0.62099 + 1.485);
+    const double r149 = r95 * r140;
+    const double r150 = r96 * r139;
+    const double r151 = r149 - r150;
+    const double r152 = 37.0 * r147;
+    const double r153 = 37.0 * r148;
+    const double r155 = 0.001 * (r152 + r153);
+    const Shared6 own = { r95, r96, r139, r140, r147, r148, r149, r150, r151, r152, r153, r155 };
+    const Shared6 *const shared = &own;
+    chart_6_1(p, known, shared, answers);
+    chart_6_2(p, known, shared, answers);
+    chart_6_3(p, known, shared, answers);
+    chart_6_4(p, known, shared, answers);
+    chart_6_5(p, known, shared, answers);
+}
+
+/* What the charts of block 5 share. */
 typedef struct {
     double r67;
-} Shared7;
+} Shared5;
 
-/* Chart 1 of block 7: generic.
+/* Chart 1 of block 5: generic.
  */
-static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r69 = shared->r67 * shared->r67 - 0.00042353640000000005;
     const double choice0_0[3] = {r69, 0.0, 1.0};
@@ -2355,12 +2787,12 @@ static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *sh
         next.last = 2 * known->last;
         next.left_c7 = left_c7;
         next.left_s7 = left_s7;
-        block_8(p, &next, answers);
+        block_6(p, &next, answers);
     }
 }
 
-/* Block 7: KneePitch. */
-static void block_7(const Parameters *p, const Known *known, Answers *answers)
+/* Block 5: KneePitch. */
+static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->left_px + 0.04519 * p->left_r13;
     const double r5 = p->left_py + 0.04519 * p->left_r23;
@@ -2377,167 +2809,9 @@ static void block_7(const Parameters *p, const Known *known, Answers *answers)
     const double r54 = r42 * known->left_c3_ + (0.0 - r43) * known->left_s3_;
     const double r61 = 0.05 * (0.05 - r51) + -0.085 * (-0.085 - r54);
     const double r67 = 0.02058841 - (r19 + r61 - (0.05 * r51 + -0.085 * r54));
-    const Shared7 own = { r67 };
-    const Shared7 *const shared = &own;
-    chart_7_1(p, known, shared, answers);
-}
-
-/* What the charts of block 6 share. */
-typedef struct {
-    double r143;
-    double r144;
-} Shared6;
-
-/* Chart 1 of block 6: generic.
- */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
-{
-    const double r145 = 0.0 - shared->r144;
-    const double r147 = 0.0 - (-0.0 - shared->r143);
-    const double r151 = sqrt(fmax(r147 * r147 + r145 * r145, 0.0));
-    const double left_c9 = r147 / r151;
-    const double left_s9 = r145 / r151;
-    Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.left_c9 = left_c9;
-    next.left_s9 = left_s9;
-    block_7(p, &next, answers);
-}
-
-/* Block 6: AnkleRoll. */
-static void block_6(const Parameters *p, const Known *known, Answers *answers)
-{
-    const double r0 = 0.7071067811865475 * known->left_s4;
-    const double r7 = p->left_r13 * known->left_c1 + (0.0 - (0.0 - p->left_r23)) * known->left_s1;
-    const double r10 = p->left_r23 * known->left_c1 + (0.0 - p->left_r13) * known->left_s1;
-    const double r12 = p->left_r33 + (p->left_r33 - p->left_r33) * known->left_c1;
-    const double r19 = r7 * known->left_c2_ + (0.0 - r12) * known->left_s2_;
-    const double r23 = r12 * known->left_c2_ + (0.0 - (0.0 - r7)) * known->left_s2_;
-    const double r24 = r10 + (r10 - r10) * known->left_c2_;
-    const double r32 = r24 * known->left_c3_ + (0.0 - (0.0 - r23)) * known->left_s3_;
-    const double r35 = r23 * known->left_c3_ + (0.0 - r24) * known->left_s3_;
-    const double r39 = 0.5 * r32 + -0.5 * r35;
-    const double r40 = 0.0 - r39;
-    const double r47 = 0.0 - (0.0 - (r19 + (r19 - r19) * known->left_c3_));
-    const double r52 = r47 * r0;
-    const double r59 = 0.0 - (r40 + ((r35 - r40) * known->left_c4 + r52));
-    const double r63 = (r39 + ((r32 - r39) * known->left_c4 + r52)) * known->left_c5;
-    const double r71 = 0.0 - p->left_r12;
-    const double r72 = 0.0 - p->left_r22;
-    const double r73 = 0.0 - p->left_r32;
-    const double r80 = r71 * known->left_c1 + (0.0 - (0.0 - r72)) * known->left_s1;
-    const double r83 = r72 * known->left_c1 + (0.0 - r71) * known->left_s1;
-    const double r85 = r73 + (r73 - r73) * known->left_c1;
-    const double r92 = r80 * known->left_c2_ + (0.0 - r85) * known->left_s2_;
-    const double r96 = r85 * known->left_c2_ + (0.0 - (0.0 - r80)) * known->left_s2_;
-    const double r97 = r83 + (r83 - r83) * known->left_c2_;
-    const double r105 = r97 * known->left_c3_ + (0.0 - (0.0 - r96)) * known->left_s3_;
-    const double r108 = r96 * known->left_c3_ + (0.0 - r97) * known->left_s3_;
-    const double r112 = 0.5 * r105 + -0.5 * r108;
-    const double r113 = 0.0 - r112;
-    const double r120 = 0.0 - (0.0 - (r92 + (r92 - r92) * known->left_c3_));
-    const double r125 = r120 * r0;
-    const double r129 = r112 + ((r105 - r112) * known->left_c4 + r125);
-    const double r130 = r113 + ((r108 - r113) * known->left_c4 + r125);
-    const double r138 = r129 * known->left_c5 + (0.0 - (0.0 - r130)) * known->left_s5;
-    const double r143 = 0.0 - r138;
-    const double r144 = 0.0 - (0.0 - (r63 + (0.0 - r59) * known->left_s5));
-    const Shared6 own = { r143, r144 };
-    const Shared6 *const shared = &own;
-    chart_6_1(p, known, shared, answers);
-}
-
-/* What the charts of block 5 share. */
-typedef struct {
-    double r61;
-    double r62;
-} Shared5;
-
-/* Chart 1 of block 5: generic.
- * It runs where A^2 + B^2 is not zero.
- */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
-{
-    const double r63 = shared->r61 * shared->r61;
-    const double r64 = shared->r62 * shared->r62;
-    const double r65 = r63 + r64;
-    if (!is_away(r65, 46080000.0)) {
-        return;
-    }
-    const double choice0_0[3] = {0.0 - r63 - r64, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 67.88225099390856);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w5 = roots0.values[i0];
-        const double r71 = (0.0 - (0.0 - shared->r61 * left_w5)) / r65;
-        const double r74 = (0.0 - shared->r62 * left_w5) / r65;
-        const double r78 = sqrt(fmax(r74 * r74 + r71 * r71, 0.0));
-        const double left_c5 = r74 / r78;
-        const double left_s5 = r71 / r78;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.left_c5 = left_c5;
-        next.left_s5 = left_s5;
-        block_6(p, &next, answers);
-    }
-}
-
-/* Chart 2 of block 5: A = 0, B = 0, C = 0.
- * It runs where A^2 + B^2 is near zero.
- * Free: left_HipRoll.
- */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
-{
-    const double r65 = shared->r61 * shared->r61 + shared->r62 * shared->r62;
-    if (!is_near(r65, 0.00046080000000000003)) {
-        return;
-    }
-    static const double samples0[8][2] = {
-        { -0.9210609940028851, -0.3894183423086505 },
-        { -0.37592812418099103, -0.926648825310733 },
-        { 0.38941834230865047, -0.9210609940028851 },
-        { 0.926648825310733, -0.375928124180991 },
-        { 0.9210609940028851, 0.3894183423086505 },
-        { 0.37592812418099114, 0.926648825310733 },
-        { -0.38941834230865036, 0.9210609940028851 },
-        { -0.9266488253107329, 0.3759281241809912 },
-    };
-    for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c5 = samples0[i0][0];
-        const double left_s5 = samples0[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[4] = true;
-        next.left_c5 = left_c5;
-        next.left_s5 = left_s5;
-        block_6(p, &next, answers);
-    }
-}
-
-/* Block 5: HipRoll. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
-{
-    const double r7 = p->left_r11 * known->left_c1 + (0.0 - (0.0 - p->left_r21)) * known->left_s1;
-    const double r10 = p->left_r21 * known->left_c1 + (0.0 - p->left_r11) * known->left_s1;
-    const double r12 = p->left_r31 + (p->left_r31 - p->left_r31) * known->left_c1;
-    const double r19 = r7 * known->left_c2_ + (0.0 - r12) * known->left_s2_;
-    const double r23 = r12 * known->left_c2_ + (0.0 - (0.0 - r7)) * known->left_s2_;
-    const double r24 = r10 + (r10 - r10) * known->left_c2_;
-    const double r32 = r24 * known->left_c3_ + (0.0 - (0.0 - r23)) * known->left_s3_;
-    const double r35 = r23 * known->left_c3_ + (0.0 - r24) * known->left_s3_;
-    const double r39 = 0.5 * r32 + -0.5 * r35;
-    const double r40 = 0.0 - r39;
-    const double r47 = 0.0 - (0.0 - (r19 + (r19 - r19) * known->left_c3_));
-    const double r52 = r47 * (0.7071067811865475 * known->left_s4);
-    const double r59 = 0.0 - (r40 + ((r35 - r40) * known->left_c4 + r52));
-    const double r61 = 0.0 - (r39 + ((r32 - r39) * known->left_c4 + r52));
-    const double r62 = 0.0 - (0.0 - r59);
-    const Shared5 own = { r61, r62 };
+    const Shared5 own = { r67 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */

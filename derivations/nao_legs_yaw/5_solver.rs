@@ -282,27 +282,27 @@ struct Known {
     left_s1: f64,
     left_c4: f64,
     left_s4: f64,
-    left_c5: f64,
-    left_s5: f64,
-    left_c9: f64,
-    left_s9: f64,
     left_c7: f64,
     left_s7: f64,
-    left_c6: f64,
-    left_s6: f64,
+    left_c9: f64,
+    left_s9: f64,
     left_c8: f64,
     left_s8: f64,
-    right_c5: f64,
-    right_s5: f64,
-    right_c9: f64,
-    right_s9: f64,
+    left_c5: f64,
+    left_s5: f64,
+    left_c6: f64,
+    left_s6: f64,
     right_c7: f64,
     right_s7: f64,
-    right_c6: f64,
-    right_s6: f64,
+    right_c9: f64,
+    right_s9: f64,
+    right_c8: f64,
+    right_s8: f64,
+    right_c5: f64,
+    right_s5: f64,
 }
 
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, free: NONE_FREE, left_c2_: 0.0, left_s2_: 0.0, left_c3_: 0.0, left_s3_: 0.0, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c5: 0.0, left_s5: 0.0, left_c9: 0.0, left_s9: 0.0, left_c7: 0.0, left_s7: 0.0, left_c6: 0.0, left_s6: 0.0, left_c8: 0.0, left_s8: 0.0, right_c5: 0.0, right_s5: 0.0, right_c9: 0.0, right_s9: 0.0, right_c7: 0.0, right_s7: 0.0, right_c6: 0.0, right_s6: 0.0 };
+const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, free: NONE_FREE, left_c2_: 0.0, left_s2_: 0.0, left_c3_: 0.0, left_s3_: 0.0, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c7: 0.0, left_s7: 0.0, left_c9: 0.0, left_s9: 0.0, left_c8: 0.0, left_s8: 0.0, left_c5: 0.0, left_s5: 0.0, left_c6: 0.0, left_s6: 0.0, right_c7: 0.0, right_s7: 0.0, right_c9: 0.0, right_s9: 0.0, right_c8: 0.0, right_s8: 0.0, right_c5: 0.0, right_s5: 0.0 };
 
 /// Block 1: TorsoPitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
@@ -1053,138 +1053,8 @@ fn chart_4_5(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     }
 }
 
-/// Block 5: HipRoll.
+/// Block 5: KneePitch.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r7 = p.left_r11 * known.left_c1 + (0.0 - (0.0 - p.left_r21)) * known.left_s1;
-    let r10 = p.left_r21 * known.left_c1 + (0.0 - p.left_r11) * known.left_s1;
-    let r12 = p.left_r31 + (p.left_r31 - p.left_r31) * known.left_c1;
-    let r19 = r7 * known.left_c2_ + (0.0 - r12) * known.left_s2_;
-    let r23 = r12 * known.left_c2_ + (0.0 - (0.0 - r7)) * known.left_s2_;
-    let r24 = r10 + (r10 - r10) * known.left_c2_;
-    let r32 = r24 * known.left_c3_ + (0.0 - (0.0 - r23)) * known.left_s3_;
-    let r35 = r23 * known.left_c3_ + (0.0 - r24) * known.left_s3_;
-    let r39 = 0.5 * r32 + -0.5 * r35;
-    let r40 = 0.0 - r39;
-    let r47 = 0.0 - (0.0 - (r19 + (r19 - r19) * known.left_c3_));
-    let r52 = r47 * (0.7071067811865475 * known.left_s4);
-    let r59 = 0.0 - (r40 + ((r35 - r40) * known.left_c4 + r52));
-    let r61 = 0.0 - (r39 + ((r32 - r39) * known.left_c4 + r52));
-    let r62 = 0.0 - (0.0 - r59);
-    let shared = &Shared5 { r61, r62 };
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
-}
-
-/// What the charts of block 5 share.
-struct Shared5 {
-    r61: f64,
-    r62: f64,
-}
-
-/// Chart 1 of block 5: generic.
-/// It runs where A^2 + B^2 is not zero.
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r63 = shared.r61 * shared.r61;
-    let r64 = shared.r62 * shared.r62;
-    let r65 = r63 + r64;
-    if !is_away(r65, 46080000.0) {
-        return;
-    }
-    let roots0 = real_roots(&[0.0 - r63 - r64, 0.0, 1.0], 67.88225099390856);
-    for (i0, &left_w5) in roots0.as_slice().iter().enumerate() {
-        let r71 = (0.0 - (0.0 - shared.r61 * left_w5)) / r65;
-        let r74 = (0.0 - shared.r62 * left_w5) / r65;
-        let r78 = f64::max(r74 * r74 + r71 * r71, 0.0).sqrt();
-        let left_c5 = r74 / r78;
-        let left_s5 = r71 / r78;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, left_c5, left_s5, ..*known };
-        block_6(p, &next, answers);
-    }
-}
-
-/// Chart 2 of block 5: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: left_HipRoll.
-fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r65 = shared.r61 * shared.r61 + shared.r62 * shared.r62;
-    if !is_near(r65, 0.00046080000000000003) {
-        return;
-    }
-    for [left_c5, left_s5] in [
-        [-0.9210609940028851, -0.3894183423086505],
-        [-0.37592812418099103, -0.926648825310733],
-        [0.38941834230865047, -0.9210609940028851],
-        [0.926648825310733, -0.375928124180991],
-        [0.9210609940028851, 0.3894183423086505],
-        [0.37592812418099114, 0.926648825310733],
-        [-0.38941834230865036, 0.9210609940028851],
-        [-0.9266488253107329, 0.3759281241809912],
-    ] {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], true, known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c5, left_s5, ..*known };
-        block_6(p, &next, answers);
-    }
-}
-
-/// Block 6: AnkleRoll.
-fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s4;
-    let r7 = p.left_r13 * known.left_c1 + (0.0 - (0.0 - p.left_r23)) * known.left_s1;
-    let r10 = p.left_r23 * known.left_c1 + (0.0 - p.left_r13) * known.left_s1;
-    let r12 = p.left_r33 + (p.left_r33 - p.left_r33) * known.left_c1;
-    let r19 = r7 * known.left_c2_ + (0.0 - r12) * known.left_s2_;
-    let r23 = r12 * known.left_c2_ + (0.0 - (0.0 - r7)) * known.left_s2_;
-    let r24 = r10 + (r10 - r10) * known.left_c2_;
-    let r32 = r24 * known.left_c3_ + (0.0 - (0.0 - r23)) * known.left_s3_;
-    let r35 = r23 * known.left_c3_ + (0.0 - r24) * known.left_s3_;
-    let r39 = 0.5 * r32 + -0.5 * r35;
-    let r40 = 0.0 - r39;
-    let r47 = 0.0 - (0.0 - (r19 + (r19 - r19) * known.left_c3_));
-    let r52 = r47 * r0;
-    let r59 = 0.0 - (r40 + ((r35 - r40) * known.left_c4 + r52));
-    let r63 = (r39 + ((r32 - r39) * known.left_c4 + r52)) * known.left_c5;
-    let r71 = 0.0 - p.left_r12;
-    let r72 = 0.0 - p.left_r22;
-    let r73 = 0.0 - p.left_r32;
-    let r80 = r71 * known.left_c1 + (0.0 - (0.0 - r72)) * known.left_s1;
-    let r83 = r72 * known.left_c1 + (0.0 - r71) * known.left_s1;
-    let r85 = r73 + (r73 - r73) * known.left_c1;
-    let r92 = r80 * known.left_c2_ + (0.0 - r85) * known.left_s2_;
-    let r96 = r85 * known.left_c2_ + (0.0 - (0.0 - r80)) * known.left_s2_;
-    let r97 = r83 + (r83 - r83) * known.left_c2_;
-    let r105 = r97 * known.left_c3_ + (0.0 - (0.0 - r96)) * known.left_s3_;
-    let r108 = r96 * known.left_c3_ + (0.0 - r97) * known.left_s3_;
-    let r112 = 0.5 * r105 + -0.5 * r108;
-    let r113 = 0.0 - r112;
-    let r120 = 0.0 - (0.0 - (r92 + (r92 - r92) * known.left_c3_));
-    let r125 = r120 * r0;
-    let r129 = r112 + ((r105 - r112) * known.left_c4 + r125);
-    let r130 = r113 + ((r108 - r113) * known.left_c4 + r125);
-    let r138 = r129 * known.left_c5 + (0.0 - (0.0 - r130)) * known.left_s5;
-    let r143 = 0.0 - r138;
-    let r144 = 0.0 - (0.0 - (r63 + (0.0 - r59) * known.left_s5));
-    let shared = &Shared6 { r143, r144 };
-    chart_6_1(p, known, shared, answers);
-}
-
-/// What the charts of block 6 share.
-struct Shared6 {
-    r143: f64,
-    r144: f64,
-}
-
-/// Chart 1 of block 6: generic.
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r145 = 0.0 - shared.r144;
-    let r147 = 0.0 - (-0.0 - shared.r143);
-    let r151 = f64::max(r147 * r147 + r145 * r145, 0.0).sqrt();
-    let left_c9 = r147 / r151;
-    let left_s9 = r145 / r151;
-    let next = Known { branch: known.branch, last: known.last, left_c9, left_s9, ..*known };
-    block_7(p, &next, answers);
-}
-
-/// Block 7: KneePitch.
-fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r4 = p.left_px + 0.04519 * p.left_r13;
     let r5 = p.left_py + 0.04519 * p.left_r23;
     let r6 = p.left_pz + 0.04519 * p.left_r33;
@@ -1200,17 +1070,17 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r54 = r42 * known.left_c3_ + (0.0 - r43) * known.left_s3_;
     let r61 = 0.05 * (0.05 - r51) + -0.085 * (-0.085 - r54);
     let r67 = 0.02058841 - (r19 + r61 - (0.05 * r51 + -0.085 * r54));
-    let shared = &Shared7 { r67 };
-    chart_7_1(p, known, shared, answers);
+    let shared = &Shared5 { r67 };
+    chart_5_1(p, known, shared, answers);
 }
 
-/// What the charts of block 7 share.
-struct Shared7 {
+/// What the charts of block 5 share.
+struct Shared5 {
     r67: f64,
 }
 
-/// Chart 1 of block 7: generic.
-fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
+/// Chart 1 of block 5: generic.
+fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r69 = shared.r67 * shared.r67 - 0.00042353640000000005;
     let roots0 = real_roots(&[r69, 0.0, 1.0], 1.4142135623730951);
     for (i0, &left_w7) in roots0.as_slice().iter().enumerate() {
@@ -1220,93 +1090,122 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
         let left_c7 = r76 / r80;
         let left_s7 = r73 / r80;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, left_c7, left_s7, ..*known };
-        block_8(p, &next, answers);
+        block_6(p, &next, answers);
     }
 }
 
-/// Block 8: HipPitch.
-fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+/// Block 6: AnkleRoll.
+fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = 0.7071067811865475 * known.left_s4;
-    let r1 = -0.1029 * known.left_s7;
-    let r9 = p.left_px + 0.04519 * p.left_r13;
-    let r10 = p.left_py + 0.04519 * p.left_r23;
-    let r11 = p.left_pz + 0.04519 * p.left_r33;
-    let r18 = r9 * known.left_c1 + (0.0 - (0.0 - r10)) * known.left_s1;
-    let r21 = r10 * known.left_c1 + (0.0 - r9) * known.left_s1;
-    let r23 = r11 + (r11 - r11) * known.left_c1;
-    let r30 = r18 * known.left_c2_ + (0.0 - r23) * known.left_s2_;
-    let r34 = r23 * known.left_c2_ + (0.0 - (0.0 - r18)) * known.left_s2_;
-    let r35 = r21 + (r21 - r21) * known.left_c2_;
-    let r43 = r35 * known.left_c3_ + (0.0 - (0.0 - r34)) * known.left_s3_;
-    let r46 = r34 * known.left_c3_ + (0.0 - r35) * known.left_s3_;
-    let r47 = r30 + (r30 - r30) * known.left_c3_;
-    let r48 = r43 - 0.05;
-    let r49 = r46 + 0.085;
-    let r52 = 0.5 * r48 + -0.5 * r49;
-    let r53 = 0.0 - r52;
-    let r63 = r47 * known.left_c4 + (0.0 - (r49 - (0.0 - r48))) * r0;
-    let r65 = (0.0 - (0.0 - r47)) * r0;
-    let r71 = r52 + ((r48 - r52) * known.left_c4 + r65) + 0.05;
-    let r72 = r53 + ((r49 - r53) * known.left_c4 + r65) - 0.085;
-    let r74 = 0.0 - (-0.1029 * known.left_c7 - 0.185 + 0.085);
-    let r88 = (r72 + 0.085) * known.left_c5 + (0.0 - (r71 - 0.05)) * known.left_s5;
-    let r94 = 0.0 - (0.0 - r63);
-    let r95 = 0.0 - (0.085 - (0.0 - (r88 - 0.085)));
-    let r96 = p.magnitude + 0.72099;
-    let r97 = r96 + r96;
-    let r98 = r96 + r97;
-    let r100 = r97 + r98;
-    let r101 = r98 + r97;
-    let r102 = r97 + (r97 + r97);
-    let r106 = r100 + (r100 + r100);
-    let r107 = r102 + r101 + 0.05;
-    let r108 = r101 + r102 + 0.085;
-    let r111 = 0.5 * r107 + 0.5 * r108;
-    let r126 = r111 + (r108 + r111 + r106) + 0.085 + 0.085 + (r111 + (r107 + r111 + r106) + 0.05 + 0.05);
-    let r133 = f64::abs(0.0 - (r106 + (r108 + r107)));
-    let r134 = f64::abs(0.0 - (r126 + 0.085 + 0.085));
-    let shared = &Shared8 { r1, r74, r94, r95, r133, r134 };
-    chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, answers);
+    let r1 = 0.0 - p.left_r13;
+    let r2 = 0.0 - p.left_r23;
+    let r3 = 0.0 - p.left_r33;
+    let r10 = p.left_px * p.left_r12 + p.left_py * p.left_r22;
+    let r13 = p.left_px * r1 + p.left_py * r2 + p.left_pz * r3;
+    let r27 = p.left_r12 * known.left_c1 + (0.0 - (0.0 - p.left_r22)) * known.left_s1;
+    let r28 = r1 * known.left_c1 + (0.0 - (0.0 - r2)) * known.left_s1;
+    let r33 = p.left_r22 * known.left_c1 + (0.0 - p.left_r12) * known.left_s1;
+    let r34 = r2 * known.left_c1 + (0.0 - r1) * known.left_s1;
+    let r37 = p.left_r32 + (p.left_r32 - p.left_r32) * known.left_c1;
+    let r38 = r3 + (r3 - r3) * known.left_c1;
+    let r51 = r27 * known.left_c2_ + (0.0 - r37) * known.left_s2_;
+    let r52 = r28 * known.left_c2_ + (0.0 - r38) * known.left_s2_;
+    let r59 = r37 * known.left_c2_ + (0.0 - (0.0 - r27)) * known.left_s2_;
+    let r60 = r38 * known.left_c2_ + (0.0 - (0.0 - r28)) * known.left_s2_;
+    let r61 = r33 + (r33 - r33) * known.left_c2_;
+    let r62 = r34 + (r34 - r34) * known.left_c2_;
+    let r77 = r61 * known.left_c3_ + (0.0 - (0.0 - r59)) * known.left_s3_;
+    let r78 = r62 * known.left_c3_ + (0.0 - (0.0 - r60)) * known.left_s3_;
+    let r83 = r59 * known.left_c3_ + (0.0 - r61) * known.left_s3_;
+    let r84 = r60 * known.left_c3_ + (0.0 - r62) * known.left_s3_;
+    let r93 = 0.05 * r77 + -0.085 * r83 - (r10 + p.left_pz * p.left_r32);
+    let r95 = 0.0 - r93;
+    let r96 = 0.0 - (0.05 * r78 + -0.085 * r84 - (r13 - 0.04519));
+    let r119 = (r51 + (r51 - r51) * known.left_c3_) * known.left_c4;
+    let r120 = (r52 + (r52 - r52) * known.left_c3_) * known.left_c4;
+    let r139 = 0.0 - (r119 + (0.0 - (r83 - (0.0 - r77))) * r0);
+    let r140 = 0.0 - (r120 + (0.0 - (r84 - (0.0 - r78))) * r0);
+    let r142 = p.magnitude + p.magnitude + p.magnitude;
+    let r147 = f64::abs(r142 + 0.1 + 1.485);
+    let r148 = f64::abs(r142 + 0.62099 + 1.485);
+    let r149 = r95 * r140;
+    let r150 = r96 * r139;
+    let r151 = r149 - r150;
+    let r152 = 37.0 * r147;
+    let r153 = 37.0 * r148;
+    let r155 = 0.001 * (r152 + r153);
+    let shared = &Shared6 { r95, r96, r139, r140, r147, r148, r149, r150, r151, r152, r153, r155 };
+    chart_6_1(p, known, shared, answers);
+    chart_6_2(p, known, shared, answers);
+    chart_6_3(p, known, shared, answers);
+    chart_6_4(p, known, shared, answers);
+    chart_6_5(p, known, shared, answers);
 }
 
-/// What the charts of block 8 share.
-struct Shared8 {
-    r1: f64,
-    r74: f64,
-    r94: f64,
+/// What the charts of block 6 share.
+struct Shared6 {
     r95: f64,
-    r133: f64,
-    r134: f64,
+    r96: f64,
+    r139: f64,
+    r140: f64,
+    r147: f64,
+    r148: f64,
+    r149: f64,
+    r150: f64,
+    r151: f64,
+    r152: f64,
+    r153: f64,
+    r155: f64,
 }
 
-/// Chart 1 of block 8: generic.
-/// It runs where A^2 + B^2 is not zero.
-fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r137 = shared.r1 * shared.r1 + shared.r74 * shared.r74;
-    if !is_away(r137, 7755.348199999999) {
+/// Chart 1 of block 6: generic.
+/// It runs where B*E - A*F is not zero.
+fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+    let r156 = shared.r150 - shared.r149;
+    if !is_away(r156, 10000.0 * (shared.r153 + shared.r152)) {
         return;
     }
-    let r140 = shared.r74 * shared.r94 - shared.r1 * shared.r95;
-    let r142 = (0.0 - r140) / r137;
-    let r146 = 0.0 - shared.r1 * shared.r94 - shared.r74 * shared.r95;
-    let r148 = (0.0 - r146) / r137;
-    let r152 = f64::max(r148 * r148 + r142 * r142, 0.0).sqrt();
-    let left_c6 = r148 / r152;
-    let left_s6 = r142 / r152;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, left_c6, left_s6, ..*known };
-    block_9(p, &next, answers);
+    let r159 = -0.0 / r156;
+    let r160 = r159 * r159;
+    let r163 = r159 / f64::max(r160 + r160, 0.0).sqrt();
+    let left_c9 = r163;
+    let left_s9 = r163;
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, left_c9, left_s9, ..*known };
+    block_7(p, &next, answers);
 }
 
-/// Chart 2 of block 8: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: left_HipPitch.
-fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r137 = shared.r1 * shared.r1 + shared.r74 * shared.r74;
-    if !(is_near(r137, 7.755348200000001e-8) && is_near(shared.r95, 0.01 * shared.r134) && is_near(shared.r94, 0.01 * shared.r133)) {
+/// Chart 2 of block 6: generic.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+    let r156 = shared.r95 * shared.r95;
+    let r157 = shared.r96 * shared.r96;
+    let r158 = r156 + r157;
+    let r161 = shared.r147 * shared.r147 + shared.r148 * shared.r148;
+    if !(is_near(shared.r151, shared.r155) && is_away(r158, 10000.0 * r161)) {
         return;
     }
-    for [left_c6, left_s6] in [
+    let roots0 = real_roots(&[0.0 - r156 - r157, 0.0, 1.0], f64::max(r161, 0.0).sqrt());
+    for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
+        let r169 = (0.0 - (0.0 - shared.r95 * left_w9)) / r158;
+        let r172 = (0.0 - shared.r96 * left_w9) / r158;
+        let r176 = f64::max(r172 * r172 + r169 * r169, 0.0).sqrt();
+        let left_c9 = r172 / r176;
+        let left_s9 = r169 / r176;
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, left_c9, left_s9, ..*known };
+        block_7(p, &next, answers);
+    }
+}
+
+/// Chart 3 of block 6: A = 0, B = 0, C = 0.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+/// Free: left_AnkleRoll.
+fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+    let r158 = shared.r95 * shared.r95 + shared.r96 * shared.r96;
+    let r161 = shared.r147 * shared.r147 + shared.r148 * shared.r148;
+    if !(is_near(shared.r151, shared.r155) && is_near(r158, 1.0000000000000001e-7 * r161)) {
+        return;
+    }
+    for [left_c9, left_s9] in [
         [-0.9210609940028851, -0.3894183423086505],
         [-0.37592812418099103, -0.926648825310733],
         [0.38941834230865047, -0.9210609940028851],
@@ -1316,187 +1215,275 @@ fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
         [-0.38941834230865036, 0.9210609940028851],
         [-0.9266488253107329, 0.3759281241809912],
     ] {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], true, known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c6, left_s6, ..*known };
-        block_9(p, &next, answers);
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
+        block_7(p, &next, answers);
     }
 }
 
-/// Block 9: AnklePitch.
+/// Chart 4 of block 6: generic.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+    let r156 = shared.r139 * shared.r139;
+    let r157 = shared.r140 * shared.r140;
+    let r158 = r156 + r157;
+    if !(is_near(shared.r151, shared.r155) && is_away(r158, 27380000.0)) {
+        return;
+    }
+    let roots0 = real_roots(&[0.0 - r156 - r157, 0.0, 1.0], 52.32590180780452);
+    for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
+        let r164 = (0.0 - (0.0 - shared.r139 * left_w9)) / r158;
+        let r167 = (0.0 - shared.r140 * left_w9) / r158;
+        let r171 = f64::max(r167 * r167 + r164 * r164, 0.0).sqrt();
+        let left_c9 = r167 / r171;
+        let left_s9 = r164 / r171;
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, left_c9, left_s9, ..*known };
+        block_7(p, &next, answers);
+    }
+}
+
+/// Chart 5 of block 6: A = 0, B = 0, C = 0.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+/// Free: left_AnkleRoll.
+fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+    let r158 = shared.r139 * shared.r139 + shared.r140 * shared.r140;
+    if !(is_near(shared.r151, shared.r155) && is_near(r158, 0.00027380000000000004)) {
+        return;
+    }
+    for [left_c9, left_s9] in [
+        [-0.9210609940028851, -0.3894183423086505],
+        [-0.37592812418099103, -0.926648825310733],
+        [0.38941834230865047, -0.9210609940028851],
+        [0.926648825310733, -0.375928124180991],
+        [0.9210609940028851, 0.3894183423086505],
+        [0.37592812418099114, 0.926648825310733],
+        [-0.38941834230865036, 0.9210609940028851],
+        [-0.9266488253107329, 0.3759281241809912],
+    ] {
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
+        block_7(p, &next, answers);
+    }
+}
+
+/// Block 7: AnklePitch.
+fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let r1 = 0.0 - known.left_c7;
+    let r3 = 0.0 - known.left_s7;
+    let r4 = 0.0 - r1;
+    let r5 = 0.0 - r3;
+    let r6 = -0.2879 * r1;
+    let r7 = -0.2879 * r5;
+    let r14 = (known.left_s7 - known.left_s7) * known.left_c9;
+    let r16 = (0.0 - r4) * known.left_s9;
+    let r17 = (0.0 - (0.0 - r5)) * known.left_s9;
+    let r18 = r1 * known.left_c9;
+    let r19 = r5 * known.left_c9;
+    let r20 = known.left_s7 + r14;
+    let r21 = r4 + (r4 - r4) * known.left_c9;
+    let r22 = 0.05 * r16;
+    let r23 = 0.05 * r17;
+    let r40 = r20 * p.left_r11 + r16 * p.left_r12 + r18 * p.left_r13;
+    let r41 = r21 * p.left_r11 + r17 * p.left_r12 + r19 * p.left_r13;
+    let r50 = r20 * p.left_r21 + r16 * p.left_r22 + r18 * p.left_r23;
+    let r51 = r21 * p.left_r21 + r17 * p.left_r22 + r19 * p.left_r23;
+    let r60 = r20 * p.left_r31 + r16 * p.left_r32 + r18 * p.left_r33;
+    let r61 = r21 * p.left_r31 + r17 * p.left_r32 + r19 * p.left_r33;
+    let r74 = p.left_px * r40 + p.left_py * r50 + p.left_pz * r60;
+    let r75 = p.left_px * r41 + p.left_py * r51 + p.left_pz * r61;
+    let r76 = r6 - r6 + (r22 + -0.2879 * r18) - (r22 + -0.33309 * r18);
+    let r77 = r7 - r7 + (r23 + -0.2879 * r19) - (r23 + -0.33309 * r19);
+    let r92 = r40 * known.left_c1 + (0.0 - (0.0 - r50)) * known.left_s1;
+    let r93 = r41 * known.left_c1 + (0.0 - (0.0 - r51)) * known.left_s1;
+    let r98 = r50 * known.left_c1 + (0.0 - r40) * known.left_s1;
+    let r99 = r51 * known.left_c1 + (0.0 - r41) * known.left_s1;
+    let r120 = (r60 + (r60 - r60) * known.left_c1) * known.left_c2_;
+    let r121 = (r61 + (r61 - r61) * known.left_c1) * known.left_c2_;
+    let r124 = r120 + (0.0 - (0.0 - r92)) * known.left_s2_;
+    let r125 = r121 + (0.0 - (0.0 - r93)) * known.left_s2_;
+    let r126 = r98 + (r98 - r98) * known.left_c2_;
+    let r127 = r99 + (r99 - r99) * known.left_c2_;
+    let r142 = r126 * known.left_c3_ + (0.0 - (0.0 - r124)) * known.left_s3_;
+    let r143 = r127 * known.left_c3_ + (0.0 - (0.0 - r125)) * known.left_s3_;
+    let r148 = r124 * known.left_c3_ + (0.0 - r126) * known.left_s3_;
+    let r149 = r125 * known.left_c3_ + (0.0 - r127) * known.left_s3_;
+    let r162 = 0.0 - (0.05 * r142 + -0.085 * r148 - (r76 + r74));
+    let r163 = 0.0 - (0.05 * r143 + -0.085 * r149 - (r77 + r75));
+    let r322 = 0.0 - r163;
+    let r323 = 0.0 - (-0.1 - (0.0 - (-0.185 * r1 - r6)));
+    let r324 = 0.0 - (0.0 - (0.0 - (-0.185 * r3 - -0.2879 * r3)));
+    let r325 = 5.0 * p.magnitude;
+    let r329 = r325 + r325 + r325 + 1.29679 + 7.425;
+    let r331 = f64::abs(r329);
+    let r332 = f64::abs(0.0 - r329);
+    let shared = &Shared7 { r162, r322, r323, r324, r331, r332 };
+    chart_7_1(p, known, shared, answers);
+    chart_7_2(p, known, shared, answers);
+}
+
+/// What the charts of block 7 share.
+struct Shared7 {
+    r162: f64,
+    r322: f64,
+    r323: f64,
+    r324: f64,
+    r331: f64,
+    r332: f64,
+}
+
+/// Chart 1 of block 7: generic.
+/// It runs where A^2 + B^2 is not zero.
+fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
+    let r335 = shared.r162 * shared.r162 + shared.r322 * shared.r322;
+    let r338 = shared.r331 * shared.r331 + shared.r332 * shared.r332;
+    if !is_away(r335, 10000.0 * r338) {
+        return;
+    }
+    let r342 = shared.r322 * shared.r323 - shared.r162 * shared.r324;
+    let r344 = (0.0 - r342) / r335;
+    let r348 = 0.0 - shared.r162 * shared.r323 - shared.r322 * shared.r324;
+    let r350 = (0.0 - r348) / r335;
+    let r354 = f64::max(r350 * r350 + r344 * r344, 0.0).sqrt();
+    let left_c8 = r350 / r354;
+    let left_s8 = r344 / r354;
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, left_c8, left_s8, ..*known };
+    block_8(p, &next, answers);
+}
+
+/// Chart 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
+/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
+/// Free: left_AnklePitch.
+fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
+    let r335 = shared.r162 * shared.r162 + shared.r322 * shared.r322;
+    let r338 = shared.r331 * shared.r331 + shared.r332 * shared.r332;
+    if !(is_near(r335, 1.0000000000000001e-7 * r338) && is_near(shared.r324, 0.004729) && is_near(shared.r323, 0.011129)) {
+        return;
+    }
+    for [left_c8, left_s8] in [
+        [-0.9210609940028851, -0.3894183423086505],
+        [-0.37592812418099103, -0.926648825310733],
+        [0.38941834230865047, -0.9210609940028851],
+        [0.926648825310733, -0.375928124180991],
+        [0.9210609940028851, 0.3894183423086505],
+        [0.37592812418099114, 0.926648825310733],
+        [-0.38941834230865036, 0.9210609940028851],
+        [-0.9266488253107329, 0.3759281241809912],
+    ] {
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], true, known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c8, left_s8, ..*known };
+        block_8(p, &next, answers);
+    }
+}
+
+/// Block 8: HipRoll.
+fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let r1 = 0.0 - known.left_s9;
+    let r4 = known.left_c9 * p.left_r12 + r1 * p.left_r13;
+    let r7 = known.left_c9 * p.left_r22 + r1 * p.left_r23;
+    let r10 = known.left_c9 * p.left_r32 + r1 * p.left_r33;
+    let r17 = r4 * known.left_c1 + (0.0 - (0.0 - r7)) * known.left_s1;
+    let r20 = r7 * known.left_c1 + (0.0 - r4) * known.left_s1;
+    let r22 = r10 + (r10 - r10) * known.left_c1;
+    let r29 = r17 * known.left_c2_ + (0.0 - r22) * known.left_s2_;
+    let r33 = r22 * known.left_c2_ + (0.0 - (0.0 - r17)) * known.left_s2_;
+    let r34 = r20 + (r20 - r20) * known.left_c2_;
+    let r42 = r34 * known.left_c3_ + (0.0 - (0.0 - r33)) * known.left_s3_;
+    let r45 = r33 * known.left_c3_ + (0.0 - r34) * known.left_s3_;
+    let r49 = 0.5 * r42 + -0.5 * r45;
+    let r50 = 0.0 - r49;
+    let r57 = 0.0 - (0.0 - (r29 + (r29 - r29) * known.left_c3_));
+    let r62 = r57 * (0.7071067811865475 * known.left_s4);
+    let r68 = 0.0 - (r50 + ((r45 - r50) * known.left_c4 + r62));
+    let r69 = 0.0 - (r49 + ((r42 - r49) * known.left_c4 + r62));
+    let r71 = 0.0 - r68;
+    let r72 = 0.0 - (0.0 - r69);
+    let shared = &Shared8 { r71, r72 };
+    chart_8_1(p, known, shared, answers);
+}
+
+/// What the charts of block 8 share.
+struct Shared8 {
+    r71: f64,
+    r72: f64,
+}
+
+/// Chart 1 of block 8: generic.
+fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+    let r74 = 0.0 - (0.0 - shared.r71);
+    let r77 = 0.0 - (-0.0 - (0.0 - shared.r72));
+    let r81 = f64::max(r77 * r77 + r74 * r74, 0.0).sqrt();
+    let left_c5 = r77 / r81;
+    let left_s5 = r74 / r81;
+    let next = Known { branch: known.branch, last: known.last, left_c5, left_s5, ..*known };
+    block_9(p, &next, answers);
+}
+
+/// Block 9: HipPitch.
 fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = 0.7071067811865475 * known.left_s4;
-    let r7 = p.left_r11 * known.left_c1 + (0.0 - (0.0 - p.left_r21)) * known.left_s1;
-    let r10 = p.left_r21 * known.left_c1 + (0.0 - p.left_r11) * known.left_s1;
-    let r12 = p.left_r31 + (p.left_r31 - p.left_r31) * known.left_c1;
-    let r19 = r7 * known.left_c2_ + (0.0 - r12) * known.left_s2_;
-    let r23 = r12 * known.left_c2_ + (0.0 - (0.0 - r7)) * known.left_s2_;
-    let r24 = r10 + (r10 - r10) * known.left_c2_;
-    let r32 = r24 * known.left_c3_ + (0.0 - (0.0 - r23)) * known.left_s3_;
-    let r35 = r23 * known.left_c3_ + (0.0 - r24) * known.left_s3_;
-    let r36 = r19 + (r19 - r19) * known.left_c3_;
-    let r39 = 0.5 * r32 + -0.5 * r35;
-    let r40 = 0.0 - r39;
-    let r50 = r36 * known.left_c4 + (0.0 - (r35 - (0.0 - r32))) * r0;
-    let r52 = (0.0 - (0.0 - r36)) * r0;
-    let r61 = 0.0 - (r39 + ((r32 - r39) * known.left_c4 + r52));
-    let r66 = (r40 + ((r35 - r40) * known.left_c4 + r52)) * known.left_c5;
-    let r68 = r66 + r61 * known.left_s5;
-    let r69 = r50 + (r50 - r50) * known.left_c5;
-    let r76 = r69 * known.left_c6 + (0.0 - r68) * known.left_s6;
-    let r80 = r68 * known.left_c6 + (0.0 - (0.0 - r69)) * known.left_s6;
-    let r88 = r76 * known.left_c7 + (0.0 - r80) * known.left_s7;
-    let r92 = r80 * known.left_c7 + (0.0 - (0.0 - r76)) * known.left_s7;
-    let r98 = 0.0 - (0.0 - (0.0 - r92));
-    let r99 = 0.0 - (0.0 - (0.0 - r88));
-    let shared = &Shared9 { r98, r99 };
+    let r1 = -0.1029 * known.left_s8;
+    let r4 = 0.1029 * known.left_c8 - 0.2879 + 0.2879;
+    let r11 = r1 + (r1 - r1) * known.left_c9;
+    let r14 = (0.0 - (0.0 - r4)) * known.left_s9 + 0.05 - 0.05;
+    let r15 = r4 * known.left_c9 - 0.2879 + 0.33309;
+    let r20 = r11 * p.left_r11 + r14 * p.left_r12 + r15 * p.left_r13;
+    let r25 = r11 * p.left_r21 + r14 * p.left_r22 + r15 * p.left_r23;
+    let r30 = r11 * p.left_r31 + r14 * p.left_r32 + r15 * p.left_r33;
+    let r31 = p.left_px + r20;
+    let r32 = p.left_py + r25;
+    let r33 = p.left_pz + r30;
+    let r40 = r31 * known.left_c1 + (0.0 - (0.0 - r32)) * known.left_s1;
+    let r43 = r32 * known.left_c1 + (0.0 - r31) * known.left_s1;
+    let r45 = r33 + (r33 - r33) * known.left_c1;
+    let r52 = r40 * known.left_c2_ + (0.0 - r45) * known.left_s2_;
+    let r56 = r45 * known.left_c2_ + (0.0 - (0.0 - r40)) * known.left_s2_;
+    let r57 = r43 + (r43 - r43) * known.left_c2_;
+    let r65 = r57 * known.left_c3_ + (0.0 - (0.0 - r56)) * known.left_s3_;
+    let r68 = r56 * known.left_c3_ + (0.0 - r57) * known.left_s3_;
+    let r83 = (r52 + (r52 - r52) * known.left_c3_) * known.left_c4;
+    let r84 = (0.0 - (r68 + 0.085 - (0.0 - (r65 - 0.05)))) * r0;
+    let r96 = 0.0 - known.left_c7;
+    let r97 = 0.0 - known.left_s7;
+    let r103 = r96 * known.left_c8 + (0.0 - r97) * known.left_s8;
+    let r106 = r97 * known.left_c8 + (0.0 - (0.0 - r96)) * known.left_s8;
+    let r111 = (0.0 - (0.0 - r106)) * known.left_s9;
+    let r112 = r106 * known.left_c9;
+    let r113 = r103 + (r103 - r103) * known.left_c9;
+    let r118 = r113 * p.left_r11 + r111 * p.left_r12 + r112 * p.left_r13;
+    let r123 = r113 * p.left_r21 + r111 * p.left_r22 + r112 * p.left_r23;
+    let r128 = r113 * p.left_r31 + r111 * p.left_r32 + r112 * p.left_r33;
+    let r135 = r118 * known.left_c1 + (0.0 - (0.0 - r123)) * known.left_s1;
+    let r138 = r123 * known.left_c1 + (0.0 - r118) * known.left_s1;
+    let r140 = r128 + (r128 - r128) * known.left_c1;
+    let r147 = r135 * known.left_c2_ + (0.0 - r140) * known.left_s2_;
+    let r151 = r140 * known.left_c2_ + (0.0 - (0.0 - r135)) * known.left_s2_;
+    let r152 = r138 + (r138 - r138) * known.left_c2_;
+    let r160 = r152 * known.left_c3_ + (0.0 - (0.0 - r151)) * known.left_s3_;
+    let r163 = r151 * known.left_c3_ + (0.0 - r152) * known.left_s3_;
+    let r176 = (r147 + (r147 - r147) * known.left_c3_) * known.left_c4;
+    let r186 = 0.0 - (r176 + (0.0 - (r163 - (0.0 - r160))) * r0);
+    let r187 = 0.0 - (0.0 - (r83 + r84));
+    let r188 = 0.1 * r186;
+    let shared = &Shared9 { r187, r188 };
     chart_9_1(p, known, shared, answers);
 }
 
 /// What the charts of block 9 share.
 struct Shared9 {
-    r98: f64,
-    r99: f64,
+    r187: f64,
+    r188: f64,
 }
 
 /// Chart 1 of block 9: generic.
 fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
-    let r101 = 0.0 - (0.0 - shared.r98);
-    let r104 = 0.0 - (-0.0 - (0.0 - shared.r99));
-    let r108 = f64::max(r104 * r104 + r101 * r101, 0.0).sqrt();
-    let left_c8 = r104 / r108;
-    let left_s8 = r101 / r108;
-    let next = Known { branch: known.branch, last: known.last, left_c8, left_s8, ..*known };
+    let r219 = (0.0 - 0.1 * shared.r187) / 0.010000000000000002;
+    let r223 = (0.0 - (-0.0 - 0.1 * shared.r188)) / 0.010000000000000002;
+    let r227 = f64::max(r223 * r223 + r219 * r219, 0.0).sqrt();
+    let left_c6 = r223 / r227;
+    let left_s6 = r219 / r227;
+    let next = Known { branch: known.branch, last: known.last, left_c6, left_s6, ..*known };
     block_10(p, &next, answers);
 }
 
-/// Block 10: HipRoll.
+/// Block 10: KneePitch.
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s4;
-    let r7 = p.right_r11 * known.left_c1 + (0.0 - (0.0 - p.right_r21)) * known.left_s1;
-    let r10 = p.right_r21 * known.left_c1 + (0.0 - p.right_r11) * known.left_s1;
-    let r12 = p.right_r31 + (p.right_r31 - p.right_r31) * known.left_c1;
-    let r19 = r7 * known.left_c2_ + (0.0 - r12) * known.left_s2_;
-    let r23 = r12 * known.left_c2_ + (0.0 - (0.0 - r7)) * known.left_s2_;
-    let r24 = r10 + (r10 - r10) * known.left_c2_;
-    let r32 = r24 * known.left_c3_ + (0.0 - (0.0 - r23)) * known.left_s3_;
-    let r35 = r23 * known.left_c3_ + (0.0 - r24) * known.left_s3_;
-    let r39 = 0.5 * r32 + 0.5 * r35;
-    let r43 = 0.0 - (r19 + (r19 - r19) * known.left_c3_);
-    let r54 = (r35 - r39) * known.left_c4 + (0.0 - r43) * r0;
-    let r55 = r39 + ((r32 - r39) * known.left_c4 + r43 * r0);
-    let r60 = 0.0 - r55;
-    let r61 = 0.0 - (0.0 - (0.0 - (r39 + r54)));
-    let shared = &Shared10 { r60, r61 };
-    chart_10_1(p, known, shared, answers);
-    chart_10_2(p, known, shared, answers);
-}
-
-/// What the charts of block 10 share.
-struct Shared10 {
-    r60: f64,
-    r61: f64,
-}
-
-/// Chart 1 of block 10: generic.
-/// It runs where A^2 + B^2 is not zero.
-fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r62 = shared.r60 * shared.r60;
-    let r63 = shared.r61 * shared.r61;
-    let r64 = r62 + r63;
-    if !is_away(r64, 46080000.0) {
-        return;
-    }
-    let roots0 = real_roots(&[0.0 - r62 - r63, 0.0, 1.0], 67.88225099390856);
-    for (i0, &right_w5) in roots0.as_slice().iter().enumerate() {
-        let r70 = (0.0 - (0.0 - shared.r60 * right_w5)) / r64;
-        let r73 = (0.0 - shared.r61 * right_w5) / r64;
-        let r77 = f64::max(r73 * r73 + r70 * r70, 0.0).sqrt();
-        let right_c5 = r73 / r77;
-        let right_s5 = r70 / r77;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, right_c5, right_s5, ..*known };
-        block_11(p, &next, answers);
-    }
-}
-
-/// Chart 2 of block 10: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: right_HipRoll.
-fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r64 = shared.r60 * shared.r60 + shared.r61 * shared.r61;
-    if !is_near(r64, 0.00046080000000000003) {
-        return;
-    }
-    for [right_c5, right_s5] in [
-        [-0.9210609940028851, -0.3894183423086505],
-        [-0.37592812418099103, -0.926648825310733],
-        [0.38941834230865047, -0.9210609940028851],
-        [0.926648825310733, -0.375928124180991],
-        [0.9210609940028851, 0.3894183423086505],
-        [0.37592812418099114, 0.926648825310733],
-        [-0.38941834230865036, 0.9210609940028851],
-        [-0.9266488253107329, 0.3759281241809912],
-    ] {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], true, known.free[10], known.free[11], known.free[12], known.free[13]], right_c5, right_s5, ..*known };
-        block_11(p, &next, answers);
-    }
-}
-
-/// Block 11: AnkleRoll.
-fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s4;
-    let r7 = p.right_r13 * known.left_c1 + (0.0 - (0.0 - p.right_r23)) * known.left_s1;
-    let r10 = p.right_r23 * known.left_c1 + (0.0 - p.right_r13) * known.left_s1;
-    let r12 = p.right_r33 + (p.right_r33 - p.right_r33) * known.left_c1;
-    let r19 = r7 * known.left_c2_ + (0.0 - r12) * known.left_s2_;
-    let r23 = r12 * known.left_c2_ + (0.0 - (0.0 - r7)) * known.left_s2_;
-    let r24 = r10 + (r10 - r10) * known.left_c2_;
-    let r32 = r24 * known.left_c3_ + (0.0 - (0.0 - r23)) * known.left_s3_;
-    let r35 = r23 * known.left_c3_ + (0.0 - r24) * known.left_s3_;
-    let r39 = 0.5 * r32 + 0.5 * r35;
-    let r43 = 0.0 - (r19 + (r19 - r19) * known.left_c3_);
-    let r54 = (r35 - r39) * known.left_c4 + (0.0 - r43) * r0;
-    let r55 = r39 + ((r32 - r39) * known.left_c4 + r43 * r0);
-    let r64 = r55 * known.right_c5 + (0.0 - (0.0 - (r39 + r54))) * known.right_s5;
-    let r70 = 0.0 - p.right_r12;
-    let r71 = 0.0 - p.right_r22;
-    let r72 = 0.0 - p.right_r32;
-    let r79 = r70 * known.left_c1 + (0.0 - (0.0 - r71)) * known.left_s1;
-    let r82 = r71 * known.left_c1 + (0.0 - r70) * known.left_s1;
-    let r84 = r72 + (r72 - r72) * known.left_c1;
-    let r91 = r79 * known.left_c2_ + (0.0 - r84) * known.left_s2_;
-    let r95 = r84 * known.left_c2_ + (0.0 - (0.0 - r79)) * known.left_s2_;
-    let r96 = r82 + (r82 - r82) * known.left_c2_;
-    let r104 = r96 * known.left_c3_ + (0.0 - (0.0 - r95)) * known.left_s3_;
-    let r107 = r95 * known.left_c3_ + (0.0 - r96) * known.left_s3_;
-    let r111 = 0.5 * r104 + 0.5 * r107;
-    let r115 = 0.0 - (r91 + (r91 - r91) * known.left_c3_);
-    let r126 = (r107 - r111) * known.left_c4 + (0.0 - r115) * r0;
-    let r127 = r111 + ((r104 - r111) * known.left_c4 + r115 * r0);
-    let r135 = (0.0 - (0.0 - (r111 + r126))) * known.right_s5;
-    let r141 = 0.0 - (r127 * known.right_c5 + r135);
-    let r142 = 0.0 - (0.0 - r64);
-    let shared = &Shared11 { r141, r142 };
-    chart_11_1(p, known, shared, answers);
-}
-
-/// What the charts of block 11 share.
-struct Shared11 {
-    r141: f64,
-    r142: f64,
-}
-
-/// Chart 1 of block 11: generic.
-fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r143 = 0.0 - shared.r142;
-    let r145 = 0.0 - (-0.0 - shared.r141);
-    let r149 = f64::max(r145 * r145 + r143 * r143, 0.0).sqrt();
-    let right_c9 = r145 / r149;
-    let right_s9 = r143 / r149;
-    let next = Known { branch: known.branch, last: known.last, right_c9, right_s9, ..*known };
-    block_12(p, &next, answers);
-}
-
-/// Block 12: KneePitch.
-fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r4 = p.right_px + 0.04519 * p.right_r13;
     let r5 = p.right_py + 0.04519 * p.right_r23;
     let r6 = p.right_pz + 0.04519 * p.right_r33;
@@ -1512,17 +1499,17 @@ fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r54 = r42 * known.left_c3_ + (0.0 - r43) * known.left_s3_;
     let r61 = -0.05 * (-0.05 - r51) + -0.085 * (-0.085 - r54);
     let r67 = 0.02058841 - (r19 + r61 - (-0.05 * r51 + -0.085 * r54));
-    let shared = &Shared12 { r67 };
-    chart_12_1(p, known, shared, answers);
+    let shared = &Shared10 { r67 };
+    chart_10_1(p, known, shared, answers);
 }
 
-/// What the charts of block 12 share.
-struct Shared12 {
+/// What the charts of block 10 share.
+struct Shared10 {
     r67: f64,
 }
 
-/// Chart 1 of block 12: generic.
-fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
+/// Chart 1 of block 10: generic.
+fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
     let r69 = shared.r67 * shared.r67 - 0.00042353640000000005;
     let roots0 = real_roots(&[r69, 0.0, 1.0], 1.4142135623730951);
     for (i0, &right_w7) in roots0.as_slice().iter().enumerate() {
@@ -1532,92 +1519,122 @@ fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
         let right_c7 = r76 / r80;
         let right_s7 = r73 / r80;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, right_c7, right_s7, ..*known };
-        block_13(p, &next, answers);
+        block_11(p, &next, answers);
     }
 }
 
-/// Block 13: HipPitch.
-fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+/// Block 11: AnkleRoll.
+fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = 0.7071067811865475 * known.left_s4;
-    let r1 = -0.1029 * known.right_s7;
-    let r9 = p.right_px + 0.04519 * p.right_r13;
-    let r10 = p.right_py + 0.04519 * p.right_r23;
-    let r11 = p.right_pz + 0.04519 * p.right_r33;
-    let r18 = r9 * known.left_c1 + (0.0 - (0.0 - r10)) * known.left_s1;
-    let r21 = r10 * known.left_c1 + (0.0 - r9) * known.left_s1;
-    let r23 = r11 + (r11 - r11) * known.left_c1;
-    let r30 = r18 * known.left_c2_ + (0.0 - r23) * known.left_s2_;
-    let r34 = r23 * known.left_c2_ + (0.0 - (0.0 - r18)) * known.left_s2_;
-    let r35 = r21 + (r21 - r21) * known.left_c2_;
-    let r43 = r35 * known.left_c3_ + (0.0 - (0.0 - r34)) * known.left_s3_;
-    let r46 = r34 * known.left_c3_ + (0.0 - r35) * known.left_s3_;
-    let r47 = r30 + (r30 - r30) * known.left_c3_;
-    let r48 = r43 + 0.05;
-    let r49 = r46 + 0.085;
-    let r52 = 0.5 * r48 + 0.5 * r49;
-    let r56 = 0.0 - r47;
-    let r61 = r47 * known.left_c4 + (0.0 - (r49 - r48)) * r0;
-    let r67 = (r49 - r52) * known.left_c4 + (0.0 - r56) * r0;
-    let r68 = r52 + ((r48 - r52) * known.left_c4 + r56 * r0);
-    let r73 = 0.0 - (-0.1029 * known.right_c7 - 0.185 + 0.085);
-    let r87 = (r52 + r67 - 0.085 + 0.085) * known.right_c5 + (0.0 - (r68 - 0.05 + 0.05)) * known.right_s5;
-    let r93 = 0.0 - (0.0 - r61);
-    let r94 = 0.0 - (0.085 - (0.0 - (r87 - 0.085)));
-    let r95 = p.magnitude + 0.72099;
-    let r96 = r95 + r95;
-    let r97 = r95 + r96;
-    let r99 = r96 + r97;
-    let r100 = r97 + r96;
-    let r101 = r96 + (r96 + r96);
-    let r105 = r99 + (r99 + r99);
-    let r106 = r101 + r100 + 0.05;
-    let r107 = r100 + r101 + 0.085;
-    let r110 = 0.5 * r106 + 0.5 * r107;
-    let r125 = r110 + (r107 + r110 + r105) + 0.085 + 0.085 + (r110 + (r106 + r110 + r105) + 0.05 + 0.05);
-    let r132 = f64::abs(0.0 - (r105 + (r107 + r106)));
-    let r133 = f64::abs(0.0 - (r125 + 0.085 + 0.085));
-    let shared = &Shared13 { r1, r73, r93, r94, r132, r133 };
-    chart_13_1(p, known, shared, answers);
-    chart_13_2(p, known, shared, answers);
+    let r1 = 0.0 - p.right_r13;
+    let r2 = 0.0 - p.right_r23;
+    let r3 = 0.0 - p.right_r33;
+    let r10 = p.right_px * p.right_r12 + p.right_py * p.right_r22;
+    let r13 = p.right_px * r1 + p.right_py * r2 + p.right_pz * r3;
+    let r27 = p.right_r12 * known.left_c1 + (0.0 - (0.0 - p.right_r22)) * known.left_s1;
+    let r28 = r1 * known.left_c1 + (0.0 - (0.0 - r2)) * known.left_s1;
+    let r33 = p.right_r22 * known.left_c1 + (0.0 - p.right_r12) * known.left_s1;
+    let r34 = r2 * known.left_c1 + (0.0 - r1) * known.left_s1;
+    let r37 = p.right_r32 + (p.right_r32 - p.right_r32) * known.left_c1;
+    let r38 = r3 + (r3 - r3) * known.left_c1;
+    let r51 = r27 * known.left_c2_ + (0.0 - r37) * known.left_s2_;
+    let r52 = r28 * known.left_c2_ + (0.0 - r38) * known.left_s2_;
+    let r59 = r37 * known.left_c2_ + (0.0 - (0.0 - r27)) * known.left_s2_;
+    let r60 = r38 * known.left_c2_ + (0.0 - (0.0 - r28)) * known.left_s2_;
+    let r61 = r33 + (r33 - r33) * known.left_c2_;
+    let r62 = r34 + (r34 - r34) * known.left_c2_;
+    let r77 = r61 * known.left_c3_ + (0.0 - (0.0 - r59)) * known.left_s3_;
+    let r78 = r62 * known.left_c3_ + (0.0 - (0.0 - r60)) * known.left_s3_;
+    let r83 = r59 * known.left_c3_ + (0.0 - r61) * known.left_s3_;
+    let r84 = r60 * known.left_c3_ + (0.0 - r62) * known.left_s3_;
+    let r93 = -0.05 * r77 + -0.085 * r83 - (r10 + p.right_pz * p.right_r32);
+    let r95 = 0.0 - r93;
+    let r96 = 0.0 - (-0.05 * r78 + -0.085 * r84 - (r13 - 0.04519));
+    let r115 = (r51 + (r51 - r51) * known.left_c3_) * known.left_c4;
+    let r116 = (r52 + (r52 - r52) * known.left_c3_) * known.left_c4;
+    let r137 = 0.0 - (r115 + (0.0 - (r83 - r77)) * r0);
+    let r138 = 0.0 - (r116 + (0.0 - (r84 - r78)) * r0);
+    let r140 = p.magnitude + p.magnitude + p.magnitude;
+    let r145 = f64::abs(r140 + 0.1 + 1.485);
+    let r146 = f64::abs(r140 + 0.62099 + 1.485);
+    let r147 = r95 * r138;
+    let r148 = r96 * r137;
+    let r149 = r147 - r148;
+    let r150 = 37.0 * r145;
+    let r151 = 37.0 * r146;
+    let r153 = 0.001 * (r150 + r151);
+    let shared = &Shared11 { r95, r96, r137, r138, r145, r146, r147, r148, r149, r150, r151, r153 };
+    chart_11_1(p, known, shared, answers);
+    chart_11_2(p, known, shared, answers);
+    chart_11_3(p, known, shared, answers);
+    chart_11_4(p, known, shared, answers);
+    chart_11_5(p, known, shared, answers);
 }
 
-/// What the charts of block 13 share.
-struct Shared13 {
-    r1: f64,
-    r73: f64,
-    r93: f64,
-    r94: f64,
-    r132: f64,
-    r133: f64,
+/// What the charts of block 11 share.
+struct Shared11 {
+    r95: f64,
+    r96: f64,
+    r137: f64,
+    r138: f64,
+    r145: f64,
+    r146: f64,
+    r147: f64,
+    r148: f64,
+    r149: f64,
+    r150: f64,
+    r151: f64,
+    r153: f64,
 }
 
-/// Chart 1 of block 13: generic.
-/// It runs where A^2 + B^2 is not zero.
-fn chart_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut Answers<'_>) {
-    let r136 = shared.r1 * shared.r1 + shared.r73 * shared.r73;
-    if !is_away(r136, 7755.348199999999) {
+/// Chart 1 of block 11: generic.
+/// It runs where B*E - A*F is not zero.
+fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+    let r154 = shared.r148 - shared.r147;
+    if !is_away(r154, 10000.0 * (shared.r151 + shared.r150)) {
         return;
     }
-    let r139 = shared.r73 * shared.r93 - shared.r1 * shared.r94;
-    let r141 = (0.0 - r139) / r136;
-    let r145 = 0.0 - shared.r1 * shared.r93 - shared.r73 * shared.r94;
-    let r147 = (0.0 - r145) / r136;
-    let r151 = f64::max(r147 * r147 + r141 * r141, 0.0).sqrt();
-    let right_c6 = r147 / r151;
-    let right_s6 = r141 / r151;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, right_c6, right_s6, ..*known };
-    block_14(p, &next, answers);
+    let r157 = -0.0 / r154;
+    let r158 = r157 * r157;
+    let r161 = r157 / f64::max(r158 + r158, 0.0).sqrt();
+    let right_c9 = r161;
+    let right_s9 = r161;
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, right_c9, right_s9, ..*known };
+    block_12(p, &next, answers);
 }
 
-/// Chart 2 of block 13: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: right_HipPitch.
-fn chart_13_2(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut Answers<'_>) {
-    let r136 = shared.r1 * shared.r1 + shared.r73 * shared.r73;
-    if !(is_near(r136, 7.755348200000001e-8) && is_near(shared.r94, 0.01 * shared.r133) && is_near(shared.r93, 0.01 * shared.r132)) {
+/// Chart 2 of block 11: generic.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+    let r154 = shared.r95 * shared.r95;
+    let r155 = shared.r96 * shared.r96;
+    let r156 = r154 + r155;
+    let r159 = shared.r145 * shared.r145 + shared.r146 * shared.r146;
+    if !(is_near(shared.r149, shared.r153) && is_away(r156, 10000.0 * r159)) {
         return;
     }
-    for [right_c6, right_s6] in [
+    let roots0 = real_roots(&[0.0 - r154 - r155, 0.0, 1.0], f64::max(r159, 0.0).sqrt());
+    for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
+        let r167 = (0.0 - (0.0 - shared.r95 * right_w9)) / r156;
+        let r170 = (0.0 - shared.r96 * right_w9) / r156;
+        let r174 = f64::max(r170 * r170 + r167 * r167, 0.0).sqrt();
+        let right_c9 = r170 / r174;
+        let right_s9 = r167 / r174;
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, right_c9, right_s9, ..*known };
+        block_12(p, &next, answers);
+    }
+}
+
+/// Chart 3 of block 11: A = 0, B = 0, C = 0.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+/// Free: right_AnkleRoll.
+fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+    let r156 = shared.r95 * shared.r95 + shared.r96 * shared.r96;
+    let r159 = shared.r145 * shared.r145 + shared.r146 * shared.r146;
+    if !(is_near(shared.r149, shared.r153) && is_near(r156, 1.0000000000000001e-7 * r159)) {
+        return;
+    }
+    for [right_c9, right_s9] in [
         [-0.9210609940028851, -0.3894183423086505],
         [-0.37592812418099103, -0.926648825310733],
         [0.38941834230865047, -0.9210609940028851],
@@ -1627,53 +1644,267 @@ fn chart_13_2(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut An
         [-0.38941834230865036, 0.9210609940028851],
         [-0.9266488253107329, 0.3759281241809912],
     ] {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], true, known.free[11], known.free[12], known.free[13]], right_c6, right_s6, ..*known };
-        block_14(p, &next, answers);
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
+        block_12(p, &next, answers);
     }
 }
 
-/// Block 14: AnklePitch.
+/// Chart 4 of block 11: generic.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
+fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+    let r154 = shared.r137 * shared.r137;
+    let r155 = shared.r138 * shared.r138;
+    let r156 = r154 + r155;
+    if !(is_near(shared.r149, shared.r153) && is_away(r156, 27380000.0)) {
+        return;
+    }
+    let roots0 = real_roots(&[0.0 - r154 - r155, 0.0, 1.0], 52.32590180780452);
+    for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
+        let r162 = (0.0 - (0.0 - shared.r137 * right_w9)) / r156;
+        let r165 = (0.0 - shared.r138 * right_w9) / r156;
+        let r169 = f64::max(r165 * r165 + r162 * r162, 0.0).sqrt();
+        let right_c9 = r165 / r169;
+        let right_s9 = r162 / r169;
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, right_c9, right_s9, ..*known };
+        block_12(p, &next, answers);
+    }
+}
+
+/// Chart 5 of block 11: A = 0, B = 0, C = 0.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
+/// Free: right_AnkleRoll.
+fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+    let r156 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
+    if !(is_near(shared.r149, shared.r153) && is_near(r156, 0.00027380000000000004)) {
+        return;
+    }
+    for [right_c9, right_s9] in [
+        [-0.9210609940028851, -0.3894183423086505],
+        [-0.37592812418099103, -0.926648825310733],
+        [0.38941834230865047, -0.9210609940028851],
+        [0.926648825310733, -0.375928124180991],
+        [0.9210609940028851, 0.3894183423086505],
+        [0.37592812418099114, 0.926648825310733],
+        [-0.38941834230865036, 0.9210609940028851],
+        [-0.9266488253107329, 0.3759281241809912],
+    ] {
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
+        block_12(p, &next, answers);
+    }
+}
+
+/// Block 12: AnklePitch.
+fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let r1 = 0.0 - known.right_c7;
+    let r3 = 0.0 - known.right_s7;
+    let r4 = 0.0 - r1;
+    let r5 = 0.0 - r3;
+    let r6 = -0.2879 * r1;
+    let r7 = -0.2879 * r5;
+    let r14 = (known.right_s7 - known.right_s7) * known.right_c9;
+    let r16 = (0.0 - r4) * known.right_s9;
+    let r17 = (0.0 - (0.0 - r5)) * known.right_s9;
+    let r18 = r1 * known.right_c9;
+    let r19 = r5 * known.right_c9;
+    let r20 = known.right_s7 + r14;
+    let r21 = r4 + (r4 - r4) * known.right_c9;
+    let r22 = -0.05 * r16;
+    let r23 = -0.05 * r17;
+    let r40 = r20 * p.right_r11 + r16 * p.right_r12 + r18 * p.right_r13;
+    let r41 = r21 * p.right_r11 + r17 * p.right_r12 + r19 * p.right_r13;
+    let r50 = r20 * p.right_r21 + r16 * p.right_r22 + r18 * p.right_r23;
+    let r51 = r21 * p.right_r21 + r17 * p.right_r22 + r19 * p.right_r23;
+    let r60 = r20 * p.right_r31 + r16 * p.right_r32 + r18 * p.right_r33;
+    let r61 = r21 * p.right_r31 + r17 * p.right_r32 + r19 * p.right_r33;
+    let r74 = p.right_px * r40 + p.right_py * r50 + p.right_pz * r60;
+    let r75 = p.right_px * r41 + p.right_py * r51 + p.right_pz * r61;
+    let r76 = r6 - r6 + (r22 + -0.2879 * r18) - (r22 + -0.33309 * r18);
+    let r77 = r7 - r7 + (r23 + -0.2879 * r19) - (r23 + -0.33309 * r19);
+    let r92 = r40 * known.left_c1 + (0.0 - (0.0 - r50)) * known.left_s1;
+    let r93 = r41 * known.left_c1 + (0.0 - (0.0 - r51)) * known.left_s1;
+    let r98 = r50 * known.left_c1 + (0.0 - r40) * known.left_s1;
+    let r99 = r51 * known.left_c1 + (0.0 - r41) * known.left_s1;
+    let r120 = (r60 + (r60 - r60) * known.left_c1) * known.left_c2_;
+    let r121 = (r61 + (r61 - r61) * known.left_c1) * known.left_c2_;
+    let r124 = r120 + (0.0 - (0.0 - r92)) * known.left_s2_;
+    let r125 = r121 + (0.0 - (0.0 - r93)) * known.left_s2_;
+    let r126 = r98 + (r98 - r98) * known.left_c2_;
+    let r127 = r99 + (r99 - r99) * known.left_c2_;
+    let r142 = r126 * known.left_c3_ + (0.0 - (0.0 - r124)) * known.left_s3_;
+    let r143 = r127 * known.left_c3_ + (0.0 - (0.0 - r125)) * known.left_s3_;
+    let r148 = r124 * known.left_c3_ + (0.0 - r126) * known.left_s3_;
+    let r149 = r125 * known.left_c3_ + (0.0 - r127) * known.left_s3_;
+    let r162 = 0.0 - (-0.05 * r142 + -0.085 * r148 - (r76 + r74));
+    let r163 = 0.0 - (-0.05 * r143 + -0.085 * r149 - (r77 + r75));
+    let r322 = 0.0 - r163;
+    let r323 = 0.0 - (-0.1 - (0.0 - (-0.185 * r1 - r6)));
+    let r324 = 0.0 - (0.0 - (0.0 - (-0.185 * r3 - -0.2879 * r3)));
+    let r325 = 5.0 * p.magnitude;
+    let r329 = r325 + r325 + r325 + 1.29679 + 7.425;
+    let r331 = f64::abs(r329);
+    let r332 = f64::abs(0.0 - r329);
+    let shared = &Shared12 { r162, r322, r323, r324, r331, r332 };
+    chart_12_1(p, known, shared, answers);
+    chart_12_2(p, known, shared, answers);
+}
+
+/// What the charts of block 12 share.
+struct Shared12 {
+    r162: f64,
+    r322: f64,
+    r323: f64,
+    r324: f64,
+    r331: f64,
+    r332: f64,
+}
+
+/// Chart 1 of block 12: generic.
+/// It runs where A^2 + B^2 is not zero.
+fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
+    let r335 = shared.r162 * shared.r162 + shared.r322 * shared.r322;
+    let r338 = shared.r331 * shared.r331 + shared.r332 * shared.r332;
+    if !is_away(r335, 10000.0 * r338) {
+        return;
+    }
+    let r342 = shared.r322 * shared.r323 - shared.r162 * shared.r324;
+    let r344 = (0.0 - r342) / r335;
+    let r348 = 0.0 - shared.r162 * shared.r323 - shared.r322 * shared.r324;
+    let r350 = (0.0 - r348) / r335;
+    let r354 = f64::max(r350 * r350 + r344 * r344, 0.0).sqrt();
+    let right_c8 = r350 / r354;
+    let right_s8 = r344 / r354;
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, right_c8, right_s8, ..*known };
+    block_13(p, &next, answers);
+}
+
+/// Chart 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
+/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
+/// Free: right_AnklePitch.
+fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
+    let r335 = shared.r162 * shared.r162 + shared.r322 * shared.r322;
+    let r338 = shared.r331 * shared.r331 + shared.r332 * shared.r332;
+    if !(is_near(r335, 1.0000000000000001e-7 * r338) && is_near(shared.r324, 0.004729) && is_near(shared.r323, 0.011129)) {
+        return;
+    }
+    for [right_c8, right_s8] in [
+        [-0.9210609940028851, -0.3894183423086505],
+        [-0.37592812418099103, -0.926648825310733],
+        [0.38941834230865047, -0.9210609940028851],
+        [0.926648825310733, -0.375928124180991],
+        [0.9210609940028851, 0.3894183423086505],
+        [0.37592812418099114, 0.926648825310733],
+        [-0.38941834230865036, 0.9210609940028851],
+        [-0.9266488253107329, 0.3759281241809912],
+    ] {
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], true, known.free[13]], right_c8, right_s8, ..*known };
+        block_13(p, &next, answers);
+    }
+}
+
+/// Block 13: HipRoll.
+fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let r0 = 0.7071067811865475 * known.left_s4;
+    let r1 = 0.0 - known.right_s9;
+    let r4 = known.right_c9 * p.right_r12 + r1 * p.right_r13;
+    let r7 = known.right_c9 * p.right_r22 + r1 * p.right_r23;
+    let r10 = known.right_c9 * p.right_r32 + r1 * p.right_r33;
+    let r17 = r4 * known.left_c1 + (0.0 - (0.0 - r7)) * known.left_s1;
+    let r20 = r7 * known.left_c1 + (0.0 - r4) * known.left_s1;
+    let r22 = r10 + (r10 - r10) * known.left_c1;
+    let r29 = r17 * known.left_c2_ + (0.0 - r22) * known.left_s2_;
+    let r33 = r22 * known.left_c2_ + (0.0 - (0.0 - r17)) * known.left_s2_;
+    let r34 = r20 + (r20 - r20) * known.left_c2_;
+    let r42 = r34 * known.left_c3_ + (0.0 - (0.0 - r33)) * known.left_s3_;
+    let r45 = r33 * known.left_c3_ + (0.0 - r34) * known.left_s3_;
+    let r49 = 0.5 * r42 + 0.5 * r45;
+    let r53 = 0.0 - (r29 + (r29 - r29) * known.left_c3_);
+    let r64 = (r45 - r49) * known.left_c4 + (0.0 - r53) * r0;
+    let r65 = r49 + ((r42 - r49) * known.left_c4 + r53 * r0);
+    let r70 = 0.0 - (0.0 - (r49 + r64));
+    let r71 = 0.0 - (0.0 - (0.0 - r65));
+    let shared = &Shared13 { r70, r71 };
+    chart_13_1(p, known, shared, answers);
+}
+
+/// What the charts of block 13 share.
+struct Shared13 {
+    r70: f64,
+    r71: f64,
+}
+
+/// Chart 1 of block 13: generic.
+fn chart_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut Answers<'_>) {
+    let r73 = 0.0 - (0.0 - shared.r70);
+    let r76 = 0.0 - (-0.0 - (0.0 - shared.r71));
+    let r80 = f64::max(r76 * r76 + r73 * r73, 0.0).sqrt();
+    let right_c5 = r76 / r80;
+    let right_s5 = r73 / r80;
+    let next = Known { branch: known.branch, last: known.last, right_c5, right_s5, ..*known };
+    block_14(p, &next, answers);
+}
+
+/// Block 14: HipPitch.
 fn block_14(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = 0.7071067811865475 * known.left_s4;
-    let r7 = p.right_r11 * known.left_c1 + (0.0 - (0.0 - p.right_r21)) * known.left_s1;
-    let r10 = p.right_r21 * known.left_c1 + (0.0 - p.right_r11) * known.left_s1;
-    let r12 = p.right_r31 + (p.right_r31 - p.right_r31) * known.left_c1;
-    let r19 = r7 * known.left_c2_ + (0.0 - r12) * known.left_s2_;
-    let r23 = r12 * known.left_c2_ + (0.0 - (0.0 - r7)) * known.left_s2_;
-    let r24 = r10 + (r10 - r10) * known.left_c2_;
-    let r32 = r24 * known.left_c3_ + (0.0 - (0.0 - r23)) * known.left_s3_;
-    let r35 = r23 * known.left_c3_ + (0.0 - r24) * known.left_s3_;
-    let r36 = r19 + (r19 - r19) * known.left_c3_;
-    let r39 = 0.5 * r32 + 0.5 * r35;
-    let r43 = 0.0 - r36;
-    let r48 = r36 * known.left_c4 + (0.0 - (r35 - r32)) * r0;
-    let r54 = (r35 - r39) * known.left_c4 + (0.0 - r43) * r0;
-    let r55 = r39 + ((r32 - r39) * known.left_c4 + r43 * r0);
-    let r67 = (r39 + r54) * known.right_c5 + (0.0 - r55) * known.right_s5;
-    let r68 = r48 + (r48 - r48) * known.right_c5;
-    let r75 = r68 * known.right_c6 + (0.0 - r67) * known.right_s6;
-    let r79 = r67 * known.right_c6 + (0.0 - (0.0 - r68)) * known.right_s6;
-    let r87 = r75 * known.right_c7 + (0.0 - r79) * known.right_s7;
-    let r91 = r79 * known.right_c7 + (0.0 - (0.0 - r75)) * known.right_s7;
-    let r97 = 0.0 - (0.0 - (0.0 - r91));
-    let r98 = 0.0 - (0.0 - (0.0 - r87));
-    let shared = &Shared14 { r97, r98 };
+    let r1 = -0.1029 * known.right_s8;
+    let r4 = 0.1029 * known.right_c8 - 0.2879 + 0.2879;
+    let r11 = r1 + (r1 - r1) * known.right_c9;
+    let r14 = (0.0 - (0.0 - r4)) * known.right_s9 - 0.05 + 0.05;
+    let r15 = r4 * known.right_c9 - 0.2879 + 0.33309;
+    let r20 = r11 * p.right_r11 + r14 * p.right_r12 + r15 * p.right_r13;
+    let r25 = r11 * p.right_r21 + r14 * p.right_r22 + r15 * p.right_r23;
+    let r30 = r11 * p.right_r31 + r14 * p.right_r32 + r15 * p.right_r33;
+    let r31 = p.right_px + r20;
+    let r32 = p.right_py + r25;
+    let r33 = p.right_pz + r30;
+    let r40 = r31 * known.left_c1 + (0.0 - (0.0 - r32)) * known.left_s1;
+    let r43 = r32 * known.left_c1 + (0.0 - r31) * known.left_s1;
+    let r45 = r33 + (r33 - r33) * known.left_c1;
+    let r52 = r40 * known.left_c2_ + (0.0 - r45) * known.left_s2_;
+    let r56 = r45 * known.left_c2_ + (0.0 - (0.0 - r40)) * known.left_s2_;
+    let r57 = r43 + (r43 - r43) * known.left_c2_;
+    let r65 = r57 * known.left_c3_ + (0.0 - (0.0 - r56)) * known.left_s3_;
+    let r68 = r56 * known.left_c3_ + (0.0 - r57) * known.left_s3_;
+    let r81 = (r52 + (r52 - r52) * known.left_c3_) * known.left_c4;
+    let r83 = r81 + (0.0 - (r68 + 0.085 - (r65 + 0.05))) * r0;
+    let r95 = 0.0 - known.right_c7;
+    let r96 = 0.0 - known.right_s7;
+    let r102 = r95 * known.right_c8 + (0.0 - r96) * known.right_s8;
+    let r105 = r96 * known.right_c8 + (0.0 - (0.0 - r95)) * known.right_s8;
+    let r110 = (0.0 - (0.0 - r105)) * known.right_s9;
+    let r111 = r105 * known.right_c9;
+    let r112 = r102 + (r102 - r102) * known.right_c9;
+    let r117 = r112 * p.right_r11 + r110 * p.right_r12 + r111 * p.right_r13;
+    let r122 = r112 * p.right_r21 + r110 * p.right_r22 + r111 * p.right_r23;
+    let r127 = r112 * p.right_r31 + r110 * p.right_r32 + r111 * p.right_r33;
+    let r134 = r117 * known.left_c1 + (0.0 - (0.0 - r122)) * known.left_s1;
+    let r137 = r122 * known.left_c1 + (0.0 - r117) * known.left_s1;
+    let r139 = r127 + (r127 - r127) * known.left_c1;
+    let r146 = r134 * known.left_c2_ + (0.0 - r139) * known.left_s2_;
+    let r150 = r139 * known.left_c2_ + (0.0 - (0.0 - r134)) * known.left_s2_;
+    let r151 = r137 + (r137 - r137) * known.left_c2_;
+    let r159 = r151 * known.left_c3_ + (0.0 - (0.0 - r150)) * known.left_s3_;
+    let r162 = r150 * known.left_c3_ + (0.0 - r151) * known.left_s3_;
+    let r173 = (r146 + (r146 - r146) * known.left_c3_) * known.left_c4;
+    let r185 = 0.0 - (0.0 - r83);
+    let r186 = 0.1 * (0.0 - (r173 + (0.0 - (r162 - r159)) * r0));
+    let shared = &Shared14 { r185, r186 };
     chart_14_1(p, known, shared, answers);
 }
 
 /// What the charts of block 14 share.
 struct Shared14 {
-    r97: f64,
-    r98: f64,
+    r185: f64,
+    r186: f64,
 }
 
 /// Chart 1 of block 14: generic.
 fn chart_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut Answers<'_>) {
-    let r100 = 0.0 - (0.0 - shared.r97);
-    let r103 = 0.0 - (-0.0 - (0.0 - shared.r98));
-    let r107 = f64::max(r103 * r103 + r100 * r100, 0.0).sqrt();
-    let right_c8 = r103 / r107;
-    let right_s8 = r100 / r107;
+    let r217 = (0.0 - 0.1 * shared.r185) / 0.010000000000000002;
+    let r221 = (0.0 - (-0.0 - 0.1 * shared.r186)) / 0.010000000000000002;
+    let r225 = f64::max(r221 * r221 + r217 * r217, 0.0).sqrt();
+    let right_c6 = r221 / r225;
+    let right_s6 = r217 / r225;
     let q = [
         angle(known.left_c1, known.left_s1),
         angle(known.left_c2_, known.left_s2_),
@@ -1685,9 +1916,9 @@ fn chart_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut An
         angle(known.left_c8, known.left_s8),
         angle(known.left_c9, known.left_s9),
         angle(known.right_c5, known.right_s5),
-        angle(known.right_c6, known.right_s6),
+        angle(right_c6, right_s6),
         angle(known.right_c7, known.right_s7),
-        angle(right_c8, right_s8),
+        angle(known.right_c8, known.right_s8),
         angle(known.right_c9, known.right_s9),
     ];
     answers.finish(p, known.branch, known.last, q, known.free);

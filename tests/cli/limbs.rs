@@ -9,13 +9,13 @@ use tempfile::{TempDir, tempdir};
 
 use super::{content, refused, root, succeed, text};
 
-/// An arm of links of length one in the plane.
+/// An arm in the plane, of links of length one but the last, which has 1.25.
 fn arm(name: &str, joints: usize) -> String {
     let joint =
         |k: usize| format!("[[joint]]\nname = \"j{k}\"\ntype = \"revolute\"\naxis = [0, 0, 1]\npoint = [{k}, 0, 0]\n");
     let joints_text: String = (0..joints).map(joint).collect();
     format!(
-        "name = \"{name}\"\ntask = {{ kind = \"planar_position\", plane = \"xy\" }}\n{joints_text}[tip]\npoint = [{joints}, 0, 0]\n"
+        "name = \"{name}\"\ntask = {{ kind = \"planar_position\", plane = \"xy\" }}\n{joints_text}[tip]\npoint = [{joints}.25, 0, 0]\n"
     )
 }
 
@@ -115,26 +115,27 @@ fn check_proves_it_again_and_finds_what_was_changed() {
         fs::write(copy.path().join(name), bytes).unwrap();
     }
     let chain = fs::read_to_string(copy.path().join("b.toml")).unwrap();
-    fs::write(copy.path().join("b.toml"), chain.replace("point = [3, 0, 0]", "point = [3, 1, 0]")).unwrap();
-    has(&refused(&["check", text(copy.path())]), &["certificate.json", "limb `b`"]);
+    fs::write(copy.path().join("b.toml"), chain.replace("point = [3.25, 0, 0]", "point = [3.25, 1, 0]")).unwrap();
+    has(&refused(&["check", text(copy.path())]), &["certificate"]);
 }
 
-/// The first arm's tip at (1, 1), the second one's at (1.9, 1): the elbows of both arms, as the law of cosines has it.
+/// The first arm's tip is at (1, 1.25): its elbow at (1, 0), or mirrored at the line to the tip. From both the second one, of links of
+/// 1 and 1.25, reaches (1, 1.2) in two ways.
 #[test]
 fn solve_finds_all_ways_and_says_which_limb_fails() {
     let (folder, _) = arms();
     let answer: Value =
-        serde_json::from_str(&succeed(&["solve", text(folder.path()), "--json", "--target", "1,1,1.9,1"])).unwrap();
+        serde_json::from_str(&succeed(&["solve", text(folder.path()), "--json", "--target", "1,1.25,1,1.2"])).unwrap();
     assert_eq!(answer["joints"], serde_json::json!(["j0", "a_j1", "b_j1", "b_j2"]));
     assert_eq!(answer["solutions"].as_array().unwrap().len(), 4, "{answer}");
     assert_eq!(answer.get("reason"), None);
-    let far = succeed(&["solve", text(folder.path()), "--target", "1,1,9,1", "--target", "5,1,1,1"]);
+    let far = succeed(&["solve", text(folder.path()), "--target", "1,1.25,9,1", "--target", "5,1,1,1"]);
     has(
         &far,
         &["no solution: the equations of limb `b` fail in each of the 2 ways", "the equations of limb `a` fail;"],
     );
     let far: Value =
-        serde_json::from_str(&succeed(&["solve", text(folder.path()), "--json", "--target", "1,1,9,1"])).unwrap();
+        serde_json::from_str(&succeed(&["solve", text(folder.path()), "--json", "--target", "1,1.25,9,1"])).unwrap();
     assert!(far["reason"].as_str().unwrap().contains("limb `b`"), "{far}");
 }
 

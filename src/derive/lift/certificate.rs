@@ -139,11 +139,18 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
     }
     // Equations beyond those of the plan, where the task asks for more than the joints can do, leave fewer solutions.
     let tight = mechanism.seen().freedoms() <= mechanism.unknown().len();
-    if plan.product() < plan.dimension || tight && plan.product() != plan.dimension {
+    if !tight && most(plan) < plan.dimension || tight && plan.product() != plan.dimension {
         let text = format!("the steps give {} solutions, {} are claimed", plan.product(), plan.dimension);
         return Err(refused(text));
     }
     Ok(steps)
+}
+
+/// The most solutions of the steps together, where the task asks for more than the joints can do: two equations in one joint may be
+/// dependent then.
+fn most(plan: &Plan) -> usize {
+    let most = |step: &PlanStep| if matches!(step.way, Way::Pair(_)) { 2 } else { step.degree };
+    plan.steps.iter().map(most).product()
 }
 
 fn prove_step(

@@ -3,7 +3,7 @@
 use super::model::{JointPlace, Limb, Limbs};
 use crate::derive::closure::Mechanism;
 use crate::derive::lift::{Coupled, Derived, Side};
-use crate::derive::planner::{self, Plan};
+use crate::derive::planner::{self, Plan, PlanStep, Way};
 use crate::kinematics::Chain;
 use crate::solver::{Input, MAX_JOINTS, Program};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -285,8 +285,8 @@ impl Found<'_> {
 }
 
 /// The derivation of a limb's chain, of whose given joints the first `least` are the user's. Where joints are given that the task
-/// determines, the plan is the one that finds them, without their steps: one made for the given joints may lean on equations that say
-/// nothing where the others determine all.
+/// determines, the plan is the one that finds them, without their steps. The relations of these serve beside those of a joint that
+/// both determine: where one says nothing the other does.
 ///
 /// # Errors
 /// As [`Derived::of_chain`].
@@ -307,8 +307,26 @@ fn derived(chain: &Chain, least: usize, watch: &Watch) -> Result<Derived> {
     };
     let mechanism = Mechanism::new(chain)?;
     let own = planner::plan(&mechanism, watch)?;
-    let steps = steps.into_iter().filter(|step| !own.given.contains(&step.joint)).collect();
+    let steps = without(&own.given, steps);
     Derived::of_plan(chain, &mechanism, Plan { steps, ..own }, watch)
+}
+
+/// The steps but those of joints that are known, whose relations stand beside the one relation of a step for the same joint.
+fn without(known: &[usize], steps: Vec<PlanStep>) -> Vec<PlanStep> {
+    let (gone, mut kept): (Vec<PlanStep>, Vec<PlanStep>) =
+        steps.into_iter().partition(|step| known.contains(&step.joint));
+    for other in gone.iter().flat_map(|step| step.way.relations()) {
+        let left: Vec<usize> = other.joints().into_iter().filter(|joint| !known.contains(joint)).collect();
+        for step in &mut kept {
+            if let Way::Single(own) = &step.way
+                && left == [step.joint]
+            {
+                step.way = Way::Pair([own.clone(), other.clone()]);
+                step.degree = 1;
+            }
+        }
+    }
+    kept
 }
 
 /// The derivation of shared joints; none where no relations fit, but a limb determines its joints alone.

@@ -59,6 +59,9 @@ fn leading(derived: &DerivedLimbs, stage: &LimbStage) -> Result<Chain> {
     chain.with_task(chain.task(), chain.direction().clone(), given)
 }
 
+/// Gives the joint vectors of a limb that reach its target.
+type Solve<'a, 'b> = dyn Fn(&Limb<'a>, &[f64]) -> Result<Vec<Solution>> + 'b;
+
 /// A limb in floating point.
 struct Limb<'a> {
     stage: &'a LimbStage,
@@ -67,9 +70,6 @@ struct Limb<'a> {
     /// With the joints given that limbs before it find.
     own: Model<'a>,
 }
-
-/// All solutions of a limb at a target of its own.
-type OfLimb<'s, 'a> = dyn Fn(&Limb<'a>, &[f64]) -> Result<Vec<Solution>> + 's;
 
 /// Limbs that share motors; the joints are those of their solver.
 struct Limbs<'a> {
@@ -106,7 +106,7 @@ impl<'a> Limbs<'a> {
     }
 
     /// All joint vectors that `solve` finds limb by limb, from a limb's target.
-    fn continued(&self, target: &[f64], solve: &OfLimb<'_, 'a>) -> Result<Vec<Solution>> {
+    fn continued(&self, target: &[f64], solve: &Solve<'a, '_>) -> Result<Vec<Solution>> {
         let start = Solution { q: vec![0.0; self.count], residual: 0.0, branch: 0, free: Vec::new(), chosen: false };
         let mut ways = vec![start];
         for limb in &self.limbs {

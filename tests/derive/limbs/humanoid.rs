@@ -139,7 +139,7 @@ fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
 fn two_poses_that_disagree_are_refused_by_the_motor_and_by_how_much() {
     let mut random = Random(13);
     let mut exact = 0;
-    for _ in 0..50 {
+    for _ in 0..20 {
         let q = random.angles(11);
         let mut other = q.clone();
         other[0] += 0.01;
@@ -154,7 +154,7 @@ fn two_poses_that_disagree_are_refused_by_the_motor_and_by_how_much() {
         assert!(disagreement.motor == "HipYawPitch" && disagreement.off().abs() <= 0.01 + 1e-9, "{disagreement:?}");
         exact += usize::from((disagreement.off() - 0.01).abs() < 1e-9);
     }
-    assert!(exact >= 45, "{exact} of 50");
+    assert!(exact >= 18, "{exact} of 20");
 }
 
 /// Both feet below the hips, soles level, knees bent: the foot's x axis and that of the hip's roll are parallel.
