@@ -96,7 +96,8 @@ size_t nao_left_leg_count_turns(const double *q, const double *limits);
 /* Writes the turn of q with this index, which is below their number, to out. Turns of the last joint follow one another. */
 void nao_left_leg_turn(const double *q, const double *limits, size_t index, double *out);
 
-/* As nao_left_leg_solve, for the solutions that have a turn within limits: each is moved there by as few turns of each angle as can be. */
+/* As nao_left_leg_solve, for the solutions that have a turn within limits: each is moved there by as few turns of each angle as can be. A member of
+ * a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
 int nao_left_leg_solve_within(const double *target, const double *limits, nao_left_leg_solution *out);
 
 /* Of a list of solutions, the index of the one that can come nearest to a reference by turns within limits, the first of equals; -1 when
@@ -125,7 +126,7 @@ int nao_left_leg_nearest(const nao_left_leg_solution *list, int count, const dou
 /* Answers whose joints all differ by no more than this are one. */
 #define MERGE 1e-7
 /* At a singular configuration, answers within this distance may be one. */
-#define BLUR 0.001
+#define BLUR 0.05
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -142,8 +143,12 @@ int nao_left_leg_nearest(const nao_left_leg_solution *list, int count, const dou
 #define POLISHED 1e-15
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
+/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+#define ALONE 1e-13
 /* How far a free joint is moved to see whether an answer lies on a family. */
 #define ASIDE 0.1
+/* A family that is followed to another's member is that family when the joints come this near. */
+#define ARRIVED 0.001
 /* In how many stages a family is followed from one member to another. */
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
@@ -663,7 +668,7 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
     const bool leaps = RESOLUTION <= fit->relative && fit->relative <= SPLIT;
     const double enough = leaps ? 0.5 * fit->relative : fit->relative;
-    double step[JOINTS], next[JOINTS], fallen[JOINTS];
+    double step[JOINTS], next[JOINTS], fallen[JOINTS] = {0.0};
     Fit fallen_fit = *fit;
     bool has_fallen = false;
     for (size_t d = 0; d < sizeof dampings / sizeof dampings[0]; d++) {
@@ -763,7 +768,7 @@ static void differences(const double *a, const double *b, double *difference)
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
-static void limits(const double *q, double tolerance, double *limit)
+static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
     limit[0] = tolerance;
@@ -779,7 +784,7 @@ static double farthest_of(const double *a, const double *b)
 {
     double difference[JOINTS], size[JOINTS];
     differences(a, b, difference);
-    limits(a, 1.0, size);
+    spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
         farthest = fmax(farthest, fabs(difference[i]) / size[i]);
@@ -792,7 +797,7 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
     double difference[JOINTS], limit[JOINTS];
     differences(a->q, b->q, difference);
-    limits(a->q, tolerance, limit);
+    spans(a->q, tolerance, limit);
     for (size_t i = 0; i < JOINTS; i++) {
         if (!a->free[i] && !b->free[i] && !(fabs(difference[i]) <= limit[i])) {
             return false;
@@ -857,7 +862,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     }
     const Fit fit = follow(p, at, free);
     differences(at, q, difference);
-    limits(at, BLUR, limit);
+    spans(at, BLUR, limit);
     for (size_t i = 0; i < JOINTS; i++) {
         if (!(fabs(difference[i]) <= limit[i])) {
             return false;
@@ -882,7 +887,7 @@ static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
     for (size_t i = 0; i < JOINTS; i++) {
         end.free[i] = member.free[i] = false;
     }
-    return accepted && is_close(&end, &member, BLUR);
+    return accepted && is_close(&end, &member, ARRIVED);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -1023,7 +1028,7 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
     add(answers, &answer, relative);
 }
 
-/* Starts again from points to either side, as far as the square root of a miss leads: of a double root, or where an angle hardly
+/* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
  * matters. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
@@ -1058,6 +1063,7 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
     double q[JOINTS];
     copy(candidate, q);
     Fit fit = measure(p, q);
+    const double missed = fit.relative;
     if (!is_isolated(free)) {
         if (has_member(answers, branch, free)) {
             return;
@@ -1067,13 +1073,16 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
-            if (!keep_member(p, branch, last, q, &fit, free, answers)) {
+            if (!keep_member(p, branch, last, q, &fit, free, answers) && fit.relative <= ALONE) {
+                const size_t known = answers->count;
                 keep(p, answers, branch, last, q, &fit, NONE_FREE);
+                if (answers->count > known && RESOLUTION <= missed && missed <= SPLIT) {
+                    around(p, branch, last, q, &fit, missed, NONE_FREE, answers);
+                }
             }
         }
         return;
     }
-    const double missed = fit.relative;
     polish(p, q, &fit, NONE_FREE);
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
@@ -1285,7 +1294,7 @@ typedef struct {
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r23 = shared->r18 * shared->r18, r24 = shared->r22 * shared->r22, r25 = r23 + r24;
-    if (!is_away(r25, 191.99999999999997)) {
+    if (!is_away(r25, 119999.99999999999)) {
         return;
     }
     const double choice0_0[3] = {0.0 - r23 - r24, 0.0, 1.0};
@@ -1356,7 +1365,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double r188 = shared->r88 * shared->r88 + shared->r135 * shared->r135;
     const double r191 = shared->r183 * shared->r183 + shared->r184 * shared->r184;
-    if (!is_away(r188, 16.0 * r191)) {
+    if (!is_away(r188, 10000.0 * r191)) {
         return;
     }
     const double f5 = 1.0, r195 = shared->r135 * shared->r136 - shared->r88 * shared->r137;
@@ -1444,7 +1453,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 {
     const double r32 = shared->r22 * shared->r22, r33 = shared->r23 * shared->r23, r34 = r32 + r33;
     const double r37 = shared->r30 * shared->r30 + shared->r31 * shared->r31;
-    if (!is_away(r34, 16.0 * r37)) {
+    if (!is_away(r34, 10000.0 * r37)) {
         return;
     }
     const double f6 = 1.0;
@@ -1665,6 +1674,9 @@ void nao_left_leg_target_of(const double *base, const double *tool, const double
     }
 }
 
+/* How far, and how often, a free joint is moved in search of a place within limits: rad, or a share of a length; a whole turn in all. */
+#define STRIDE 0.1
+#define STRIDES 63
 /* How far a joint may be beyond a limit. */
 #define SLACK 1e-9
 /* By joint: a turn of an angle, 0 for a length. */
@@ -1725,20 +1737,54 @@ void nao_left_leg_turn(const double *q, const double *limits, size_t index, doub
     }
 }
 
-int nao_left_leg_solve_within(const double *target, const double *limits, Solution *out)
+/* Moves joints by as few turns as can be within limits; false when that cannot be. */
+static bool turned_within(double *q, const double *limits)
 {
-    const int count = nao_left_leg_solve(target, out);
+    bool within = true;
+    for (size_t i = 0; i < JOINTS; i++) {
+        double first, last;
+        turns_within(i, q[i], limits + 2 * i, &first, &last);
+        within = within && first <= last;
+        q[i] += TURNS[i] * nearest_turn(0.0, first, last);
+    }
+    return within;
+}
+
+/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+ * such place. */
+static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
+{
+    for (size_t i = 0; i < 2 * JOINTS; i++) {
+        Solution here = *member;
+        bool holds = member->free[i / 2];
+        for (int stride = 0; stride < STRIDES && holds; stride++) {
+            Solution next = here;
+            move(here.q, i / 2, i % 2 == 0 ? STRIDE : -STRIDE, next.q);
+            const Fit fit = follow(p, next.q, member->free);
+            holds = fit.accepted;
+            next.residual = fit.residual;
+            here = next;
+            if (holds && turned_within(next.q, limits)) {
+                *answer = next;
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+int nao_left_leg_solve_within(const double *given, const double *limits, Solution *out)
+{
+    const int count = nao_left_leg_solve(given, out);
+    double target[INPUTS];
+    if (!conform(given, target)) {
+        return count;
+    }
+    const Parameters p = parameters(target);
     int kept = 0;
     for (int k = 0; k < count; k++) {
         Solution answer = out[k];
-        bool within = true;
-        for (size_t i = 0; i < JOINTS; i++) {
-            double first, last;
-            turns_within(i, answer.q[i], limits + 2 * i, &first, &last);
-            within = within && first <= last;
-            answer.q[i] += TURNS[i] * nearest_turn(0.0, first, last);
-        }
-        if (within) {
+        if (turned_within(answer.q, limits) || strides_within(&p, &out[k], limits, &answer)) {
             out[kept] = answer;
             kept++;
         }

@@ -104,7 +104,7 @@ int nao_leg_sagittal_nearest(const nao_leg_sagittal_solution *list, int count, c
 /* Answers whose joints all differ by no more than this are one. */
 #define MERGE 1e-7
 /* At a singular configuration, answers within this distance may be one. */
-#define BLUR 0.001
+#define BLUR 0.05
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -476,7 +476,7 @@ static bool improve(const Parameters *p, double *q, Fit *fit)
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
     const bool leaps = RESOLUTION <= fit->relative && fit->relative <= SPLIT;
     const double enough = leaps ? 0.5 * fit->relative : fit->relative;
-    double step[JOINTS], next[JOINTS], fallen[JOINTS];
+    double step[JOINTS], next[JOINTS], fallen[JOINTS] = {0.0};
     Fit fallen_fit = *fit;
     bool has_fallen = false;
     for (size_t d = 0; d < sizeof dampings / sizeof dampings[0]; d++) {
@@ -564,7 +564,7 @@ static void differences(const double *a, const double *b, double *difference)
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
-static void limits(const double *q, double tolerance, double *limit)
+static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
     limit[0] = tolerance;
@@ -576,7 +576,7 @@ static double farthest_of(const double *a, const double *b)
 {
     double difference[JOINTS], size[JOINTS];
     differences(a, b, difference);
-    limits(a, 1.0, size);
+    spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
         farthest = fmax(farthest, fabs(difference[i]) / size[i]);
@@ -589,7 +589,7 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
     double difference[JOINTS], limit[JOINTS];
     differences(a->q, b->q, difference);
-    limits(a->q, tolerance, limit);
+    spans(a->q, tolerance, limit);
     for (size_t i = 0; i < JOINTS; i++) {
         if (!a->free[i] && !b->free[i] && !(fabs(difference[i]) <= limit[i])) {
             return false;
@@ -716,7 +716,7 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
     add(answers, &answer, relative);
 }
 
-/* Starts again from points to either side, as far as the square root of a miss leads: of a double root, or where an angle hardly
+/* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
  * matters. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
@@ -907,20 +907,26 @@ void nao_leg_sagittal_turn(const double *q, const double *limits, size_t index, 
     }
 }
 
+/* Moves joints by as few turns as can be within limits; false when that cannot be. */
+static bool turned_within(double *q, const double *limits)
+{
+    bool within = true;
+    for (size_t i = 0; i < JOINTS; i++) {
+        double first, last;
+        turns_within(i, q[i], limits + 2 * i, &first, &last);
+        within = within && first <= last;
+        q[i] += TURNS[i] * nearest_turn(0.0, first, last);
+    }
+    return within;
+}
+
 int nao_leg_sagittal_solve_within(const double *target, const double *limits, Solution *out)
 {
     const int count = nao_leg_sagittal_solve(target, out);
     int kept = 0;
     for (int k = 0; k < count; k++) {
         Solution answer = out[k];
-        bool within = true;
-        for (size_t i = 0; i < JOINTS; i++) {
-            double first, last;
-            turns_within(i, answer.q[i], limits + 2 * i, &first, &last);
-            within = within && first <= last;
-            answer.q[i] += TURNS[i] * nearest_turn(0.0, first, last);
-        }
-        if (within) {
+        if (turned_within(answer.q, limits)) {
             out[kept] = answer;
             kept++;
         }

@@ -95,7 +95,7 @@ static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
 static const double MERGE = 1e-7;
 /* At a singular configuration, answers within this distance may be one. */
-static const double BLUR = 0.001;
+static const double BLUR = 0.05;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -112,8 +112,12 @@ static const double STIFF = 1e-6;
 static const double POLISHED = 1e-15;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
+/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+static const double ALONE = 1e-13;
 /* How far a free joint is moved to see whether an answer lies on a family. */
 static const double ASIDE = 0.1;
+/* A family that is followed to another's member is that family when the joints come this near. */
+static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
 static const int STAGES = 4;
 /* A factor is near zero up to this share of its scale. */
@@ -555,7 +559,7 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
     const bool leaps = RESOLUTION <= fit->relative && fit->relative <= SPLIT;
     const double enough = leaps ? 0.5 * fit->relative : fit->relative;
-    double step[JOINTS], next[JOINTS], fallen[JOINTS];
+    double step[JOINTS], next[JOINTS], fallen[JOINTS] = {0.0};
     Fit fallen_fit = *fit;
     bool has_fallen = false;
     for (size_t d = 0; d < sizeof dampings / sizeof dampings[0]; d++) {
@@ -649,7 +653,7 @@ static void differences(const double *a, const double *b, double *difference)
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
-static void limits(const double *q, double tolerance, double *limit)
+static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
     limit[0] = tolerance;
@@ -663,7 +667,7 @@ static double farthest_of(const double *a, const double *b)
 {
     double difference[JOINTS], size[JOINTS];
     differences(a, b, difference);
-    limits(a, 1.0, size);
+    spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
         farthest = fmax(farthest, fabs(difference[i]) / size[i]);
@@ -676,7 +680,7 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
     double difference[JOINTS], limit[JOINTS];
     differences(a->q, b->q, difference);
-    limits(a->q, tolerance, limit);
+    spans(a->q, tolerance, limit);
     for (size_t i = 0; i < JOINTS; i++) {
         if (!a->free[i] && !b->free[i] && !(fabs(difference[i]) <= limit[i])) {
             return false;
@@ -741,7 +745,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     }
     const Fit fit = follow(p, at, free);
     differences(at, q, difference);
-    limits(at, BLUR, limit);
+    spans(at, BLUR, limit);
     for (size_t i = 0; i < JOINTS; i++) {
         if (!(fabs(difference[i]) <= limit[i])) {
             return false;
@@ -766,7 +770,7 @@ static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
     for (size_t i = 0; i < JOINTS; i++) {
         end.free[i] = member.free[i] = false;
     }
-    return accepted && is_close(&end, &member, BLUR);
+    return accepted && is_close(&end, &member, ARRIVED);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -907,7 +911,7 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
     add(answers, &answer, relative);
 }
 
-/* Starts again from points to either side, as far as the square root of a miss leads: of a double root, or where an angle hardly
+/* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
  * matters. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
@@ -942,6 +946,7 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
     double q[JOINTS];
     copy(candidate, q);
     Fit fit = measure(p, q);
+    const double missed = fit.relative;
     if (!is_isolated(free)) {
         if (has_member(answers, branch, free)) {
             return;
@@ -951,13 +956,16 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
-            if (!keep_member(p, branch, last, q, &fit, free, answers)) {
+            if (!keep_member(p, branch, last, q, &fit, free, answers) && fit.relative <= ALONE) {
+                const size_t known = answers->count;
                 keep(p, answers, branch, last, q, &fit, NONE_FREE);
+                if (answers->count > known && RESOLUTION <= missed && missed <= SPLIT) {
+                    around(p, branch, last, q, &fit, missed, NONE_FREE, answers);
+                }
             }
         }
         return;
     }
-    const double missed = fit.relative;
     polish(p, q, &fit, NONE_FREE);
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
@@ -1086,7 +1094,7 @@ typedef struct {
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r60 = shared->r18 * shared->r18 + shared->r24 * shared->r24;
-    if (!is_away(r60, 139.93004580640002)) {
+    if (!is_away(r60, 87456.27862900001)) {
         return;
     }
     const double r63 = shared->r24 * shared->r44 - shared->r18 * shared->r45, r65 = (0.0 - r63) / r60;
@@ -1155,7 +1163,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double r33 = shared->r22 * shared->r22, r34 = shared->r26 * shared->r26, r35 = r33 + r34;
     const double r38 = shared->r31 * shared->r31 + shared->r32 * shared->r32;
-    if (!is_away(r35, 16.0 * r38)) {
+    if (!is_away(r35, 10000.0 * r38)) {
         return;
     }
     const double choice0_0[3] = {shared->r25 * shared->r25 - r33 - r34, 0.0, 1.0};
@@ -1221,7 +1229,7 @@ typedef struct {
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r54 = shared->r34 * shared->r34, r55 = r54 + 0.0005701111289999999;
-    if (!is_away(r55, 32.0)) {
+    if (!is_away(r55, 20000.0)) {
         return;
     }
     const double f4 = 1.0, r57 = shared->r53 * shared->r53 - 0.0005701111289999999;

@@ -97,7 +97,7 @@ static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
 static const double MERGE = 1e-7;
 /* At a singular configuration, answers within this distance may be one. */
-static const double BLUR = 0.001;
+static const double BLUR = 0.05;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -114,8 +114,12 @@ static const double STIFF = 1e-6;
 static const double POLISHED = 1e-15;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
+/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+static const double ALONE = 1e-13;
 /* How far a free joint is moved to see whether an answer lies on a family. */
 static const double ASIDE = 0.1;
+/* A family that is followed to another's member is that family when the joints come this near. */
+static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
@@ -597,7 +601,7 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
     const bool leaps = RESOLUTION <= fit->relative && fit->relative <= SPLIT;
     const double enough = leaps ? 0.5 * fit->relative : fit->relative;
-    double step[JOINTS], next[JOINTS], fallen[JOINTS];
+    double step[JOINTS], next[JOINTS], fallen[JOINTS] = {0.0};
     Fit fallen_fit = *fit;
     bool has_fallen = false;
     for (size_t d = 0; d < sizeof dampings / sizeof dampings[0]; d++) {
@@ -697,7 +701,7 @@ static void differences(const double *a, const double *b, double *difference)
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
-static void limits(const double *q, double tolerance, double *limit)
+static void spans(const double *q, double tolerance, double *limit)
 {
     limit[0] = tolerance;
     limit[1] = tolerance;
@@ -712,7 +716,7 @@ static double farthest_of(const double *a, const double *b)
 {
     double difference[JOINTS], size[JOINTS];
     differences(a, b, difference);
-    limits(a, 1.0, size);
+    spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
         farthest = fmax(farthest, fabs(difference[i]) / size[i]);
@@ -725,7 +729,7 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
     double difference[JOINTS], limit[JOINTS];
     differences(a->q, b->q, difference);
-    limits(a->q, tolerance, limit);
+    spans(a->q, tolerance, limit);
     for (size_t i = 0; i < JOINTS; i++) {
         if (!a->free[i] && !b->free[i] && !(fabs(difference[i]) <= limit[i])) {
             return false;
@@ -790,7 +794,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     }
     const Fit fit = follow(p, at, free);
     differences(at, q, difference);
-    limits(at, BLUR, limit);
+    spans(at, BLUR, limit);
     for (size_t i = 0; i < JOINTS; i++) {
         if (!(fabs(difference[i]) <= limit[i])) {
             return false;
@@ -815,7 +819,7 @@ static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
     for (size_t i = 0; i < JOINTS; i++) {
         end.free[i] = member.free[i] = false;
     }
-    return accepted && is_close(&end, &member, BLUR);
+    return accepted && is_close(&end, &member, ARRIVED);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -956,7 +960,7 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
     add(answers, &answer, relative);
 }
 
-/* Starts again from points to either side, as far as the square root of a miss leads: of a double root, or where an angle hardly
+/* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
  * matters. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
@@ -991,6 +995,7 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
     double q[JOINTS];
     copy(candidate, q);
     Fit fit = measure(p, q);
+    const double missed = fit.relative;
     if (!is_isolated(free)) {
         if (has_member(answers, branch, free)) {
             return;
@@ -1000,13 +1005,16 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
-            if (!keep_member(p, branch, last, q, &fit, free, answers)) {
+            if (!keep_member(p, branch, last, q, &fit, free, answers) && fit.relative <= ALONE) {
+                const size_t known = answers->count;
                 keep(p, answers, branch, last, q, &fit, NONE_FREE);
+                if (answers->count > known && RESOLUTION <= missed && missed <= SPLIT) {
+                    around(p, branch, last, q, &fit, missed, NONE_FREE, answers);
+                }
             }
         }
         return;
     }
-    const double missed = fit.relative;
     polish(p, q, &fit, NONE_FREE);
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
@@ -1211,7 +1219,7 @@ typedef struct {
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r30 = shared->r25 * shared->r25, r31 = shared->r28 * shared->r28, r32 = r30 + r31;
-    if (!is_away(r32, 976.0)) {
+    if (!is_away(r32, 610000.0)) {
         return;
     }
     const double choice0_0[3] = {0.0 - r30 - r31, 0.0, 1.0};
@@ -1309,7 +1317,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 {
     const double r37 = shared->r23 * shared->r23, r38 = shared->r26 * shared->r26, r39 = r37 + r38;
     const double r42 = shared->r35 * shared->r35 + shared->r36 * shared->r36;
-    if (!is_away(r39, 16.0 * r42)) {
+    if (!is_away(r39, 10000.0 * r42)) {
         return;
     }
     const double f2 = 1.0;
@@ -1382,7 +1390,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double r18 = shared->r8 * shared->r8, r19 = shared->r12 * shared->r12, r20 = r18 + r19;
     const double r21 = shared->r17 * shared->r17, r22 = r21 + r21;
-    if (!is_away(r20, 16.0 * r22)) {
+    if (!is_away(r20, 10000.0 * r22)) {
         return;
     }
     const double f1 = 1.0;

@@ -11,8 +11,8 @@ use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use super::samples::Table;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALONE, APART, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, LEAPS, LEVER, MERGE, NEAR,
-    Operand, PIVOT, POLISH_STEPS, POLISHED, Program, RETURNS, ROUNDING, STAGES, STIFF, Step, TINY, Unit,
+    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, LEAPS, LEVER,
+    MERGE, NEAR, Operand, PIVOT, POLISH_STEPS, POLISHED, Program, RETURNS, ROUNDING, STAGES, STIFF, Step, TINY, Unit,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -83,6 +83,7 @@ struct Tolerances {
     alone: String,
     aside: String,
     apart: String,
+    arrived: String,
     lever: String,
     returns: usize,
     stiff: String,
@@ -224,6 +225,7 @@ impl Tolerances {
             alone: number(ALONE),
             aside: number(ASIDE),
             apart: number(APART),
+            arrived: number(ARRIVED),
             lever: number(LEVER),
             returns: RETURNS,
             stiff: number(STIFF),

@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ALONE, APART, ASIDE, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
+use super::{ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
 
 /// A solution with the largest share of an equation's value in its scale.
 struct Answer {
@@ -104,6 +104,8 @@ impl<'a> Answers<'a> {
             refine::polish(self.program, &mut q, &mut fit, &path.free, &mut self.frame);
         }
         if !self.keep_member(path, &q, &fit) {
+            // The frame must hold the values at `q` again.
+            fit = refine::measure(self.program, &q, &mut self.frame);
             refine::polish(self.program, &mut q, &mut fit, &NONE_FREE, &mut self.frame);
             if !self.keep_member(path, &q, &fit) {
                 self.keep_alone(path, &q, &fit, missed);
@@ -269,7 +271,7 @@ impl<'a> Answers<'a> {
             }
             accepted = self.follow(&mut q, &member.free).accepted;
         }
-        accepted && (0..count).all(|joint| self.is_near(joint, &q, &member.q, BLUR))
+        accepted && (0..count).all(|joint| self.is_near(joint, &q, &member.q, ARRIVED))
     }
 
     /// Polishes joints of which `free` ones stay where they are.

@@ -65,6 +65,8 @@ pub const APART: f64 = 0.7;
 pub const ALONE: f64 = 1e-13;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 pub const LEVER: f64 = 0.1;
+/// A family that is followed to where another's member has its free joints is that other family when the joints come this near.
+pub const ARRIVED: f64 = 1e-3;
 /// In how many stages a family is followed from one member to another.
 pub const STAGES: usize = 4;
 /// A target's rotation or unit vector may be this far from one.
