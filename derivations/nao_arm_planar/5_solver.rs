@@ -83,6 +83,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
     let p = &parameters(target);
     let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0 };
     block_1(p, &mut answers);
+    answers.unite();
     answers.sort();
     answers.mark_choice();
     Ok(answers.count)
@@ -481,6 +482,26 @@ impl Answers<'_> {
         self.count += 1;
     }
 
+    /// Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the
+    /// nearest two are one, and the better of them stays.
+    fn unite(&mut self) {
+        while self.out[..self.count].iter().filter(|answer| is_isolated(answer)).count() > 2 {
+            let (mut least, mut worse) = (f64::INFINITY, 0);
+            for second in 0..self.count {
+                for first in 0..second {
+                    let (a, b) = (&self.out[first], &self.out[second]);
+                    if is_isolated(a) && is_isolated(b) && farthest(&a.q, &b.q) < least {
+                        least = farthest(&a.q, &b.q);
+                        worse = if self.relative[first] > self.relative[second] { first } else { second };
+                    }
+                }
+            }
+            let mut doubles = [false; CAPACITY];
+            doubles[worse] = true;
+            self.drop_doubles(&doubles);
+        }
+    }
+
     /// Insertion sort by branch.
     fn sort(&mut self) {
         for end in 1..self.count {
@@ -533,6 +554,10 @@ fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
 
 fn shorter(difference: f64) -> f64 {
     difference - TAU * (difference / TAU).round()
+}
+
+fn is_isolated(answer: &Solution) -> bool {
+    !answer.free.contains(&true)
 }
 
 /// How far joints may differ: angles by `tolerance`, lengths by that share of their size.

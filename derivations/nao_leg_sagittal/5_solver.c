@@ -750,6 +750,55 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
     keep(p, answers, branch, last, q, &fit, free);
 }
 
+/* Whether no joint of an answer is free. */
+static bool is_single(const Solution *answer)
+{
+    for (size_t i = 0; i < JOINTS; i++) {
+        if (answer->free[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Of the two isolated answers nearest to each other the one that holds less well, the later of equals. */
+static size_t doubled(const Answers *answers)
+{
+    double least = INFINITY;
+    size_t worse = 0;
+    for (size_t second = 0; second < answers->count; second++) {
+        for (size_t first = 0; first < second; first++) {
+            const Solution *a = &answers->out[first], *b = &answers->out[second];
+            if (is_single(a) && is_single(b) && farthest_of(a->q, b->q) < least) {
+                least = farthest_of(a->q, b->q);
+                worse = answers->relative[first] > answers->relative[second] ? first : second;
+            }
+        }
+    }
+    return worse;
+}
+
+/* Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the
+ * nearest two are one, and the better of them stays. */
+static void unite(Answers *answers)
+{
+    for (;;) {
+        size_t isolated = 0;
+        for (size_t i = 0; i < answers->count; i++) {
+            isolated += is_single(&answers->out[i]) ? 1 : 0;
+        }
+        if (isolated <= 2) {
+            return;
+        }
+        const size_t worse = doubled(answers);
+        answers->count--;
+        for (size_t i = worse; i < answers->count; i++) {
+            answers->out[i] = answers->out[i + 1];
+            answers->relative[i] = answers->relative[i + 1];
+        }
+    }
+}
+
 /* The source chooses the answer with the least value of this. */
 static double preference(const double *q)
 {
@@ -826,6 +875,7 @@ int nao_leg_sagittal_solve(const double *target, nao_leg_sagittal_solution *out)
     answers.out = out;
     answers.count = 0;
     block_1(&p, &answers);
+    unite(&answers);
     mark_choice(&answers);
     return (int)answers.count;
 }

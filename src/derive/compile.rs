@@ -29,6 +29,9 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
     compiler.charts(tree, &mut Vec::new(), &mut charts)?;
     let block = Block::numbered(&system.name, Vec::new(), charts);
     let capacity = block.charts.iter().map(Program::branches).sum();
+    // The chart of a stratum gives all solutions there, and a target lies on one.
+    let most = block.charts.iter().map(Program::branches).max().filter(|most| *most > 0);
+    let isolated = most.filter(|_| !block.charts.iter().any(|chart| chart.open));
     let (checks, scale) = compiler.checks()?;
     let program = Program {
         name: system.name.clone(),
@@ -44,7 +47,7 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
         checks,
         preference: compiler.preference()?,
         capacity,
-        isolated: None,
+        isolated,
     };
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;
     Ok(program)
