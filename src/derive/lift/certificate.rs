@@ -71,7 +71,7 @@ pub fn write(derived: &Derived) -> Result<String> {
 /// Proves the derivation of `chain` anew from the text of its certificate, without search and without the Groebner engine.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the step or the form for a
+/// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the step or the form for a
 /// claim that does not hold.
 pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
     let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
@@ -117,7 +117,7 @@ type Eliminate<'a> = dyn FnMut(&PlanStep, &[usize]) -> Result<Elimination> + 'a;
 /// Every step of `plan`, proved; together they find each joint once, with as many solutions as the plan says.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] that names the step.
+/// [`crate::ErrorKind::Certificate`] that names the step.
 pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eliminate<'_>) -> Result<Vec<Lifted>> {
     let count = mechanism.joints().len();
     if plan.given != mechanism.given() {
