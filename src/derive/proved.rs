@@ -72,15 +72,7 @@ impl Proved {
             Proved::Limbs(derived) => derived.stage_files(),
         }
     }
-}
 
-fn equations(source: &Source) -> Result<&super::System> {
-    let none =
-        || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no limbs").in_file(&source.path);
-    source.system.as_ref().ok_or_else(none)
-}
-
-impl Proved {
     /// The same, its program told what it comes from: the task, the links, a hash and the limits of `source`.
     #[must_use]
     pub fn about(mut self, source: &Source) -> Self {
@@ -92,6 +84,12 @@ impl Proved {
         program.about = Some(about(source, program));
         self
     }
+}
+
+fn equations(source: &Source) -> Result<&super::System> {
+    let none =
+        || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no limbs").in_file(&source.path);
+    source.system.as_ref().ok_or_else(none)
 }
 
 /// What `source` says of itself, with the limits of the program's joints.

@@ -104,9 +104,7 @@ impl<'a> Answers<'a> {
             refine::polish(self.program, &mut q, &mut fit, &path.free, &mut self.frame);
         }
         if !self.keep_member(path, &q, &fit) {
-            // The frame must hold the values at `q` again.
-            fit = refine::measure(self.program, &q, &mut self.frame);
-            refine::polish(self.program, &mut q, &mut fit, &NONE_FREE, &mut self.frame);
+            fit = refine::polished(self.program, &mut q, &NONE_FREE, &mut self.frame);
             if !self.keep_member(path, &q, &fit) {
                 self.keep_alone(path, &q, &fit, missed);
             }
@@ -148,23 +146,23 @@ impl<'a> Answers<'a> {
             let weight = if fit.accepted { 1.0 } else { weights[joint] };
             let way = (missed / weight).sqrt().min(APART);
             start[joint] = self.displaced(q[joint], joint, 2.0 * sign * way);
-            let mut fit = refine::measure(self.program, &start, &mut self.frame);
-            refine::polish(self.program, &mut start, &mut fit, &NONE_FREE, &mut self.frame);
+            let fit = refine::polished(self.program, &mut start, &NONE_FREE, &mut self.frame);
             self.keep(path, &start, &fit);
         }
     }
 
     /// The farthest that a joint is moved from `a` to `b`: an angle, or a share of a length's size.
     fn way(&self, a: &[f64], b: &[f64]) -> f64 {
-        let mut farthest = 0.0_f64;
-        for (joint, parts) in self.program.joints.iter().enumerate() {
-            let size = match parts.value {
-                JointValue::Angle { .. } => 1.0,
-                JointValue::Plain(_) => self.program.scale.max(a[joint].abs()),
-            };
-            farthest = farthest.max(difference(self.program, joint, a, b).abs() / size);
+        let way = |joint: usize| difference(self.program, joint, a, b).abs() / self.size(joint, a[joint]);
+        (0..self.program.joints.len()).map(way).fold(0.0, f64::max)
+    }
+
+    /// What a joint's differences are shares of: one for an angle, a length's size.
+    fn size(&self, joint: usize, value: f64) -> f64 {
+        match self.program.joints[joint].value {
+            JointValue::Angle { .. } => 1.0,
+            JointValue::Plain(_) => self.program.scale.max(value.abs()),
         }
-        farthest
     }
 
     /// Remembers a candidate that is no answer if it comes nearest so far.
@@ -278,16 +276,15 @@ impl<'a> Answers<'a> {
     fn follow(&mut self, q: &mut Joints, free: &[usize]) -> Fit {
         let mut held = NONE_FREE;
         free.iter().for_each(|&joint| held[joint] = true);
-        let mut fit = refine::measure(self.program, q, &mut self.frame);
-        refine::polish(self.program, q, &mut fit, &held, &mut self.frame);
-        fit
+        refine::polished(self.program, q, &held, &mut self.frame)
     }
 
     /// The value of a joint moved by `way`: an angle by that, a length by that share of its size.
     fn displaced(&self, value: f64, joint: usize, way: f64) -> f64 {
+        let moved = value + way * self.size(joint, value);
         match self.program.joints[joint].value {
-            JointValue::Angle { .. } => refine::wrap(value + way),
-            JointValue::Plain(_) => value + way * self.program.scale.max(value.abs()),
+            JointValue::Angle { .. } => refine::wrap(moved),
+            JointValue::Plain(_) => moved,
         }
     }
 
@@ -314,11 +311,7 @@ impl<'a> Answers<'a> {
     }
 
     fn is_near(&self, joint: usize, a: &[f64], b: &[f64], tolerance: f64) -> bool {
-        let allowed = match self.program.joints[joint].value {
-            JointValue::Angle { .. } => tolerance,
-            JointValue::Plain(_) => tolerance * self.program.scale.max(a[joint].abs()),
-        };
-        difference(self.program, joint, a, b).abs() <= allowed
+        difference(self.program, joint, a, b).abs() <= tolerance * self.size(joint, a[joint])
     }
 }
 

@@ -55,6 +55,13 @@ pub(super) fn measure(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> F
     fit
 }
 
+/// Measures `q` and polishes it: how well it then solves the equations.
+pub(super) fn polished(program: &Program, q: &mut Joints, held: &[bool; MAX_JOINTS], frame: &mut Frame<'_>) -> Fit {
+    let mut fit = measure(program, q, frame);
+    polish(program, q, &mut fit, held, frame);
+    fit
+}
+
 /// Up to [`POLISH_STEPS`] Gauss-Newton steps from `q`, whose `fit` was measured last, damped where that is needed (Levenberg 1944,
 /// Marquardt 1963); each is taken only if the relative residual falls, at once or after a leap. Joints that are `held` stay.
 pub(super) fn polish(

@@ -54,8 +54,6 @@ pub struct Mechanism {
     tip_rotation: ExactMatrix,
     aim: ExactVector,
     task: Task,
-    /// What relations see of the tip.
-    seen: Task,
     given: Vec<usize>,
     /// Motions of the tip that the task does not see, as joints behind the last one.
     unseen: Vec<ScrewJoint>,
@@ -80,14 +78,12 @@ impl Mechanism {
         };
         let tip_point = chain.tip().point.clone();
         let aim = vector::normalised(&vector::turn(&chain.tip().rotation, chain.direction()));
-        let seen = if task == Task::Ray { Task::Pose } else { task };
         if task == Task::Ray {
             let symbol = hidden_symbol(&joints);
             joints.push(ScrewJoint::new("turn about the ray", &symbol, JointKind::Revolute, &aim, &tip_point));
         }
-        let unseen = unseen(seen, &tip_point, &aim);
-        Mechanism { joints, tip_point, tip_rotation, aim, task, seen, given: Vec::new(), unseen }
-            .with_given(&chain.given())
+        let unseen = unseen(task, &tip_point, &aim);
+        Mechanism { joints, tip_point, tip_rotation, aim, task, given: Vec::new(), unseen }.with_given(&chain.given())
     }
 
     /// The same mechanism with these joints, by their places, given by the user.
@@ -145,7 +141,7 @@ impl Mechanism {
 
     /// What relations see of the tip: what is asked, and of a ray the pose with the turn that is chosen.
     pub fn seen(&self) -> Task {
-        self.seen
+        if self.task == Task::Ray { Task::Pose } else { self.task }
     }
 
     /// The places of the joints that the user gives, ascending.
@@ -166,7 +162,7 @@ impl Mechanism {
     /// The names of the numbers of the target that relations hold, in the order of [`super::Target::new`]: px, py, pz, r11 ... r33 and
     /// so on.
     pub fn parameters(&self) -> Vec<String> {
-        numbers(self.seen)
+        numbers(self.seen())
     }
 
     /// The names of the numbers of the target that the user gives.

@@ -8,10 +8,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::charts::Slack;
 use super::eliminate::{self, Elimination};
 use super::half_angle::{self, HalfAngles};
 use super::shape::{eliminated, shape};
+use super::slack::Slack;
 use super::template::{Form, Template};
 use super::{Derived, Lifted, Parts};
 use crate::Result;
@@ -71,8 +71,8 @@ pub fn write(derived: &Derived) -> Result<String> {
 /// Proves the derivation of `chain` anew from the text of its certificate, without search and without the Groebner engine.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the step or the form for a
-/// claim that does not hold.
+/// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the step or the form
+/// for a claim that does not hold.
 pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
     let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
     check_head((record.format, &record.name), (FORMAT, chain.name()))?;
@@ -83,15 +83,10 @@ pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
         None => Err(refused("its elimination is missing".to_owned())),
     };
     let steps = prove_plan(&mechanism, &record.plan, &mut eliminate)?;
-    let half_angles = record.half_angles.as_deref().map(HalfAngles::again).transpose()?;
-    if half_angles.is_some() != steps.iter().any(|step| step.shape.form == Form::Quartic) || stored.next().is_some() {
-        return Err(refused("half angles or eliminations are missing or left over".to_owned()));
+    if stored.next().is_some() {
+        return Err(refused("an elimination is left over".to_owned()));
     }
-    let templates = record.templates.iter().map(prove_template).collect::<Result<Vec<_>>>()?;
-    let needed: Vec<Form> = Template::needed(&steps);
-    if templates.iter().map(|template| template.form).ne(needed) {
-        return Err(refused("the templates are not those of the plan's forms, in their order".to_owned()));
-    }
+    let (templates, half_angles) = prove_forms(&steps, &record.templates, record.half_angles.as_deref())?;
     Derived::assemble(chain, &mechanism, Parts { plan: record.plan, steps, templates, half_angles }, Slack::NONE)
 }
 
@@ -104,7 +99,27 @@ pub(super) fn template_proofs(templates: &[Template]) -> Result<Vec<Proof>> {
     templates.iter().map(proof).collect()
 }
 
-pub(super) fn prove_template(proof: &Proof) -> Result<Template> {
+/// The forms that `steps` use, from what is stored of them, proved anew.
+///
+/// # Errors
+/// [`crate::ErrorKind::Certificate`] for a claim that does not hold, is missing or is left over.
+pub(super) fn prove_forms(
+    steps: &[Lifted],
+    templates: &[Proof],
+    half_angles: Option<&[half_angle::Stored]>,
+) -> Result<(Vec<Template>, Option<HalfAngles>)> {
+    let half_angles = half_angles.map(HalfAngles::again).transpose()?;
+    if half_angles.is_some() != HalfAngles::are_needed(steps) {
+        return Err(refused("half angles are missing or left over".to_owned()));
+    }
+    let templates = templates.iter().map(prove_template).collect::<Result<Vec<_>>>()?;
+    if templates.iter().map(|template| template.form).ne(Template::needed(steps)) {
+        return Err(refused("the templates are not those of the steps' forms, in their order".to_owned()));
+    }
+    Ok((templates, half_angles))
+}
+
+fn prove_template(proof: &Proof) -> Result<Template> {
     let system = proof.form.system()?;
     let tree = replay(&system, &proof.strata)
         .map_err(|error| refused(format!("template `{}`: {}", proof.form.name(), error.message())))?;

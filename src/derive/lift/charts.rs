@@ -3,6 +3,7 @@
 use num_traits::Signed;
 
 use super::half_angle::{HalfAngle, HalfAngles};
+use super::slack::Slack;
 use super::template::{Form, Template};
 use crate::derive::assemble::{Assembler, FlatTerm};
 use crate::derive::compile::{flatten, push_code};
@@ -12,7 +13,6 @@ use crate::derive::tree::{Node, Outcome, Solved, collect_denominators};
 use crate::derive::triangular::Stair;
 use crate::number::{Rationals, Ring, Style};
 use crate::poly::PolynomialRing;
-use crate::roots::TANGENT;
 use crate::solver::{Chart, Guard, JointValue, NEAR, Operand, Pivot, Step, TINY};
 use crate::{Error, ErrorKind, Result};
 
@@ -28,34 +28,6 @@ const FAINT: f64 = 1e-18;
 /// What a later block's roots are looked for by, where a joint before is free: so far out that each polynomial has at least one place
 /// where it comes nearest to zero. The joint's samples may all miss the part of the circle on which there are solutions.
 const OUT: f64 = 1e6;
-/// How many times the difference of a chain and its ideal the symbols may be off.
-const OFF: f64 = 20.0;
-
-/// How far the formulas may be off, beyond rounding: where they are those of an ideal chain, by the tolerance \[rad, or m\] within which
-/// it is the one that answers are measured on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Slack(f64);
-
-impl Slack {
-    /// The formulas are exact.
-    pub const NONE: Slack = Slack(0.0);
-
-    /// The formulas are those of an ideal chain within `tolerance`.
-    pub fn within(tolerance: f64) -> Self {
-        Slack(OFF * tolerance)
-    }
-
-    /// The share of a size below which what is told by `least` is nothing.
-    pub fn share(self, least: f64) -> f64 {
-        least.max(self.0)
-    }
-
-    /// By how much an unknown's typical size is multiplied, so that a polynomial of this degree that misses the axis by this slack has
-    /// a double root.
-    fn typical(self, degree: usize) -> f64 {
-        (self.0 / TANGENT).powf(1.0 / degree as f64).max(1.0)
-    }
-}
 
 /// The value of a symbol and the sum of its terms' magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]

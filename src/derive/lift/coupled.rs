@@ -7,15 +7,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Lifted;
-use super::certificate::{Proof, prove_template, template_proofs};
-use super::charts::Slack;
+use super::certificate::{Proof, prove_forms, template_proofs};
 use super::eliminate::{self, Elimination};
 use super::half_angle::{self, HalfAngles};
 use super::layout::Layout;
 use super::program::{Context, given, reach};
 use super::shape::{Shape, Symbolic, eliminated};
+use super::slack::Slack;
 use super::template::{Form, Template};
+use super::{Lifted, forms};
 use crate::derive::certificate::refused;
 use crate::derive::closure::{Mechanism, Relation, Word, prove};
 use crate::derive::planner::{PlanStep, Way};
@@ -74,9 +74,7 @@ impl Coupled {
     pub fn derive(sides: [Side<'_>; 2], shared: usize, watch: &Watch) -> Result<Self> {
         let common = Common::new(sides, shared)?;
         let steps = common.search(watch)?;
-        let forms = Template::needed(&steps);
-        let templates = forms.into_iter().map(|form| Template::derive(form, watch)).collect::<Result<_>>()?;
-        let half_angles = is_quartic(&steps).then(|| HalfAngles::derive(watch)).transpose()?;
+        let (templates, half_angles) = forms(&steps, watch)?;
         common.assemble(steps, templates, half_angles)
     }
 
@@ -127,12 +125,7 @@ impl Coupled {
             _ => return Err(refused("the elimination of a shared joint is missing or left over".to_owned())),
         };
         let steps = common.steps(&stored.joints, stored.relations.clone(), elimination)?;
-        let half_angles = stored.half_angles.as_deref().map(HalfAngles::again).transpose()?;
-        let templates = stored.templates.iter().map(prove_template).collect::<Result<Vec<_>>>()?;
-        let needed: Vec<Form> = Template::needed(&steps);
-        if templates.iter().map(|template| template.form).ne(needed) || half_angles.is_some() != is_quartic(&steps) {
-            return Err(refused("the templates or half angles are not those of the shared joints' forms".to_owned()));
-        }
+        let (templates, half_angles) = prove_forms(&steps, &stored.templates, stored.half_angles.as_deref())?;
         common.assemble(steps, templates, half_angles)
     }
 
@@ -140,10 +133,6 @@ impl Coupled {
     pub fn dimension(&self) -> usize {
         self.steps.iter().map(|step| step.shape.form.degree().max(2)).product()
     }
-}
-
-fn is_quartic(steps: &[Lifted]) -> bool {
-    steps.iter().any(|step| step.shape.form == Form::Quartic)
 }
 
 /// Two mechanisms whose first joints are the same motors, which turn.

@@ -7,6 +7,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Lifted;
+use super::template::Form;
 use crate::groebner::verify::{Claim, verify};
 use crate::groebner::{Options, Strategy, basis};
 use crate::number::{BigRational, Rationals, Ring, Style};
@@ -47,6 +49,11 @@ pub(super) struct Stored {
 }
 
 impl HalfAngles {
+    /// Whether a step has an equation of degree two in cosine and sine.
+    pub(super) fn are_needed(steps: &[Lifted]) -> bool {
+        steps.iter().any(|step| step.shape.form == Form::Quartic)
+    }
+
     /// Computes and proves the bases.
     ///
     /// # Errors

@@ -13,6 +13,7 @@ mod layout;
 mod program;
 mod ray;
 mod shape;
+mod slack;
 mod squares;
 mod stages;
 mod target;
@@ -27,7 +28,7 @@ pub(super) use shape::{Symbolic, TargetPoly};
 pub(super) use stages::{joint_unknowns, name};
 pub use template::{Form, Template};
 
-use charts::Slack;
+use slack::Slack;
 
 use super::closure::{Mechanism, Relation};
 use super::planner::{self, Plan, PlanStep};
@@ -97,8 +98,6 @@ impl Derived {
         let parts = Parts { plan, steps, templates, half_angles };
         let mechanism = Mechanism::new(&chain)?;
         let mut derived = Derived::assemble(&chain, &mechanism, parts, Slack::within(report.tolerance))?;
-        // The chain that is meant may have more answers than its ideal.
-        derived.program.isolated = None;
         derived.program.checks = program::checks_on(truth)?;
         derived.truth = Some((truth.clone(), report));
         Ok(derived)
@@ -117,10 +116,7 @@ impl Derived {
     pub fn of_plan(chain: &Chain, mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
         let mut eliminate = |step: &PlanStep, away: &[usize]| Elimination::derive(mechanism, step, away, watch);
         let steps = certificate::prove_plan(mechanism, &plan, &mut eliminate)?;
-        let quartic = steps.iter().any(|step| step.shape.form == Form::Quartic);
-        let half_angles = quartic.then(|| HalfAngles::derive(watch)).transpose()?;
-        let forms = Template::needed(&steps);
-        let templates = forms.into_iter().map(|form| Template::derive(form, watch)).collect::<Result<_>>()?;
+        let (templates, half_angles) = forms(&steps, watch)?;
         Derived::assemble(chain, mechanism, Parts { plan, steps, templates, half_angles }, Slack::NONE)
     }
 
@@ -129,4 +125,14 @@ impl Derived {
         let Parts { plan, steps, templates, half_angles } = parts;
         Ok(Derived { chain: chain.clone(), truth: None, plan, steps, templates, half_angles, program })
     }
+}
+
+/// The forms that `steps` use, solved and proved.
+///
+/// # Errors
+/// What `watch` stops with.
+fn forms(steps: &[Lifted], watch: &Watch) -> Result<(Vec<Template>, Option<HalfAngles>)> {
+    let half_angles = HalfAngles::are_needed(steps).then(|| HalfAngles::derive(watch)).transpose()?;
+    let templates = Template::needed(steps).into_iter().map(|form| Template::derive(form, watch));
+    Ok((templates.collect::<Result<_>>()?, half_angles))
 }

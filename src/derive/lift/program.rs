@@ -2,7 +2,7 @@
 
 use num_traits::{Signed, ToPrimitive};
 
-use super::charts::{Place, Sized, Slack, charts, quartic, tell_spread};
+use super::charts::{Place, Sized, charts, quartic, tell_spread};
 use super::checks::checks;
 use super::eliminate::{Elimination, SymbolPlace};
 use super::emit::{Emitted, Emitter, Sizes};
@@ -10,6 +10,7 @@ use super::half_angle::HalfAngles;
 use super::layout::Layout;
 use super::ray;
 use super::shape::Shape;
+use super::slack::Slack;
 use super::template::{Form, Template};
 use super::{Lifted, Parts};
 use crate::derive::assemble::{Assembler, FlatTerm};
@@ -67,8 +68,9 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
         unknowns: layout.unknowns,
         scale: reach,
         capacity: (2 * parts.plan.dimension + blocks.len()).min(4096),
-        // Where the task asks for more than the joints can do, special targets might have more.
-        isolated: (mechanism.seen().freedoms() <= mechanism.unknown().len()).then_some(parts.plan.dimension),
+        // Where the task asks for more than the joints can do, special targets might have more, and so might a chain that is not ideal.
+        isolated: (mechanism.seen().freedoms() <= mechanism.unknown().len() && slack == Slack::NONE)
+            .then_some(parts.plan.dimension),
         blocks,
         preference: None,
     };

@@ -56,8 +56,8 @@ impl DerivedLimbs {
     /// Proves the derivation of `limbs` anew from the text of its certificate, without search and without the Groebner engine.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the limb, the step or
-    /// the form for a claim that does not hold.
+    /// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the limb, the step
+    /// or the form for a claim that does not hold.
     pub fn prove(limbs: &Limbs, text: &str) -> Result<Self> {
         let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
         check_head((record.format, &record.name), (FORMAT, &limbs.parts().name))?;

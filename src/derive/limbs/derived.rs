@@ -111,9 +111,7 @@ impl DerivedLimbs {
     pub fn joints_of(&self, limb: usize, q: &[f64]) -> Result<Vec<f64>> {
         let stage = self.stages.iter().find(|stage| stage.limb == limb);
         match stage {
-            Some(stage) if q.len() == self.program.joints.len() => {
-                Ok(stage.joints.iter().map(|&place| q[place]).collect())
-            }
+            Some(stage) if q.len() == self.program.joints.len() => Ok(stage.own(q)),
             _ => {
                 let (limbs, joints) = (self.stages.len(), self.program.joints.len());
                 Err(Error::new(
@@ -184,6 +182,11 @@ impl LimbStage {
         let mut q = vec![0.0; count];
         self.joints.iter().zip(own).for_each(|(&place, &value)| q[place] = value);
         q
+    }
+
+    /// The values of the limb's joints among those of the solver.
+    pub fn own(&self, q: &[f64]) -> Vec<f64> {
+        self.joints.iter().map(|&place| q[place]).collect()
     }
 
     /// Writes what the limb's own solver is asked into a target of the solver; what other limbs find has no place there.

@@ -131,11 +131,6 @@ impl Limb<'_> {
         self.joint(motor).is_some_and(|joint| self.whole.given.contains(&joint))
     }
 
-    /// The values of the limb's joints among those of all.
-    fn of(&self, q: &[f64]) -> Vec<f64> {
-        self.stage.joints.iter().map(|&place| q[place]).collect()
-    }
-
     /// `way` with the limb's joints as in `answer`.
     fn put(&self, way: &Solution, answer: &Solution) -> Solution {
         let mut way = way.clone();
@@ -168,24 +163,24 @@ impl Configuration for Limbs<'_> {
     fn target(&self, q: &[f64]) -> Vec<f64> {
         let mut target = vec![0.0; self.derived.program.inputs.len()];
         for limb in &self.limbs {
-            limb.stage.write(&limb.own.target(&limb.of(q)), &mut target);
+            limb.stage.write(&limb.own.target(&limb.stage.own(q)), &mut target);
         }
         self.derived.write_given(q, &mut target);
         target
     }
 
     fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
-        let misses = |limb: &Limb<'_>| limb.whole.misses(&limb.stage.target(target, q), &limb.of(q));
+        let misses = |limb: &Limb<'_>| limb.whole.misses(&limb.stage.target(target, q), &limb.stage.own(q));
         self.limbs.iter().flat_map(misses).collect()
     }
 
     fn residual(&self, target: &[f64], q: &[f64]) -> f64 {
-        let residual = |limb: &Limb<'_>| limb.own.residual(&limb.stage.target(target, q), &limb.of(q));
+        let residual = |limb: &Limb<'_>| limb.own.residual(&limb.stage.target(target, q), &limb.stage.own(q));
         self.limbs.iter().map(residual).fold(0.0, f64::max)
     }
 
     fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
-        let blocks: Vec<DMatrix<f64>> = self.limbs.iter().map(|limb| limb.whole.jacobian(&limb.of(q))).collect();
+        let blocks: Vec<DMatrix<f64>> = self.limbs.iter().map(|limb| limb.whole.jacobian(&limb.stage.own(q))).collect();
         let mut whole = DMatrix::zeros(blocks.iter().map(DMatrix::nrows).sum(), self.unknown.len());
         let mut first = 0;
         for (limb, block) in self.limbs.iter().zip(&blocks) {
