@@ -280,23 +280,19 @@ static const int TIP = 12;
 static void tip(const double *q, double *reached)
 {
     const double d1 = q[0], d2 = q[1], d3 = q[2], c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]);
-    const double c6 = cos(q[5]), s6 = sin(q[5]), r8 = c4 + (1.0 - c4), r9 = 0.9 * r8, r14 = c5 + (1.0 - c5);
-    const double r15 = c4 * c5, r16 = s4 * c5, r17 = r8 * (0.0 - s5), r18 = (0.0 - s4) * r14, r19 = c4 * r14;
-    const double r20 = c4 * s5, r21 = s4 * s5, r22 = r8 * c5, r23 = 0.9 * r20, r24 = 0.9 * r21, r25 = 0.9 * r22;
-    const double r36 = 0.0 - s6, r37 = c6 + (1.0 - c6), r52 = r20 * r37, r53 = r21 * r37, r54 = r22 * r37;
-    const double r66 = d3 + 0.9 - r9 + r9 - r25 + r25 - 0.9 * r54 + 0.78 * r54;
-    reached[0] = d1 - r23 + r23 - 0.9 * r52 + 0.78 * r52;
-    reached[1] = d2 - r24 + r24 - 0.9 * r53 + 0.78 * r53;
-    reached[2] = r66;
-    reached[3] = r15 * c6 + r18 * r36;
-    reached[4] = r16 * c6 + r19 * r36;
-    reached[5] = r17 * c6;
-    reached[6] = 0.0 - (r15 * s6 + r18 * c6);
-    reached[7] = 0.0 - (r16 * s6 + r19 * c6);
-    reached[8] = 0.0 - r17 * s6;
-    reached[9] = 0.0 - r52;
-    reached[10] = 0.0 - r53;
-    reached[11] = 0.0 - r54;
+    const double c6 = cos(q[5]), s6 = sin(q[5]), r5 = c4 * c5, r6 = s4 * c5, r7 = c4 * s5, r8 = s4 * s5;
+    reached[0] = d1 - 0.12 * r7;
+    reached[1] = d2 - 0.12 * r8;
+    reached[2] = d3 - 0.12 * c5 + 0.9;
+    reached[3] = c6 * r5 + s4 * s6;
+    reached[4] = c6 * r6 - c4 * s6;
+    reached[5] = 0.0 - s5 * c6;
+    reached[6] = s4 * c6 - s6 * r5;
+    reached[7] = 0.0 - (s6 * r6 + c4 * c6);
+    reached[8] = s5 * s6;
+    reached[9] = 0.0 - r7;
+    reached[10] = 0.0 - r8;
+    reached[11] = 0.0 - c5;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -309,7 +305,7 @@ static Equations equations(const Parameters *p, const double *q)
 {
     double reached[TIP];
     tip(q, reached);
-    const double d1 = q[0], d2 = q[1], d3 = q[2], r73 = fabs(d1) + fabs(d2) + fabs(d3) + 1.02;
+    const double d1 = q[0], d2 = q[1], d3 = q[2], r19 = fabs(d1) + fabs(d2) + fabs(d3) + 1.02;
     const Equations result = {
         {
             reached[0] - p->px,
@@ -326,9 +322,9 @@ static Equations equations(const Parameters *p, const double *q)
             reached[11] - p->r33_,
         },
         {
-            r73,
-            r73,
-            r73,
+            r19,
+            r19,
+            r19,
             1.0,
             1.0,
             1.0,
@@ -351,32 +347,23 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
-    const double d1 = q[0], d2 = q[1], d3 = q[2], c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]);
-    const double c6 = cos(q[5]), s6 = sin(q[5]), r7 = 0.0 - s4, r8 = c4 + (1.0 - c4), r9 = 0.9 * r8;
-    const double r11 = d3 + 0.9 - r9 + r9, r14 = c5 + (1.0 - c5), r15 = c4 * c5, r16 = s4 * c5;
-    const double r17 = r8 * (0.0 - s5), r18 = r7 * r14, r19 = c4 * r14, r20 = c4 * s5, r21 = s4 * s5;
-    const double r22 = r8 * c5, r23 = 0.9 * r20, r24 = 0.9 * r21, r25 = 0.9 * r22, r29 = 0.0 - r20;
-    const double r30 = 0.0 - r21, r31 = 0.0 - r22, r32 = d1 - r23 + r23, r33 = d2 - r24 + r24;
-    const double r34 = r11 - r25 + r25, r36 = 0.0 - s6, r37 = c6 + (1.0 - c6), r40 = r15 * c6 + r18 * r36;
-    const double r43 = r16 * c6 + r19 * r36, r44 = r17 * c6, r52 = r20 * r37, r53 = r21 * r37, r54 = r22 * r37;
-    const double r64 = r32 - 0.9 * r52 + 0.78 * r52, r65 = r33 - 0.9 * r53 + 0.78 * r53;
-    const double r66 = r34 - 0.9 * r54 + 0.78 * r54, r67 = 0.0 - (r15 * s6 + r18 * c6);
-    const double r68 = 0.0 - (r16 * s6 + r19 * c6), r69 = 0.0 - r17 * s6, r70 = 0.0 - r52, r71 = 0.0 - r53;
-    const double r72 = 0.0 - r54, r74 = r64 - d1, r75 = r65 - d2, r78 = r66 - r11, r85 = r64 - r32;
-    const double r86 = r65 - r33, r87 = r66 - r34;
+    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
+    const double r5 = c4 * c5, r6 = s4 * c5, r7 = c4 * s5, r8 = s4 * s5, r11 = c6 * r6, r12 = c4 * s6;
+    const double r13 = s5 * c6, r14 = s6 * r5, r15 = s4 * c6, r18 = s5 * s6, r30 = r11 - r12;
+    const double r31 = c6 * r5 + s4 * s6, r36 = s6 * r6 + c4 * c6, r55 = s4 * r8 + c4 * r7, r79 = r14 - r15;
     const Jacobian result = { {
-        {1.0, 0.0, 0.0, 0.0 - r75, c4 * r78, r30 * r87 - r31 * r86},
-        {0.0, 1.0, 0.0, r74, 0.0 - r7 * r78, r31 * r85 - r29 * r87},
-        {0.0, 0.0, 1.0, 0.0, r7 * r75 - c4 * r74, r29 * r86 - r30 * r85},
-        {0.0, 0.0, 0.0, 0.0 - r43, c4 * r44, r30 * r44 - r31 * r43},
-        {0.0, 0.0, 0.0, r40, 0.0 - r7 * r44, r31 * r40 - r29 * r44},
-        {0.0, 0.0, 0.0, 0.0, r7 * r43 - c4 * r40, r29 * r43 - r30 * r40},
-        {0.0, 0.0, 0.0, 0.0 - r68, c4 * r69, r30 * r69 - r31 * r68},
-        {0.0, 0.0, 0.0, r67, 0.0 - r7 * r69, r31 * r67 - r29 * r69},
-        {0.0, 0.0, 0.0, 0.0, r7 * r68 - c4 * r67, r29 * r68 - r30 * r67},
-        {0.0, 0.0, 0.0, 0.0 - r71, c4 * r72, r30 * r72 - r31 * r71},
-        {0.0, 0.0, 0.0, r70, 0.0 - r7 * r72, r31 * r70 - r29 * r72},
-        {0.0, 0.0, 0.0, 0.0, r7 * r71 - c4 * r70, r29 * r71 - r30 * r70},
+        {1.0, 0.0, 0.0, 0.12 * r8, 0.0 - 0.12 * r5, 0.0},
+        {0.0, 1.0, 0.0, 0.0 - 0.12 * r7, 0.0 - 0.12 * r6, 0.0},
+        {0.0, 0.0, 1.0, 0.0, 0.12 * r55, 0.0},
+        {0.0, 0.0, 0.0, r12 - r11, 0.0 - c4 * r13, r8 * r13 + c5 * r30},
+        {0.0, 0.0, 0.0, r31, 0.0 - s4 * r13, 0.0 - (c5 * r31 + r7 * r13)},
+        {0.0, 0.0, 0.0, 0.0, 0.0 - (s4 * r30 + c4 * r31), r8 * r31 - r7 * r30},
+        {0.0, 0.0, 0.0, r36, c4 * r18, 0.0 - (r8 * r18 + c5 * r36)},
+        {0.0, 0.0, 0.0, r15 - r14, s4 * r18, c5 * r79 + r7 * r18},
+        {0.0, 0.0, 0.0, 0.0, s4 * r36 + c4 * r79, r7 * r36 - r8 * r79},
+        {0.0, 0.0, 0.0, r8, 0.0 - r5, 0.0},
+        {0.0, 0.0, 0.0, 0.0 - r7, 0.0 - r6, 0.0},
+        {0.0, 0.0, 0.0, 0.0, r55, 0.0},
     } };
     return result;
 }
@@ -1104,16 +1091,18 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r28;
-    double r29;
+    double r0;
+    double r1;
+    double r2;
+    double r3;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r32 = 0.0 - (0.0 - (0.0 - shared->r28)), r35 = 0.0 - (0.0 - (0.0 - shared->r29));
-    const double r39 = sqrt(fmax(r35 * r35 + r32 * r32, 0.0)), c6 = r35 / r39, s6 = r32 / r39;
+    const double r4 = shared->r3 - shared->r2, r5 = shared->r1 - shared->r0;
+    const double r9 = sqrt(fmax(r5 * r5 + r4 * r4, 0.0)), c6 = r5 / r9, s6 = r4 / r9;
     const double q[JOINTS] = {
         known->d1,
         known->d2,
@@ -1128,26 +1117,24 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: WristRoll. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r9 = p->r22_ * known->c4 + (0.0 - p->r12_) * known->s4;
-    const double r25 = (0.0 - p->r21_) * known->c4 + (0.0 - (0.0 - p->r11_)) * known->s4, r28 = 0.0 - r25;
-    const double r29 = 0.0 - (0.0 - r9);
-    const Shared6 own = { r28, r29 };
+    const double r0 = p->r22_ * known->c4, r1 = p->r12_ * known->s4, r2 = p->r21_ * known->c4;
+    const double r3 = p->r11_ * known->s4;
+    const Shared6 own = { r0, r1, r2, r3 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r14;
-    double r15;
+    double r2;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r18 = 0.0 - (0.0 - (0.0 - shared->r14)), r21 = 0.0 - (0.0 - (0.0 - shared->r15));
-    const double r25 = sqrt(fmax(r21 * r21 + r18 * r18, 0.0)), c5 = r21 / r25, s5 = r18 / r25;
+    const double r6 = sqrt(fmax(p->r33_ * p->r33_ + shared->r2 * shared->r2, 0.0)), c5 = 0.0 - p->r33_ / r6;
+    const double s5 = 0.0 - shared->r2 / r6;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1159,34 +1146,26 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: WristPitch. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r7 = p->r13_ * known->c4 + (0.0 - (0.0 - p->r23_)) * known->s4, r14 = 0.0 - (0.0 - r7);
-    const double r15 = 0.0 - (0.0 - p->r33_);
-    const Shared5 own = { r14, r15 };
+    const double r2 = p->r13_ * known->c4 + p->r23_ * known->s4;
+    const Shared5 own = { r2 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
-/* What the charts of block 4 share. */
-typedef struct {
-    double r1;
-    double r4;
-} Shared4;
-
 /* Chart 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r8 = shared->r1 * shared->r1, r9 = shared->r4 * shared->r4, r10 = r8 + r9;
-    if (!is_away(r10, 20000.0)) {
+    const double r0 = p->r23_ * p->r23_, r1 = p->r13_ * p->r13_, r2 = r0 + r1;
+    if (!is_away(r2, 20000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r8 - r9, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r0 - r1, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r16 = (0.0 - (0.0 - shared->r1 * w4)) / r10;
-        const double r19 = (0.0 - shared->r4 * w4) / r10, r23 = sqrt(fmax(r19 * r19 + r16 * r16, 0.0));
-        const double c4 = r19 / r23, s4 = r16 / r23;
+        const double w4 = roots0.values[i0], r6 = p->r23_ * w4 / r2, r8 = p->r13_ * w4 / r2;
+        const double r12 = sqrt(fmax(r8 * r8 + r6 * r6, 0.0)), c4 = 0.0 - r8 / r12, s4 = 0.0 - r6 / r12;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1200,10 +1179,9 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  * It runs where A^2 + B^2 is near zero.
  * Free: WristYaw.
  */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r10 = shared->r1 * shared->r1 + shared->r4 * shared->r4;
-    if (!is_near(r10, 2.0000000000000002e-7)) {
+    if (!is_near(p->r23_ * p->r23_ + p->r13_ * p->r13_, 2.0000000000000002e-7)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1221,23 +1199,20 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: WristYaw. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - p->r23_, r4 = 0.0 - (0.0 - p->r13_);
-    const Shared4 own = { r1, r4 };
-    const Shared4 *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_1(p, known, answers);
+    chart_4_2(p, known, answers);
 }
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r6;
+    double r2;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double d3 = 0.0 - shared->r6;
+    const double d3 = shared->r2;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1248,22 +1223,22 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: RailZ. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = 0.9 - (p->pz + -0.12 * p->r33_);
-    const Shared3 own = { r6 };
+    const double r2 = p->pz - 0.12 * p->r33_ - 0.9;
+    const Shared3 own = { r2 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r9;
+    double r1;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double d2 = (0.0 - shared->r9) / (-1.0);
+    const double d2 = shared->r1;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1274,22 +1249,22 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: RailY. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r9 = 0.0 - (0.0 - (p->py + -0.12 * p->r23_));
-    const Shared2 own = { r9 };
+    const double r1 = p->py - 0.12 * p->r23_;
+    const Shared2 own = { r1 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r6;
+    double r1;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double d1 = 0.0 - shared->r6;
+    const double d1 = shared->r1;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
@@ -1300,8 +1275,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: RailX. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r6 = 0.0 - (p->px + -0.12 * p->r13_);
-    const Shared1 own = { r6 };
+    const double r1 = p->px - 0.12 * p->r13_;
+    const Shared1 own = { r1 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

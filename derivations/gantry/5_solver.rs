@@ -433,92 +433,83 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: RailX.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r6 = 0.0 - (p.px + -0.12 * p.r13_);
-    let shared = &Shared1 { r6 };
+    let r1 = p.px - 0.12 * p.r13_;
+    let shared = &Shared1 { r1 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r6: f64,
+    r1: f64,
 }
 
 /// Chart 1 of block 1: generic.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let d1 = 0.0 - shared.r6;
+    let d1 = shared.r1;
     let next = Known { branch: 0, last: 1, d1, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
 
 /// Block 2: RailY.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r9 = 0.0 - (0.0 - (p.py + -0.12 * p.r23_));
-    let shared = &Shared2 { r9 };
+    let r1 = p.py - 0.12 * p.r23_;
+    let shared = &Shared2 { r1 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r9: f64,
+    r1: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let d2 = (0.0 - shared.r9) / (-1.0);
+    let d2 = shared.r1;
     let next = Known { branch: known.branch, last: known.last, d2, ..*known };
     block_3(p, &next, answers);
 }
 
 /// Block 3: RailZ.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = 0.9 - (p.pz + -0.12 * p.r33_);
-    let shared = &Shared3 { r6 };
+    let r2 = p.pz - 0.12 * p.r33_ - 0.9;
+    let shared = &Shared3 { r2 };
     chart_3_1(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r6: f64,
+    r2: f64,
 }
 
 /// Chart 1 of block 3: generic.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let d3 = 0.0 - shared.r6;
+    let d3 = shared.r2;
     let next = Known { branch: known.branch, last: known.last, d3, ..*known };
     block_4(p, &next, answers);
 }
 
 /// Block 4: WristYaw.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - p.r23_;
-    let r4 = 0.0 - (0.0 - p.r13_);
-    let shared = &Shared4 { r1, r4 };
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
-}
-
-/// What the charts of block 4 share.
-struct Shared4 {
-    r1: f64,
-    r4: f64,
+    chart_4_1(p, known, answers);
+    chart_4_2(p, known, answers);
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r8 = shared.r1 * shared.r1;
-    let r9 = shared.r4 * shared.r4;
-    let r10 = r8 + r9;
-    if !is_away(r10, 20000.0) {
+fn chart_4_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let r0 = p.r23_ * p.r23_;
+    let r1 = p.r13_ * p.r13_;
+    let r2 = r0 + r1;
+    if !is_away(r2, 20000.0) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r8 - r9, 0.0, 1.0], 1.4142135623730951);
+    let roots0 = real_roots(&[0.0 - r0 - r1, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r16 = (0.0 - (0.0 - shared.r1 * w4)) / r10;
-        let r19 = (0.0 - shared.r4 * w4) / r10;
-        let r23 = f64::max(r19 * r19 + r16 * r16, 0.0).sqrt();
-        let c4 = r19 / r23;
-        let s4 = r16 / r23;
+        let r6 = p.r23_ * w4 / r2;
+        let r8 = p.r13_ * w4 / r2;
+        let r12 = f64::max(r8 * r8 + r6 * r6, 0.0).sqrt();
+        let c4 = 0.0 - r8 / r12;
+        let s4 = 0.0 - r6 / r12;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -527,9 +518,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: WristYaw.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r10 = shared.r1 * shared.r1 + shared.r4 * shared.r4;
-    if !is_near(r10, 2.0000000000000002e-7) {
+fn chart_4_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    if !is_near(p.r23_ * p.r23_ + p.r13_ * p.r13_, 2.0000000000000002e-7) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -540,53 +530,50 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: WristPitch.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r7 = p.r13_ * known.c4 + (0.0 - (0.0 - p.r23_)) * known.s4;
-    let r14 = 0.0 - (0.0 - r7);
-    let r15 = 0.0 - (0.0 - p.r33_);
-    let shared = &Shared5 { r14, r15 };
+    let r2 = p.r13_ * known.c4 + p.r23_ * known.s4;
+    let shared = &Shared5 { r2 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r14: f64,
-    r15: f64,
+    r2: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r18 = 0.0 - (0.0 - (0.0 - shared.r14));
-    let r21 = 0.0 - (0.0 - (0.0 - shared.r15));
-    let r25 = f64::max(r21 * r21 + r18 * r18, 0.0).sqrt();
-    let c5 = r21 / r25;
-    let s5 = r18 / r25;
+    let r6 = f64::max(p.r33_ * p.r33_ + shared.r2 * shared.r2, 0.0).sqrt();
+    let c5 = 0.0 - p.r33_ / r6;
+    let s5 = 0.0 - shared.r2 / r6;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: WristRoll.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r9 = p.r22_ * known.c4 + (0.0 - p.r12_) * known.s4;
-    let r25 = (0.0 - p.r21_) * known.c4 + (0.0 - (0.0 - p.r11_)) * known.s4;
-    let r28 = 0.0 - r25;
-    let r29 = 0.0 - (0.0 - r9);
-    let shared = &Shared6 { r28, r29 };
+    let r0 = p.r22_ * known.c4;
+    let r1 = p.r12_ * known.s4;
+    let r2 = p.r21_ * known.c4;
+    let r3 = p.r11_ * known.s4;
+    let shared = &Shared6 { r0, r1, r2, r3 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r28: f64,
-    r29: f64,
+    r0: f64,
+    r1: f64,
+    r2: f64,
+    r3: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r32 = 0.0 - (0.0 - (0.0 - shared.r28));
-    let r35 = 0.0 - (0.0 - (0.0 - shared.r29));
-    let r39 = f64::max(r35 * r35 + r32 * r32, 0.0).sqrt();
-    let c6 = r35 / r39;
-    let s6 = r32 / r39;
+    let r4 = shared.r3 - shared.r2;
+    let r5 = shared.r1 - shared.r0;
+    let r9 = f64::max(r5 * r5 + r4 * r4, 0.0).sqrt();
+    let c6 = r5 / r9;
+    let s6 = r4 / r9;
     let q = [
         known.d1,
         known.d2,
@@ -612,39 +599,23 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r8 = c4 + (1.0 - c4);
-    let r9 = 0.9 * r8;
-    let r14 = c5 + (1.0 - c5);
-    let r15 = c4 * c5;
-    let r16 = s4 * c5;
-    let r17 = r8 * (0.0 - s5);
-    let r18 = (0.0 - s4) * r14;
-    let r19 = c4 * r14;
-    let r20 = c4 * s5;
-    let r21 = s4 * s5;
-    let r22 = r8 * c5;
-    let r23 = 0.9 * r20;
-    let r24 = 0.9 * r21;
-    let r25 = 0.9 * r22;
-    let r36 = 0.0 - s6;
-    let r37 = c6 + (1.0 - c6);
-    let r52 = r20 * r37;
-    let r53 = r21 * r37;
-    let r54 = r22 * r37;
-    let r66 = d3 + 0.9 - r9 + r9 - r25 + r25 - 0.9 * r54 + 0.78 * r54;
+    let r5 = c4 * c5;
+    let r6 = s4 * c5;
+    let r7 = c4 * s5;
+    let r8 = s4 * s5;
     [
-        d1 - r23 + r23 - 0.9 * r52 + 0.78 * r52,
-        d2 - r24 + r24 - 0.9 * r53 + 0.78 * r53,
-        r66,
-        r15 * c6 + r18 * r36,
-        r16 * c6 + r19 * r36,
-        r17 * c6,
-        0.0 - (r15 * s6 + r18 * c6),
-        0.0 - (r16 * s6 + r19 * c6),
-        0.0 - r17 * s6,
-        0.0 - r52,
-        0.0 - r53,
-        0.0 - r54,
+        d1 - 0.12 * r7,
+        d2 - 0.12 * r8,
+        d3 - 0.12 * c5 + 0.9,
+        c6 * r5 + s4 * s6,
+        c6 * r6 - c4 * s6,
+        0.0 - s5 * c6,
+        s4 * c6 - s6 * r5,
+        0.0 - (s6 * r6 + c4 * c6),
+        s5 * s6,
+        0.0 - r7,
+        0.0 - r8,
+        0.0 - c5,
     ]
 }
 
@@ -659,7 +630,7 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
     let d1 = q[0];
     let d2 = q[1];
     let d3 = q[2];
-    let r73 = f64::abs(d1) + f64::abs(d2) + f64::abs(d3) + 1.02;
+    let r19 = f64::abs(d1) + f64::abs(d2) + f64::abs(d3) + 1.02;
     Equations {
         value: [
             reached[0] - p.px,
@@ -676,9 +647,9 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
             reached[11] - p.r33_,
         ],
         size: [
-            r73,
-            r73,
-            r73,
+            r19,
+            r19,
+            r19,
             1.0,
             1.0,
             1.0,
@@ -694,73 +665,40 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
-    let d1 = q[0];
-    let d2 = q[1];
-    let d3 = q[2];
     let c4 = q[3].cos();
     let s4 = q[3].sin();
     let c5 = q[4].cos();
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r7 = 0.0 - s4;
-    let r8 = c4 + (1.0 - c4);
-    let r9 = 0.9 * r8;
-    let r11 = d3 + 0.9 - r9 + r9;
-    let r14 = c5 + (1.0 - c5);
-    let r15 = c4 * c5;
-    let r16 = s4 * c5;
-    let r17 = r8 * (0.0 - s5);
-    let r18 = r7 * r14;
-    let r19 = c4 * r14;
-    let r20 = c4 * s5;
-    let r21 = s4 * s5;
-    let r22 = r8 * c5;
-    let r23 = 0.9 * r20;
-    let r24 = 0.9 * r21;
-    let r25 = 0.9 * r22;
-    let r29 = 0.0 - r20;
-    let r30 = 0.0 - r21;
-    let r31 = 0.0 - r22;
-    let r32 = d1 - r23 + r23;
-    let r33 = d2 - r24 + r24;
-    let r34 = r11 - r25 + r25;
-    let r36 = 0.0 - s6;
-    let r37 = c6 + (1.0 - c6);
-    let r40 = r15 * c6 + r18 * r36;
-    let r43 = r16 * c6 + r19 * r36;
-    let r44 = r17 * c6;
-    let r52 = r20 * r37;
-    let r53 = r21 * r37;
-    let r54 = r22 * r37;
-    let r64 = r32 - 0.9 * r52 + 0.78 * r52;
-    let r65 = r33 - 0.9 * r53 + 0.78 * r53;
-    let r66 = r34 - 0.9 * r54 + 0.78 * r54;
-    let r67 = 0.0 - (r15 * s6 + r18 * c6);
-    let r68 = 0.0 - (r16 * s6 + r19 * c6);
-    let r69 = 0.0 - r17 * s6;
-    let r70 = 0.0 - r52;
-    let r71 = 0.0 - r53;
-    let r72 = 0.0 - r54;
-    let r74 = r64 - d1;
-    let r75 = r65 - d2;
-    let r78 = r66 - r11;
-    let r85 = r64 - r32;
-    let r86 = r65 - r33;
-    let r87 = r66 - r34;
+    let r5 = c4 * c5;
+    let r6 = s4 * c5;
+    let r7 = c4 * s5;
+    let r8 = s4 * s5;
+    let r11 = c6 * r6;
+    let r12 = c4 * s6;
+    let r13 = s5 * c6;
+    let r14 = s6 * r5;
+    let r15 = s4 * c6;
+    let r18 = s5 * s6;
+    let r30 = r11 - r12;
+    let r31 = c6 * r5 + s4 * s6;
+    let r36 = s6 * r6 + c4 * c6;
+    let r55 = s4 * r8 + c4 * r7;
+    let r79 = r14 - r15;
     [
-        [1.0, 0.0, 0.0, 0.0 - r75, c4 * r78, r30 * r87 - r31 * r86],
-        [0.0, 1.0, 0.0, r74, 0.0 - r7 * r78, r31 * r85 - r29 * r87],
-        [0.0, 0.0, 1.0, 0.0, r7 * r75 - c4 * r74, r29 * r86 - r30 * r85],
-        [0.0, 0.0, 0.0, 0.0 - r43, c4 * r44, r30 * r44 - r31 * r43],
-        [0.0, 0.0, 0.0, r40, 0.0 - r7 * r44, r31 * r40 - r29 * r44],
-        [0.0, 0.0, 0.0, 0.0, r7 * r43 - c4 * r40, r29 * r43 - r30 * r40],
-        [0.0, 0.0, 0.0, 0.0 - r68, c4 * r69, r30 * r69 - r31 * r68],
-        [0.0, 0.0, 0.0, r67, 0.0 - r7 * r69, r31 * r67 - r29 * r69],
-        [0.0, 0.0, 0.0, 0.0, r7 * r68 - c4 * r67, r29 * r68 - r30 * r67],
-        [0.0, 0.0, 0.0, 0.0 - r71, c4 * r72, r30 * r72 - r31 * r71],
-        [0.0, 0.0, 0.0, r70, 0.0 - r7 * r72, r31 * r70 - r29 * r72],
-        [0.0, 0.0, 0.0, 0.0, r7 * r71 - c4 * r70, r29 * r71 - r30 * r70],
+        [1.0, 0.0, 0.0, 0.12 * r8, 0.0 - 0.12 * r5, 0.0],
+        [0.0, 1.0, 0.0, 0.0 - 0.12 * r7, 0.0 - 0.12 * r6, 0.0],
+        [0.0, 0.0, 1.0, 0.0, 0.12 * r55, 0.0],
+        [0.0, 0.0, 0.0, r12 - r11, 0.0 - c4 * r13, r8 * r13 + c5 * r30],
+        [0.0, 0.0, 0.0, r31, 0.0 - s4 * r13, 0.0 - (c5 * r31 + r7 * r13)],
+        [0.0, 0.0, 0.0, 0.0, 0.0 - (s4 * r30 + c4 * r31), r8 * r31 - r7 * r30],
+        [0.0, 0.0, 0.0, r36, c4 * r18, 0.0 - (r8 * r18 + c5 * r36)],
+        [0.0, 0.0, 0.0, r15 - r14, s4 * r18, c5 * r79 + r7 * r18],
+        [0.0, 0.0, 0.0, 0.0, s4 * r36 + c4 * r79, r7 * r36 - r8 * r79],
+        [0.0, 0.0, 0.0, r8, 0.0 - r5, 0.0],
+        [0.0, 0.0, 0.0, 0.0 - r7, 0.0 - r6, 0.0],
+        [0.0, 0.0, 0.0, 0.0, r55, 0.0],
     ]
 }
 

@@ -321,41 +321,31 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3_ = cos(q[2]);
     const double s3_ = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]);
-    const double s6 = sin(q[5]), c7 = cos(q[6]), s7 = sin(q[6]), r2 = c1 + (1.0 - c1), r3 = 0.36 * r2;
-    const double r8 = c2 + (1.0 - c2), r9 = c1 * c2, r10 = s1 * c2, r11 = r2 * (0.0 - s2), r12 = (0.0 - s1) * r8;
-    const double r13 = c1 * r8, r14 = c1 * s2, r15 = s1 * s2, r16 = r2 * c2, r17 = 0.36 * r14, r18 = 0.36 * r15;
-    const double r19 = 0.36 * r16, r27 = 0.0 - s3_, r28 = c3_ + (1.0 - c3_), r31 = r9 * c3_ + r12 * s3_;
-    const double r34 = r10 * c3_ + r13 * s3_, r35 = r11 * c3_, r43 = r14 * r28, r44 = r15 * r28, r45 = r16 * r28;
-    const double r60 = 0.36 - r3 + r3 - r19 + r19 - 0.36 * r45 + 0.78 * r45, r62 = c4 + (1.0 - c4);
-    const double r63 = 0.0 - s4, r66 = r31 * c4 + r43 * s4, r69 = r34 * c4 + r44 * s4, r72 = r35 * c4 + r45 * s4;
-    const double r73 = (r9 * r27 + r12 * c3_) * r62, r74 = (r10 * r27 + r13 * c3_) * r62, r75 = r11 * r27 * r62;
-    const double r78 = r31 * r63 + r43 * c4, r81 = r34 * r63 + r44 * c4, r84 = r35 * r63 + r45 * c4;
-    const double r88 = 0.0 - r17 + r17 - 0.36 * r43 + 0.78 * r43 - 0.78 * r78;
-    const double r89 = 0.0 - r18 + r18 - 0.36 * r44 + 0.78 * r44 - 0.78 * r81, r98 = 0.0 - s5;
-    const double r99 = c5 + (1.0 - c5), r102 = r66 * c5 + r73 * s5, r105 = r69 * c5 + r74 * s5;
-    const double r108 = r72 * c5 + r75 * s5, r118 = r78 * r99, r119 = r81 * r99, r120 = r84 * r99;
-    const double r121 = 1.18 * r118, r122 = 1.18 * r119, r123 = 1.18 * r120, r131 = 0.0 - s6;
-    const double r132 = c6 + (1.0 - c6), r135 = r102 * c6 + r118 * r131, r138 = r105 * c6 + r119 * r131;
-    const double r141 = r108 * c6 + r120 * r131, r142 = (r66 * r98 + r73 * c5) * r132;
-    const double r143 = (r69 * r98 + r74 * c5) * r132, r144 = (r72 * r98 + r75 * c5) * r132;
-    const double r147 = r102 * s6 + r118 * c6, r150 = r105 * s6 + r119 * c6, r153 = r108 * s6 + r120 * c6;
-    const double r154 = 1.18 * r147, r155 = 1.18 * r150, r156 = 1.18 * r153;
-    const double r159 = r60 - 0.78 * r84 + 1.18 * r84 - r123 + r123 - r156, r164 = 0.0 - s7;
-    const double r165 = c7 + (1.0 - c7), r184 = r147 * r165, r185 = r150 * r165, r186 = r153 * r165;
-    const double r190 = r88 + 1.18 * r78 - r121 + r121 - r154 + r154 - 1.18 * r184;
-    const double r191 = r89 + 1.18 * r81 - r122 + r122 - r155 + r155 - 1.18 * r185;
-    reached[0] = r190 + 1.306 * r184;
-    reached[1] = r191 + 1.306 * r185;
-    reached[2] = r159 + r156 - 1.18 * r186 + 1.306 * r186;
-    reached[3] = r135 * c7 + r142 * s7;
-    reached[4] = r138 * c7 + r143 * s7;
-    reached[5] = r141 * c7 + r144 * s7;
-    reached[6] = r135 * r164 + r142 * c7;
-    reached[7] = r138 * r164 + r143 * c7;
-    reached[8] = r141 * r164 + r144 * c7;
-    reached[9] = r184;
-    reached[10] = r185;
-    reached[11] = r186;
+    const double s6 = sin(q[5]), c7 = cos(q[6]), s7 = sin(q[6]), r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
+    const double r3 = s1 * s2, r8 = s2 * c3_, r13 = s2 * s3_, r14 = c3_ * r0 - s1 * s3_;
+    const double r17 = c3_ * r1 + c1 * s3_, r22 = s4 * r14, r23 = c4 * r2, r24 = s4 * r17, r25 = c4 * r3;
+    const double r26 = s4 * r8, r27 = c2 * c4, r28 = c4 * r14 + s4 * r2, r30 = s3_ * r0 + s1 * c3_;
+    const double r32 = c4 * r17 + s4 * r3, r34 = s3_ * r1 - c1 * c3_, r36 = c4 * r8 - c2 * s4;
+    const double r45 = c5 * r28 - s5 * r30, r47 = r22 - r23, r49 = c5 * r32 - s5 * r34, r51 = r24 - r25;
+    const double r53 = c5 * r36 - s5 * r13, r55 = r26 + r27, r57 = s6 * r45, r58 = c6 * r47, r59 = s6 * r49;
+    const double r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r63 = c6 * r45 + s6 * r47;
+    const double r65 = s5 * r28 + c5 * r30, r67 = c6 * r49 + s6 * r51, r69 = s5 * r32 + c5 * r34;
+    const double r71 = c6 * r53 + s6 * r55, r73 = s5 * r36 + c5 * r13;
+    const double r87 = 0.42 * c2 + 0.4 * r26 + 0.4 * r27 - 0.126 * r61;
+    const double r96 = 0.42 * r3 - 0.4 * r24 + 0.4 * r25 + 0.126 * r59;
+    const double r105 = 0.42 * r2 - 0.4 * r22 + 0.4 * r23 + 0.126 * r57;
+    reached[0] = r105 - 0.126 * r58;
+    reached[1] = r96 - 0.126 * r60;
+    reached[2] = r87 + 0.126 * r62 + 0.36;
+    reached[3] = c7 * r63 - s7 * r65;
+    reached[4] = c7 * r67 - s7 * r69;
+    reached[5] = s7 * r73 - c7 * r71;
+    reached[6] = 0.0 - (s7 * r63 + c7 * r65);
+    reached[7] = 0.0 - (s7 * r67 + c7 * r69);
+    reached[8] = s7 * r71 + c7 * r73;
+    reached[9] = r57 - r58;
+    reached[10] = r59 - r60;
+    reached[11] = r62 - r61;
     reached[12] = c3_;
     reached[13] = s3_;
 }
@@ -417,52 +407,40 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3_ = cos(q[2]);
     const double s3_ = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]);
-    const double s6 = sin(q[5]), c7 = cos(q[6]), s7 = sin(q[6]), r1 = 0.0 - s1, r2 = c1 + (1.0 - c1);
-    const double r3 = 0.36 * r2, r5 = 0.36 - r3 + r3, r8 = c2 + (1.0 - c2), r9 = c1 * c2, r10 = s1 * c2;
-    const double r11 = r2 * (0.0 - s2), r12 = r1 * r8, r13 = c1 * r8, r14 = c1 * s2, r15 = s1 * s2;
-    const double r16 = r2 * c2, r17 = 0.36 * r14, r18 = 0.36 * r15, r19 = 0.36 * r16, r23 = 0.0 - r17 + r17;
-    const double r24 = 0.0 - r18 + r18, r25 = r5 - r19 + r19, r27 = 0.0 - s3_, r28 = c3_ + (1.0 - c3_);
-    const double r31 = r9 * c3_ + r12 * s3_, r34 = r10 * c3_ + r13 * s3_, r35 = r11 * c3_;
-    const double r38 = r9 * r27 + r12 * c3_, r41 = r10 * r27 + r13 * c3_, r42 = r11 * r27, r43 = r14 * r28;
-    const double r44 = r15 * r28, r45 = r16 * r28, r52 = 0.0 - r38, r53 = 0.0 - r41, r54 = 0.0 - r42;
-    const double r58 = r23 - 0.36 * r43 + 0.78 * r43, r59 = r24 - 0.36 * r44 + 0.78 * r44;
-    const double r60 = r25 - 0.36 * r45 + 0.78 * r45, r62 = c4 + (1.0 - c4), r63 = 0.0 - s4;
-    const double r66 = r31 * c4 + r43 * s4, r69 = r34 * c4 + r44 * s4, r72 = r35 * c4 + r45 * s4;
-    const double r73 = r38 * r62, r74 = r41 * r62, r75 = r42 * r62, r78 = r31 * r63 + r43 * c4;
-    const double r81 = r34 * r63 + r44 * c4, r84 = r35 * r63 + r45 * c4, r94 = r58 - 0.78 * r78 + 1.18 * r78;
-    const double r95 = r59 - 0.78 * r81 + 1.18 * r81, r96 = r60 - 0.78 * r84 + 1.18 * r84, r98 = 0.0 - s5;
-    const double r99 = c5 + (1.0 - c5), r102 = r66 * c5 + r73 * s5, r105 = r69 * c5 + r74 * s5;
-    const double r108 = r72 * c5 + r75 * s5, r111 = r66 * r98 + r73 * c5, r114 = r69 * r98 + r74 * c5;
-    const double r117 = r72 * r98 + r75 * c5, r118 = r78 * r99, r119 = r81 * r99, r120 = r84 * r99;
-    const double r121 = 1.18 * r118, r122 = 1.18 * r119, r123 = 1.18 * r120, r127 = r94 - r121 + r121;
-    const double r128 = r95 - r122 + r122, r129 = r96 - r123 + r123, r131 = 0.0 - s6, r132 = c6 + (1.0 - c6);
-    const double r135 = r102 * c6 + r118 * r131, r138 = r105 * c6 + r119 * r131, r141 = r108 * c6 + r120 * r131;
-    const double r142 = r111 * r132, r143 = r114 * r132, r144 = r117 * r132, r147 = r102 * s6 + r118 * c6;
-    const double r150 = r105 * s6 + r119 * c6, r153 = r108 * s6 + r120 * c6, r154 = 1.18 * r147;
-    const double r155 = 1.18 * r150, r156 = 1.18 * r153, r160 = r127 - r154 + r154, r161 = r128 - r155 + r155;
-    const double r162 = r129 - r156 + r156, r164 = 0.0 - s7, r165 = c7 + (1.0 - c7);
-    const double r168 = r135 * c7 + r142 * s7, r171 = r138 * c7 + r143 * s7, r174 = r141 * c7 + r144 * s7;
-    const double r177 = r135 * r164 + r142 * c7, r180 = r138 * r164 + r143 * c7, r183 = r141 * r164 + r144 * c7;
-    const double r184 = r147 * r165, r185 = r150 * r165, r186 = r153 * r165;
-    const double r196 = r160 - 1.18 * r184 + 1.306 * r184, r197 = r161 - 1.18 * r185 + 1.306 * r185;
-    const double r198 = r162 - 1.18 * r186 + 1.306 * r186, r201 = r198 - r5, r208 = r196 - r23;
-    const double r209 = r197 - r24, r210 = r198 - r25, r220 = r196 - r58, r221 = r197 - r59, r222 = r198 - r60;
-    const double r232 = r196 - r94, r233 = r197 - r95, r234 = r198 - r96, r244 = r196 - r127, r245 = r197 - r128;
-    const double r246 = r198 - r129, r256 = r196 - r160, r257 = r197 - r161, r258 = r198 - r162;
+    const double s6 = sin(q[5]), c7 = cos(q[6]), s7 = sin(q[6]), r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
+    const double r3 = s1 * s2, r8 = s2 * c3_, r13 = s2 * s3_, r14 = c3_ * r0 - s1 * s3_;
+    const double r17 = c3_ * r1 + c1 * s3_, r22 = s4 * r14, r23 = c4 * r2, r24 = s4 * r17, r25 = c4 * r3;
+    const double r26 = s4 * r8, r27 = c2 * c4, r28 = c4 * r14 + s4 * r2, r30 = s3_ * r0 + s1 * c3_;
+    const double r32 = c4 * r17 + s4 * r3, r34 = s3_ * r1 - c1 * c3_, r36 = c4 * r8 - c2 * s4;
+    const double r45 = c5 * r28 - s5 * r30, r47 = r22 - r23, r49 = c5 * r32 - s5 * r34, r51 = r24 - r25;
+    const double r53 = c5 * r36 - s5 * r13, r55 = r26 + r27, r57 = s6 * r45, r58 = c6 * r47, r59 = s6 * r49;
+    const double r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r63 = c6 * r45 + s6 * r47;
+    const double r65 = s5 * r28 + c5 * r30, r67 = c6 * r49 + s6 * r51, r68 = c7 * r67, r69 = s5 * r32 + c5 * r34;
+    const double r70 = s7 * r69, r71 = c6 * r53 + s6 * r55, r73 = s5 * r36 + c5 * r13, r82 = 0.4 * r26;
+    const double r84 = 0.4 * r27, r86 = 0.126 * r61, r88 = 0.126 * r62, r89 = 0.42 * c2 + r82 + r84 - r86 + r88;
+    const double r91 = 0.4 * r24, r93 = 0.4 * r25, r95 = 0.126 * r59, r96 = 0.42 * r3 - r91 + r93 + r95;
+    const double r97 = 0.126 * r60, r98 = r96 - r97, r100 = 0.4 * r22, r102 = 0.4 * r23, r104 = 0.126 * r57;
+    const double r106 = 0.126 * r58, r107 = 0.42 * r2 - r100 + r102 + r104 - r106, r108 = r59 - r60;
+    const double r109 = r57 - r58, r114 = r68 - r70, r115 = c7 * r63 - s7 * r65, r120 = s7 * r71 + c7 * r73;
+    const double r121 = s7 * r67 + c7 * r69, r122 = s7 * r63 + c7 * r65, r146 = r88 + (r82 + r84 - r86);
+    const double r150 = r97 + (r91 - r93 - r95), r154 = r106 + (r100 - r102 - r104), r159 = r61 - r62;
+    const double r164 = r47 * r108, r165 = r51 * r109, r170 = r65 * r108, r171 = r69 * r109;
+    const double r175 = r51 * r159 - r55 * r108, r177 = r69 * r159 - r73 * r108, r181 = r55 * r109 - r47 * r159;
+    const double r183 = r73 * r109 - r65 * r159, r195 = c7 * r71 - s7 * r73;
     const Jacobian result = { {
-        {0.0 - r197, c1 * r201, r15 * r210 - r16 * r209, r53 * r222 - r54 * r221, r81 * r234 - r84 * r233, r114 * r246 - r117 * r245, r150 * r258 - r153 * r257},
-        {r196, 0.0 - r1 * r201, r16 * r208 - r14 * r210, r54 * r220 - r52 * r222, r84 * r232 - r78 * r234, r117 * r244 - r111 * r246, r153 * r256 - r147 * r258},
-        {0.0, r1 * r197 - c1 * r196, r14 * r209 - r15 * r208, r52 * r221 - r53 * r220, r78 * r233 - r81 * r232, r111 * r245 - r114 * r244, r147 * r257 - r150 * r256},
-        {0.0 - r171, c1 * r174, r15 * r174 - r16 * r171, r53 * r174 - r54 * r171, r81 * r174 - r84 * r171, r114 * r174 - r117 * r171, r150 * r174 - r153 * r171},
-        {r168, 0.0 - r1 * r174, r16 * r168 - r14 * r174, r54 * r168 - r52 * r174, r84 * r168 - r78 * r174, r117 * r168 - r111 * r174, r153 * r168 - r147 * r174},
-        {0.0, r1 * r171 - c1 * r168, r14 * r171 - r15 * r168, r52 * r171 - r53 * r168, r78 * r171 - r81 * r168, r111 * r171 - r114 * r168, r147 * r171 - r150 * r168},
-        {0.0 - r180, c1 * r183, r15 * r183 - r16 * r180, r53 * r183 - r54 * r180, r81 * r183 - r84 * r180, r114 * r183 - r117 * r180, r150 * r183 - r153 * r180},
-        {r177, 0.0 - r1 * r183, r16 * r177 - r14 * r183, r54 * r177 - r52 * r183, r84 * r177 - r78 * r183, r117 * r177 - r111 * r183, r153 * r177 - r147 * r183},
-        {0.0, r1 * r180 - c1 * r177, r14 * r180 - r15 * r177, r52 * r180 - r53 * r177, r78 * r180 - r81 * r177, r111 * r180 - r114 * r177, r147 * r180 - r150 * r177},
-        {0.0 - r185, c1 * r186, r15 * r186 - r16 * r185, r53 * r186 - r54 * r185, r81 * r186 - r84 * r185, r114 * r186 - r117 * r185, r150 * r186 - r153 * r185},
-        {r184, 0.0 - r1 * r186, r16 * r184 - r14 * r186, r54 * r184 - r52 * r186, r84 * r184 - r78 * r186, r117 * r184 - r111 * r186, r153 * r184 - r147 * r186},
-        {0.0, r1 * r185 - c1 * r184, r14 * r185 - r15 * r184, r52 * r185 - r53 * r184, r78 * r185 - r81 * r184, r111 * r185 - r114 * r184, r147 * r185 - r150 * r184},
-        {0.0, 0.0, r27, 0.0, 0.0, 0.0, 0.0},
+        {r97 - r96, c1 * r89, r3 * r89 - c2 * r98, r34 * r146 - r13 * r150, 0.126 * r175, 0.126 * r177, 0.0},
+        {r107, s1 * r89, c2 * r107 - r2 * r89, r13 * r154 - r30 * r146, 0.126 * r181, 0.126 * r183, 0.0},
+        {0.0, 0.0 - (s1 * r98 + c1 * r107), r2 * r98 - r3 * r107, r34 * r154 - r30 * r150, 0.0 - 0.126 * (r164 - r165), 0.0 - 0.126 * (r170 - r171), 0.0},
+        {r70 - r68, 0.0 - c1 * r195, 0.0 - (r3 * r195 + c2 * r114), r13 * r114 - r34 * r195, r51 * r195 - r55 * r114, r69 * r195 - r73 * r114, r159 * r114 - r108 * r195},
+        {r115, 0.0 - s1 * r195, c2 * r115 + r2 * r195, r30 * r195 - r13 * r115, r55 * r115 - r47 * r195, r73 * r115 - r65 * r195, r109 * r195 - r159 * r115},
+        {0.0, 0.0 - (s1 * r114 + c1 * r115), r2 * r114 - r3 * r115, r30 * r114 - r34 * r115, r51 * r115 - r47 * r114, r69 * r115 - r65 * r114, r109 * r114 - r108 * r115},
+        {r121, c1 * r120, r3 * r120 + c2 * r121, r34 * r120 - r13 * r121, r55 * r121 - r51 * r120, r73 * r121 - r69 * r120, r108 * r120 - r159 * r121},
+        {0.0 - r122, s1 * r120, 0.0 - (c2 * r122 + r2 * r120), r13 * r122 - r30 * r120, r47 * r120 - r55 * r122, r65 * r120 - r73 * r122, r159 * r122 - r109 * r120},
+        {0.0, s1 * r121 + c1 * r122, r3 * r122 - r2 * r121, r34 * r122 - r30 * r121, r47 * r121 - r51 * r122, r65 * r121 - r69 * r122, r108 * r122 - r109 * r121},
+        {r60 - r59, 0.0 - c1 * r159, 0.0 - (r3 * r159 + c2 * r108), r13 * r108 - r34 * r159, r175, r177, 0.0},
+        {r109, 0.0 - s1 * r159, c2 * r109 + r2 * r159, r30 * r159 - r13 * r109, r181, r183, 0.0},
+        {0.0, 0.0 - (s1 * r108 + c1 * r109), r2 * r108 - r3 * r109, r30 * r108 - r34 * r109, r165 - r164, r171 - r170, 0.0},
+        {0.0, 0.0, 0.0 - s3_, 0.0, 0.0, 0.0, 0.0},
         {0.0, 0.0, c3_, 0.0, 0.0, 0.0, 0.0},
     } };
     return result;
@@ -1205,16 +1183,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 7 share. */
 typedef struct {
-    double r132;
-    double r133;
+    double r46;
+    double r47;
 } Shared7;
 
 /* Chart 1 of block 7: generic.
  */
 static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
-    const double r135 = 0.0 - (0.0 - shared->r132), r137 = 0.0 - (0.0 - shared->r133);
-    const double r141 = sqrt(fmax(r137 * r137 + r135 * r135, 0.0)), c7 = r137 / r141, s7 = r135 / r141;
+    const double r50 = shared->r46 * shared->r46 + shared->r47 * shared->r47, r51 = sqrt(fmax(r50, 0.0));
+    const double c7 = shared->r46 / r51, s7 = shared->r47 / r51;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1230,43 +1208,34 @@ static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *sh
 /* Block 7: A7. */
 static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r12_ * known->c1 + (0.0 - (0.0 - p->r22_)) * known->s1;
-    const double r9 = p->r22_ * known->c1 + (0.0 - p->r12_) * known->s1;
-    const double r11 = p->r32_ + (p->r32_ - p->r32_) * known->c1, r18 = r6 * known->c2 + (0.0 - r11) * known->s2;
-    const double r22 = r11 * known->c2 + (0.0 - (0.0 - r6)) * known->s2, r23 = r9 + (r9 - r9) * known->c2;
-    const double r30 = r18 * known->c3_ + (0.0 - (0.0 - r23)) * known->s3_;
-    const double r33 = r23 * known->c3_ + (0.0 - r18) * known->s3_, r37 = 0.0 - (0.0 - r33);
-    const double r42 = 0.0 - (0.0 - (r22 + (r22 - r22) * known->c3_));
-    const double r60 = (0.0 - (r30 * known->c4 + r42 * known->s4)) * known->s5;
-    const double r61 = (r37 + (r33 - r37) * known->c4) * known->c5 + r60, r65 = 0.0 - p->r11_;
-    const double r66 = 0.0 - p->r21_, r67 = 0.0 - p->r31_;
-    const double r74 = r65 * known->c1 + (0.0 - (0.0 - r66)) * known->s1;
-    const double r77 = r66 * known->c1 + (0.0 - r65) * known->s1, r79 = r67 + (r67 - r67) * known->c1;
-    const double r86 = r74 * known->c2 + (0.0 - r79) * known->s2;
-    const double r90 = r79 * known->c2 + (0.0 - (0.0 - r74)) * known->s2, r91 = r77 + (r77 - r77) * known->c2;
-    const double r98 = r86 * known->c3_ + (0.0 - (0.0 - r91)) * known->s3_;
-    const double r101 = r91 * known->c3_ + (0.0 - r86) * known->s3_, r105 = 0.0 - (0.0 - r101);
-    const double r110 = 0.0 - (0.0 - (r90 + (r90 - r90) * known->c3_));
-    const double r127 = (r105 + (r101 - r105) * known->c4) * known->c5;
-    const double r128 = (0.0 - (r98 * known->c4 + r110 * known->s4)) * known->s5, r132 = 0.0 - (r127 + r128);
-    const double r133 = 0.0 - (0.0 - r61);
-    const Shared7 own = { r132, r133 };
+    const double r4 = p->r12_ * known->c1 + p->r22_ * known->s1, r9 = known->c2 * r4 - p->r32_ * known->s2;
+    const double r11 = p->r22_ * known->c1 - p->r12_ * known->s1;
+    const double r16 = known->c4 * (known->c3_ * r9 + known->s3_ * r11);
+    const double r18 = known->s4 * (p->r32_ * known->c2 + known->s2 * r4);
+    const double r21 = known->c5 * (known->c3_ * r11 - known->s3_ * r9);
+    const double r27 = p->r11_ * known->c1 + p->r21_ * known->s1, r32 = known->c2 * r27 - p->r31_ * known->s2;
+    const double r34 = p->r21_ * known->c1 - p->r11_ * known->s1;
+    const double r39 = known->c4 * (known->c3_ * r32 + known->s3_ * r34);
+    const double r41 = known->s4 * (p->r31_ * known->c2 + known->s2 * r27);
+    const double r44 = known->c5 * (known->c3_ * r34 - known->s3_ * r32), r46 = r21 - known->s5 * (r16 + r18);
+    const double r47 = r44 - known->s5 * (r39 + r41);
+    const Shared7 own = { r46, r47 };
     const Shared7 *const shared = &own;
     chart_7_1(p, known, shared, answers);
 }
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r66;
-    double r67;
+    double r25;
+    double r26;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r69 = 0.0 - (0.0 - shared->r66), r71 = 0.0 - (0.0 - shared->r67);
-    const double r75 = sqrt(fmax(r71 * r71 + r69 * r69, 0.0)), c6 = r71 / r75, s6 = r69 / r75;
+    const double r29 = shared->r25 * shared->r25 + shared->r26 * shared->r26, r30 = sqrt(fmax(r29, 0.0));
+    const double c6 = shared->r25 / r30, s6 = shared->r26 / r30;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1278,25 +1247,21 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: A6. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - (0.0 - p->r23_)) * known->s1;
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1;
-    const double r11 = p->r33_ + (p->r33_ - p->r33_) * known->c1, r18 = r6 * known->c2 + (0.0 - r11) * known->s2;
-    const double r22 = r11 * known->c2 + (0.0 - (0.0 - r6)) * known->s2, r23 = r9 + (r9 - r9) * known->c2;
-    const double r30 = r18 * known->c3_ + (0.0 - (0.0 - r23)) * known->s3_;
-    const double r33 = r23 * known->c3_ + (0.0 - r18) * known->s3_, r35 = r22 + (r22 - r22) * known->c3_;
-    const double r37 = 0.0 - (0.0 - r33), r46 = r30 * known->c4 + (0.0 - (0.0 - r35)) * known->s4;
-    const double r50 = r35 * known->c4 + (0.0 - (0.0 - (0.0 - r30))) * known->s4;
-    const double r55 = 0.0 - (0.0 - (r37 + (r33 - r37) * known->c4));
-    const double r66 = 0.0 - (0.0 - (r46 * known->c5 + r55 * known->s5)), r67 = 0.0 - (0.0 - r50);
-    const Shared6 own = { r66, r67 };
+    const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1, r9 = known->c2 * r4 - p->r33_ * known->s2;
+    const double r11 = p->r23_ * known->c1 - p->r13_ * known->s1, r15 = known->c3_ * r9 + known->s3_ * r11;
+    const double r17 = p->r33_ * known->c2 + known->s2 * r4;
+    const double r22 = known->c5 * (known->c4 * r15 + known->s4 * r17);
+    const double r24 = known->s5 * (known->c3_ * r11 - known->s3_ * r9), r25 = known->c4 * r17 - known->s4 * r15;
+    const double r26 = r22 + r24;
+    const Shared6 own = { r25, r26 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r53;
-    double r56;
+    double r19;
+    double r20;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
@@ -1304,16 +1269,15 @@ typedef struct {
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r57 = shared->r53 * shared->r53, r58 = shared->r56 * shared->r56, r59 = r57 + r58;
-    if (!is_away(r59, 17650000.0)) {
+    const double r21 = shared->r19 * shared->r19, r22 = shared->r20 * shared->r20, r23 = r21 + r22;
+    if (!is_away(r23, 17650000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r57 - r58, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r21 - r22, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, known->f2 * (42.01190307520001 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w5 = roots0.values[i0], r67 = (0.0 - (0.0 - shared->r53 * w5)) / r59;
-        const double r70 = (0.0 - shared->r56 * w5) / r59, r74 = sqrt(fmax(r70 * r70 + r67 * r67, 0.0));
-        const double c5 = r70 / r74, s5 = r67 / r74;
+        const double w5 = roots0.values[i0], r29 = w5 * shared->r19 / r23, r31 = w5 * shared->r20 / r23;
+        const double r35 = sqrt(fmax(r31 * r31 + r29 * r29, 0.0)), c5 = 0.0 - r31 / r35, s5 = r29 / r35;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1329,8 +1293,8 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
  */
 static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r59 = shared->r53 * shared->r53 + shared->r56 * shared->r56;
-    if (!is_near(r59, 0.0001765)) {
+    const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
+    if (!is_near(r23, 0.0001765)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1348,16 +1312,12 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: A5. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - (0.0 - p->r23_)) * known->s1;
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1;
-    const double r11 = p->r33_ + (p->r33_ - p->r33_) * known->c1, r18 = r6 * known->c2 + (0.0 - r11) * known->s2;
-    const double r22 = r11 * known->c2 + (0.0 - (0.0 - r6)) * known->s2, r23 = r9 + (r9 - r9) * known->c2;
-    const double r30 = r18 * known->c3_ + (0.0 - (0.0 - r23)) * known->s3_;
-    const double r33 = r23 * known->c3_ + (0.0 - r18) * known->s3_, r37 = 0.0 - (0.0 - r33);
-    const double r42 = 0.0 - (0.0 - (r22 + (r22 - r22) * known->c3_));
-    const double r53 = 0.0 - (r37 + (r33 - r37) * known->c4);
-    const double r56 = 0.0 - (0.0 - (r30 * known->c4 + r42 * known->s4));
-    const Shared5 own = { r53, r56 };
+    const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1, r9 = known->c2 * r4 - p->r33_ * known->s2;
+    const double r11 = p->r23_ * known->c1 - p->r13_ * known->s1;
+    const double r16 = known->c4 * (known->c3_ * r9 + known->s3_ * r11);
+    const double r18 = known->s4 * (p->r33_ * known->c2 + known->s2 * r4);
+    const double r19 = known->s3_ * r9 - known->c3_ * r11, r20 = r16 + r18;
+    const Shared5 own = { r19, r20 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
@@ -1365,12 +1325,12 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r10;
-    double r36;
-    double r37;
-    double r38;
-    double r46;
-    double r47;
+    double r8;
+    double r9;
+    double r12;
+    double r13;
+    double r17;
+    double r18;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1378,13 +1338,13 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r50 = shared->r10 * shared->r10 + shared->r37 * shared->r37;
-    if (!is_away(r50, 1042419.9999999999)) {
+    const double r21 = shared->r8 * shared->r8 + shared->r9 * shared->r9;
+    if (!is_away(r21, 1042419.9999999999)) {
         return;
     }
-    const double f2 = 1.0, r53 = shared->r37 * shared->r38 - shared->r10 * shared->r36, r55 = (0.0 - r53) / r50;
-    const double r59 = 0.0 - shared->r10 * shared->r38 - shared->r37 * shared->r36, r61 = (0.0 - r59) / r50;
-    const double r65 = sqrt(fmax(r61 * r61 + r55 * r55, 0.0)), c2 = r61 / r65, s2 = r55 / r65;
+    const double f2 = 1.0, r25 = shared->r8 * shared->r13 - (0.0 - shared->r9 * shared->r12), r26 = r25 / r21;
+    const double r29 = shared->r8 * shared->r12 - shared->r9 * shared->r13, r30 = r29 / r21;
+    const double r34 = sqrt(fmax(r30 * r30 + r26 * r26, 0.0)), c2 = r30 / r34, s2 = r26 / r34;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1400,8 +1360,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r50 = shared->r10 * shared->r10 + shared->r37 * shared->r37;
-    if (!(is_near(r50, 1.04242e-5) && is_near(shared->r36, 0.01 * shared->r47) && is_near(shared->r38, 0.01 * shared->r46))) {
+    const double r21 = shared->r8 * shared->r8 + shared->r9 * shared->r9;
+    if (!(is_near(r21, 1.04242e-5) && is_near(shared->r13, 0.01 * shared->r18) && is_near(shared->r12, 0.01 * shared->r17))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1421,13 +1381,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: A2. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r3 = 0.4 * known->c4 + 0.78 - 0.36, r10 = r3 + (r3 - r3) * known->c3_ + 0.36 - 0.36;
-    const double r27 = (0.0 - (0.0 - (p->py + -0.126 * p->r23_))) * known->s1;
-    const double r35 = 0.0 - ((p->px + -0.126 * p->r13_) * known->c1 + r27), r36 = 0.0 - r35;
-    const double r37 = 0.0 - (0.0 - -0.4 * known->s4 * known->c3_);
-    const double r38 = 0.0 - (0.36 - (p->pz + -0.126 * p->r33_)), r39 = p->magnitude + 2.486;
-    const double r46 = fabs(0.0 - (r39 + 0.36)), r47 = fabs(r39 + r39);
-    const Shared4 own = { r10, r36, r37, r38, r46, r47 };
+    const double r8 = 0.4 * known->c4 + 0.42, r9 = 0.4 * (known->c3_ * known->s4);
+    const double r12 = p->pz - 0.126 * p->r33_ - 0.36;
+    const double r13 = known->c1 * (p->px - 0.126 * p->r13_) + known->s1 * (p->py - 0.126 * p->r23_);
+    const double r17 = fabs(p->magnitude + 2.846), r18 = fabs(2.0 * p->magnitude + 4.972);
+    const Shared4 own = { r8, r9, r12, r13, r17, r18 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1435,10 +1393,11 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
+    double r2;
+    double r4;
+    double r5;
     double r6;
-    double r18;
-    double r22;
-    double r27;
+    double r8;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1446,18 +1405,18 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r28 = shared->r18 * shared->r18, r29 = shared->r22 * shared->r22, r30 = r28 + r29;
-    const double r31 = shared->r27 * shared->r27, r32 = r31 + r31;
-    if (!is_away(r30, 10000.0 * r32)) {
+    const double r9 = shared->r2 * shared->r2, r10 = shared->r4 * shared->r4, r11 = r9 + r10;
+    const double r12 = shared->r8 * shared->r8, r13 = r12 + r12;
+    if (!is_away(r11, 10000.0 * r13)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {shared->r6 * shared->r6 - r28 - r29, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r32, 0.0)));
+    const double choice0_0[3] = {shared->r5 * shared->r5 - r9 - r10, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r13, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r41 = 0.0 - (shared->r22 * shared->r6 - shared->r18 * w1);
-        const double r42 = r41 / r30, r46 = 0.0 - (shared->r22 * w1 + shared->r18 * shared->r6), r47 = r46 / r30;
-        const double r51 = sqrt(fmax(r47 * r47 + r42 * r42, 0.0)), c1 = r47 / r51, s1 = r42 / r51;
+        const double w1 = roots0.values[i0], r22 = w1 * shared->r2 - (0.0 - shared->r4 * shared->r5);
+        const double r23 = r22 / r11, r27 = (shared->r2 * shared->r5 - w1 * shared->r4) / r11;
+        const double r31 = sqrt(fmax(r27 * r27 + r23 * r23, 0.0)), c1 = r27 / r31, s1 = r23 / r31;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1474,8 +1433,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r30 = shared->r18 * shared->r18 + shared->r22 * shared->r22, r31 = shared->r27 * shared->r27;
-    if (!(is_near(r30, 1.0000000000000001e-7 * (r31 + r31)) && is_near(shared->r6, 0.0196))) {
+    const double r11 = shared->r2 * shared->r2 + shared->r4 * shared->r4, r12 = shared->r8 * shared->r8;
+    if (!(is_near(r11, 1.0000000000000001e-7 * (r12 + r12)) && is_near(shared->r6, 0.0196))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1495,9 +1454,9 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: A1. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = -0.4 * known->s4 * known->s3_, r18 = 0.0 - (p->py + -0.126 * p->r23_);
-    const double r22 = 0.0 - (0.0 - (p->px + -0.126 * p->r13_)), r27 = fabs(p->magnitude + 2.486);
-    const Shared3 own = { r6, r18, r22, r27 };
+    const double r2 = 0.126 * p->r23_ - p->py, r4 = p->px - 0.126 * p->r13_, r5 = 0.4 * (known->s3_ * known->s4);
+    const double r6 = 0.0 - r5, r8 = fabs(p->magnitude + 2.486);
+    const Shared3 own = { r2, r4, r5, r6, r8 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1505,20 +1464,20 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r26;
+    double r24;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r28 = shared->r26 * shared->r26 - 0.11289600000000001;
-    const double choice0_0[3] = {r28, 0.0, 1.0};
+    const double r26 = shared->r24 * shared->r24 - 0.11289600000000001;
+    const double choice0_0[3] = {r26, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r32 = (0.0 - (0.0 - 0.336 * w4)) / 0.11289600000000001;
-        const double r35 = (0.0 - 0.336 * shared->r26) / 0.11289600000000001;
-        const double r39 = sqrt(fmax(r35 * r35 + r32 * r32, 0.0)), c4 = r35 / r39, s4 = r32 / r39;
+        const double w4 = roots0.values[i0], r28 = 0.336 * w4 / 0.11289600000000001;
+        const double r30 = 0.336 * shared->r24 / 0.11289600000000001;
+        const double r34 = sqrt(fmax(r30 * r30 + r28 * r28, 0.0)), c4 = 0.0 - r30 / r34, s4 = r28 / r34;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1531,11 +1490,11 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: A4. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = p->pz + -0.126 * p->r33_;
-    const double r9 = p->px * (p->px + -0.126 * p->r13_) + p->py * (p->py + -0.126 * p->r23_);
-    const double r10 = r9 + p->pz * r5, r16 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r24 = r10 + r10 - r16 + 0.015876 + 0.36 * (0.36 - r5), r26 = 0.3364 - (r24 - 0.36 * r5);
-    const Shared2 own = { r26 };
+    const double r14 = 2.0 * (p->px * (p->px - 0.126 * p->r13_)) + 2.0 * (p->py * (p->py - 0.126 * p->r23_));
+    const double r16 = r14 + 2.0 * (p->pz * (p->pz - 0.126 * p->r33_));
+    const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
+    const double r24 = 0.190924 - (r19 - 0.72 * p->pz + 0.09072 * p->r33_);
+    const Shared2 own = { r24 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }

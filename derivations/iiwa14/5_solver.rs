@@ -462,31 +462,29 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 
 /// Block 2: A4.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.pz + -0.126 * p.r33_;
-    let r9 = p.px * (p.px + -0.126 * p.r13_) + p.py * (p.py + -0.126 * p.r23_);
-    let r10 = r9 + p.pz * r5;
-    let r17 = r10 + r10 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r25 = r17 + 0.015876 + 0.36 * (0.36 - r5) - 0.36 * r5;
-    let r26 = 0.3364 - r25;
-    let shared = &Shared2 { r26 };
+    let r14 = 2.0 * (p.px * (p.px - 0.126 * p.r13_)) + 2.0 * (p.py * (p.py - 0.126 * p.r23_));
+    let r17 = r14 + 2.0 * (p.pz * (p.pz - 0.126 * p.r33_)) - p.px * p.px;
+    let r21 = r17 - p.py * p.py - p.pz * p.pz - 0.72 * p.pz;
+    let r24 = 0.190924 - (r21 + 0.09072 * p.r33_);
+    let shared = &Shared2 { r24 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r26: f64,
+    r24: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r28 = shared.r26 * shared.r26 - 0.11289600000000001;
-    let roots0 = real_roots(&[r28, 0.0, 1.0], 1.4142135623730951);
+    let r26 = shared.r24 * shared.r24 - 0.11289600000000001;
+    let roots0 = real_roots(&[r26, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r32 = (0.0 - (0.0 - 0.336 * w4)) / 0.11289600000000001;
-        let r35 = (0.0 - 0.336 * shared.r26) / 0.11289600000000001;
-        let r39 = f64::max(r35 * r35 + r32 * r32, 0.0).sqrt();
-        let c4 = r35 / r39;
-        let s4 = r32 / r39;
+        let r28 = 0.336 * w4 / 0.11289600000000001;
+        let r30 = 0.336 * shared.r24 / 0.11289600000000001;
+        let r34 = f64::max(r30 * r30 + r28 * r28, 0.0).sqrt();
+        let c4 = 0.0 - r30 / r34;
+        let s4 = r28 / r34;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c4, s4, ..*known };
         block_3(p, &next, answers);
     }
@@ -494,48 +492,49 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: A1.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = -0.4 * known.s4 * known.s3_;
-    let r18 = 0.0 - (p.py + -0.126 * p.r23_);
-    let r22 = 0.0 - (0.0 - (p.px + -0.126 * p.r13_));
-    let r27 = f64::abs(p.magnitude + 2.486);
-    let shared = &Shared3 { r6, r18, r22, r27 };
+    let r2 = 0.126 * p.r23_ - p.py;
+    let r4 = p.px - 0.126 * p.r13_;
+    let r5 = 0.4 * (known.s3_ * known.s4);
+    let r6 = 0.0 - r5;
+    let r8 = f64::abs(p.magnitude + 2.486);
+    let shared = &Shared3 { r2, r4, r5, r6, r8 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
+    r2: f64,
+    r4: f64,
+    r5: f64,
     r6: f64,
-    r18: f64,
-    r22: f64,
-    r27: f64,
+    r8: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r28 = shared.r18 * shared.r18;
-    let r29 = shared.r22 * shared.r22;
-    let r30 = r28 + r29;
-    let r31 = shared.r27 * shared.r27;
-    let r32 = r31 + r31;
-    if !is_away(r30, 10000.0 * r32) {
+    let r9 = shared.r2 * shared.r2;
+    let r10 = shared.r4 * shared.r4;
+    let r11 = r9 + r10;
+    let r12 = shared.r8 * shared.r8;
+    let r13 = r12 + r12;
+    if !is_away(r11, 10000.0 * r13) {
         return;
     }
     let f1 = 1.0;
     let roots0 = real_roots(&[
-        shared.r6 * shared.r6 - r28 - r29,
+        shared.r5 * shared.r5 - r9 - r10,
         0.0,
         1.0,
-    ], f64::max(r32, 0.0).sqrt());
+    ], f64::max(r13, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r41 = 0.0 - (shared.r22 * shared.r6 - shared.r18 * w1);
-        let r42 = r41 / r30;
-        let r46 = 0.0 - (shared.r22 * w1 + shared.r18 * shared.r6);
-        let r47 = r46 / r30;
-        let r51 = f64::max(r47 * r47 + r42 * r42, 0.0).sqrt();
-        let c1 = r47 / r51;
-        let s1 = r42 / r51;
+        let r22 = w1 * shared.r2 - (0.0 - shared.r4 * shared.r5);
+        let r23 = r22 / r11;
+        let r27 = (shared.r2 * shared.r5 - w1 * shared.r4) / r11;
+        let r31 = f64::max(r27 * r27 + r23 * r23, 0.0).sqrt();
+        let c1 = r27 / r31;
+        let s1 = r23 / r31;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c1, s1, f1, ..*known };
         block_4(p, &next, answers);
     }
@@ -545,9 +544,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: A1.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r30 = shared.r18 * shared.r18 + shared.r22 * shared.r22;
-    let r31 = shared.r27 * shared.r27;
-    if !(is_near(r30, 1.0000000000000001e-7 * (r31 + r31)) && is_near(shared.r6, 0.0196)) {
+    let r11 = shared.r2 * shared.r2 + shared.r4 * shared.r4;
+    let r12 = shared.r8 * shared.r8;
+    if !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12)) && is_near(shared.r6, 0.0196)) {
         return;
     }
     let f1 = 1000000.0;
@@ -559,46 +558,42 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: A2.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = 0.4 * known.c4 + 0.78 - 0.36;
-    let r10 = r3 + (r3 - r3) * known.c3_ + 0.36 - 0.36;
-    let r27 = (0.0 - (0.0 - (p.py + -0.126 * p.r23_))) * known.s1;
-    let r35 = 0.0 - ((p.px + -0.126 * p.r13_) * known.c1 + r27);
-    let r36 = 0.0 - r35;
-    let r37 = 0.0 - (0.0 - -0.4 * known.s4 * known.c3_);
-    let r38 = 0.0 - (0.36 - (p.pz + -0.126 * p.r33_));
-    let r39 = p.magnitude + 2.486;
-    let r46 = f64::abs(0.0 - (r39 + 0.36));
-    let r47 = f64::abs(r39 + r39);
-    let shared = &Shared4 { r10, r36, r37, r38, r46, r47 };
+    let r8 = 0.4 * known.c4 + 0.42;
+    let r9 = 0.4 * (known.c3_ * known.s4);
+    let r12 = p.pz - 0.126 * p.r33_ - 0.36;
+    let r13 = known.c1 * (p.px - 0.126 * p.r13_) + known.s1 * (p.py - 0.126 * p.r23_);
+    let r17 = f64::abs(p.magnitude + 2.846);
+    let r18 = f64::abs(2.0 * p.magnitude + 4.972);
+    let shared = &Shared4 { r8, r9, r12, r13, r17, r18 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r10: f64,
-    r36: f64,
-    r37: f64,
-    r38: f64,
-    r46: f64,
-    r47: f64,
+    r8: f64,
+    r9: f64,
+    r12: f64,
+    r13: f64,
+    r17: f64,
+    r18: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r50 = shared.r10 * shared.r10 + shared.r37 * shared.r37;
-    if !is_away(r50, 1042419.9999999999) {
+    let r21 = shared.r8 * shared.r8 + shared.r9 * shared.r9;
+    if !is_away(r21, 1042419.9999999999) {
         return;
     }
     let f2 = 1.0;
-    let r53 = shared.r37 * shared.r38 - shared.r10 * shared.r36;
-    let r55 = (0.0 - r53) / r50;
-    let r59 = 0.0 - shared.r10 * shared.r38 - shared.r37 * shared.r36;
-    let r61 = (0.0 - r59) / r50;
-    let r65 = f64::max(r61 * r61 + r55 * r55, 0.0).sqrt();
-    let c2 = r61 / r65;
-    let s2 = r55 / r65;
+    let r25 = shared.r8 * shared.r13 - (0.0 - shared.r9 * shared.r12);
+    let r26 = r25 / r21;
+    let r29 = shared.r8 * shared.r12 - shared.r9 * shared.r13;
+    let r30 = r29 / r21;
+    let r34 = f64::max(r30 * r30 + r26 * r26, 0.0).sqrt();
+    let c2 = r30 / r34;
+    let s2 = r26 / r34;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, f2, ..*known };
     block_5(p, &next, answers);
 }
@@ -607,8 +602,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: A2.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r50 = shared.r10 * shared.r10 + shared.r37 * shared.r37;
-    if !(is_near(r50, 1.04242e-5) && is_near(shared.r36, 0.01 * shared.r47) && is_near(shared.r38, 0.01 * shared.r46)) {
+    let r21 = shared.r8 * shared.r8 + shared.r9 * shared.r9;
+    if !(is_near(r21, 1.04242e-5) && is_near(shared.r13, 0.01 * shared.r18) && is_near(shared.r12, 0.01 * shared.r17)) {
         return;
     }
     let f2 = 1000000.0;
@@ -620,49 +615,44 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: A5.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - (0.0 - p.r23_)) * known.s1;
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r11 = p.r33_ + (p.r33_ - p.r33_) * known.c1;
-    let r18 = r6 * known.c2 + (0.0 - r11) * known.s2;
-    let r22 = r11 * known.c2 + (0.0 - (0.0 - r6)) * known.s2;
-    let r23 = r9 + (r9 - r9) * known.c2;
-    let r30 = r18 * known.c3_ + (0.0 - (0.0 - r23)) * known.s3_;
-    let r33 = r23 * known.c3_ + (0.0 - r18) * known.s3_;
-    let r37 = 0.0 - (0.0 - r33);
-    let r42 = 0.0 - (0.0 - (r22 + (r22 - r22) * known.c3_));
-    let r53 = 0.0 - (r37 + (r33 - r37) * known.c4);
-    let r56 = 0.0 - (0.0 - (r30 * known.c4 + r42 * known.s4));
-    let shared = &Shared5 { r53, r56 };
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let r9 = known.c2 * r4 - p.r33_ * known.s2;
+    let r11 = p.r23_ * known.c1 - p.r13_ * known.s1;
+    let r16 = known.c4 * (known.c3_ * r9 + known.s3_ * r11);
+    let r18 = known.s4 * (p.r33_ * known.c2 + known.s2 * r4);
+    let r19 = known.s3_ * r9 - known.c3_ * r11;
+    let r20 = r16 + r18;
+    let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r53: f64,
-    r56: f64,
+    r19: f64,
+    r20: f64,
 }
 
 /// Chart 1 of block 5: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r57 = shared.r53 * shared.r53;
-    let r58 = shared.r56 * shared.r56;
-    let r59 = r57 + r58;
-    if !is_away(r59, 17650000.0) {
+    let r21 = shared.r19 * shared.r19;
+    let r22 = shared.r20 * shared.r20;
+    let r23 = r21 + r22;
+    if !is_away(r23, 17650000.0) {
         return;
     }
     let roots0 = real_roots(&[
-        0.0 - r57 - r58,
+        0.0 - r21 - r22,
         0.0,
         1.0,
     ], known.f2 * (42.01190307520001 * known.f1));
     for (i0, &w5) in roots0.as_slice().iter().enumerate() {
-        let r67 = (0.0 - (0.0 - shared.r53 * w5)) / r59;
-        let r70 = (0.0 - shared.r56 * w5) / r59;
-        let r74 = f64::max(r70 * r70 + r67 * r67, 0.0).sqrt();
-        let c5 = r70 / r74;
-        let s5 = r67 / r74;
+        let r29 = w5 * shared.r19 / r23;
+        let r31 = w5 * shared.r20 / r23;
+        let r35 = f64::max(r31 * r31 + r29 * r29, 0.0).sqrt();
+        let c5 = 0.0 - r31 / r35;
+        let s5 = r29 / r35;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c5, s5, ..*known };
         block_6(p, &next, answers);
     }
@@ -672,8 +662,8 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: A5.
 fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r59 = shared.r53 * shared.r53 + shared.r56 * shared.r56;
-    if !is_near(r59, 0.0001765) {
+    let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
+    if !is_near(r23, 0.0001765) {
         return;
     }
     for [c5, s5] in SAMPLES_1 {
@@ -684,90 +674,66 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 
 /// Block 6: A6.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - (0.0 - p.r23_)) * known.s1;
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r11 = p.r33_ + (p.r33_ - p.r33_) * known.c1;
-    let r18 = r6 * known.c2 + (0.0 - r11) * known.s2;
-    let r22 = r11 * known.c2 + (0.0 - (0.0 - r6)) * known.s2;
-    let r23 = r9 + (r9 - r9) * known.c2;
-    let r30 = r18 * known.c3_ + (0.0 - (0.0 - r23)) * known.s3_;
-    let r33 = r23 * known.c3_ + (0.0 - r18) * known.s3_;
-    let r35 = r22 + (r22 - r22) * known.c3_;
-    let r37 = 0.0 - (0.0 - r33);
-    let r46 = r30 * known.c4 + (0.0 - (0.0 - r35)) * known.s4;
-    let r50 = r35 * known.c4 + (0.0 - (0.0 - (0.0 - r30))) * known.s4;
-    let r58 = (0.0 - (0.0 - (r37 + (r33 - r37) * known.c4))) * known.s5;
-    let r66 = 0.0 - (0.0 - (r46 * known.c5 + r58));
-    let r67 = 0.0 - (0.0 - r50);
-    let shared = &Shared6 { r66, r67 };
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let r9 = known.c2 * r4 - p.r33_ * known.s2;
+    let r11 = p.r23_ * known.c1 - p.r13_ * known.s1;
+    let r15 = known.c3_ * r9 + known.s3_ * r11;
+    let r17 = p.r33_ * known.c2 + known.s2 * r4;
+    let r24 = known.s5 * (known.c3_ * r11 - known.s3_ * r9);
+    let r25 = known.c4 * r17 - known.s4 * r15;
+    let r26 = known.c5 * (known.c4 * r15 + known.s4 * r17) + r24;
+    let shared = &Shared6 { r25, r26 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r66: f64,
-    r67: f64,
+    r25: f64,
+    r26: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r69 = 0.0 - (0.0 - shared.r66);
-    let r71 = 0.0 - (0.0 - shared.r67);
-    let r75 = f64::max(r71 * r71 + r69 * r69, 0.0).sqrt();
-    let c6 = r71 / r75;
-    let s6 = r69 / r75;
+    let r29 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
+    let r30 = f64::max(r29, 0.0).sqrt();
+    let c6 = shared.r25 / r30;
+    let s6 = shared.r26 / r30;
     let next = Known { branch: known.branch, last: known.last, c6, s6, ..*known };
     block_7(p, &next, answers);
 }
 
 /// Block 7: A7.
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r12_ * known.c1 + (0.0 - (0.0 - p.r22_)) * known.s1;
-    let r9 = p.r22_ * known.c1 + (0.0 - p.r12_) * known.s1;
-    let r11 = p.r32_ + (p.r32_ - p.r32_) * known.c1;
-    let r18 = r6 * known.c2 + (0.0 - r11) * known.s2;
-    let r22 = r11 * known.c2 + (0.0 - (0.0 - r6)) * known.s2;
-    let r23 = r9 + (r9 - r9) * known.c2;
-    let r30 = r18 * known.c3_ + (0.0 - (0.0 - r23)) * known.s3_;
-    let r33 = r23 * known.c3_ + (0.0 - r18) * known.s3_;
-    let r37 = 0.0 - (0.0 - r33);
-    let r42 = 0.0 - (0.0 - (r22 + (r22 - r22) * known.c3_));
-    let r60 = (0.0 - (r30 * known.c4 + r42 * known.s4)) * known.s5;
-    let r61 = (r37 + (r33 - r37) * known.c4) * known.c5 + r60;
-    let r65 = 0.0 - p.r11_;
-    let r66 = 0.0 - p.r21_;
-    let r67 = 0.0 - p.r31_;
-    let r74 = r65 * known.c1 + (0.0 - (0.0 - r66)) * known.s1;
-    let r77 = r66 * known.c1 + (0.0 - r65) * known.s1;
-    let r79 = r67 + (r67 - r67) * known.c1;
-    let r86 = r74 * known.c2 + (0.0 - r79) * known.s2;
-    let r90 = r79 * known.c2 + (0.0 - (0.0 - r74)) * known.s2;
-    let r91 = r77 + (r77 - r77) * known.c2;
-    let r98 = r86 * known.c3_ + (0.0 - (0.0 - r91)) * known.s3_;
-    let r101 = r91 * known.c3_ + (0.0 - r86) * known.s3_;
-    let r105 = 0.0 - (0.0 - r101);
-    let r110 = 0.0 - (0.0 - (r90 + (r90 - r90) * known.c3_));
-    let r128 = (0.0 - (r98 * known.c4 + r110 * known.s4)) * known.s5;
-    let r129 = (r105 + (r101 - r105) * known.c4) * known.c5 + r128;
-    let r132 = 0.0 - r129;
-    let r133 = 0.0 - (0.0 - r61);
-    let shared = &Shared7 { r132, r133 };
+    let r4 = p.r12_ * known.c1 + p.r22_ * known.s1;
+    let r9 = known.c2 * r4 - p.r32_ * known.s2;
+    let r11 = p.r22_ * known.c1 - p.r12_ * known.s1;
+    let r16 = known.c4 * (known.c3_ * r9 + known.s3_ * r11);
+    let r18 = known.s4 * (p.r32_ * known.c2 + known.s2 * r4);
+    let r21 = known.c5 * (known.c3_ * r11 - known.s3_ * r9);
+    let r27 = p.r11_ * known.c1 + p.r21_ * known.s1;
+    let r32 = known.c2 * r27 - p.r31_ * known.s2;
+    let r34 = p.r21_ * known.c1 - p.r11_ * known.s1;
+    let r39 = known.c4 * (known.c3_ * r32 + known.s3_ * r34);
+    let r41 = known.s4 * (p.r31_ * known.c2 + known.s2 * r27);
+    let r44 = known.c5 * (known.c3_ * r34 - known.s3_ * r32);
+    let r46 = r21 - known.s5 * (r16 + r18);
+    let r47 = r44 - known.s5 * (r39 + r41);
+    let shared = &Shared7 { r46, r47 };
     chart_7_1(p, known, shared, answers);
 }
 
 /// What the charts of block 7 share.
 struct Shared7 {
-    r132: f64,
-    r133: f64,
+    r46: f64,
+    r47: f64,
 }
 
 /// Chart 1 of block 7: generic.
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r135 = 0.0 - (0.0 - shared.r132);
-    let r137 = 0.0 - (0.0 - shared.r133);
-    let r141 = f64::max(r137 * r137 + r135 * r135, 0.0).sqrt();
-    let c7 = r137 / r141;
-    let s7 = r135 / r141;
+    let r50 = shared.r46 * shared.r46 + shared.r47 * shared.r47;
+    let r51 = f64::max(r50, 0.0).sqrt();
+    let c7 = shared.r46 / r51;
+    let s7 = shared.r47 / r51;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -799,88 +765,59 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s6 = q[5].sin();
     let c7 = q[6].cos();
     let s7 = q[6].sin();
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.36 * r2;
-    let r8 = c2 + (1.0 - c2);
-    let r9 = c1 * c2;
-    let r10 = s1 * c2;
-    let r11 = r2 * (0.0 - s2);
-    let r12 = (0.0 - s1) * r8;
-    let r13 = c1 * r8;
-    let r14 = c1 * s2;
-    let r15 = s1 * s2;
-    let r16 = r2 * c2;
-    let r17 = 0.36 * r14;
-    let r18 = 0.36 * r15;
-    let r19 = 0.36 * r16;
-    let r27 = 0.0 - s3_;
-    let r28 = c3_ + (1.0 - c3_);
-    let r31 = r9 * c3_ + r12 * s3_;
-    let r34 = r10 * c3_ + r13 * s3_;
-    let r35 = r11 * c3_;
-    let r43 = r14 * r28;
-    let r44 = r15 * r28;
-    let r45 = r16 * r28;
-    let r60 = 0.36 - r3 + r3 - r19 + r19 - 0.36 * r45 + 0.78 * r45;
-    let r62 = c4 + (1.0 - c4);
-    let r63 = 0.0 - s4;
-    let r66 = r31 * c4 + r43 * s4;
-    let r69 = r34 * c4 + r44 * s4;
-    let r72 = r35 * c4 + r45 * s4;
-    let r73 = (r9 * r27 + r12 * c3_) * r62;
-    let r74 = (r10 * r27 + r13 * c3_) * r62;
-    let r75 = r11 * r27 * r62;
-    let r78 = r31 * r63 + r43 * c4;
-    let r81 = r34 * r63 + r44 * c4;
-    let r84 = r35 * r63 + r45 * c4;
-    let r88 = 0.0 - r17 + r17 - 0.36 * r43 + 0.78 * r43 - 0.78 * r78;
-    let r89 = 0.0 - r18 + r18 - 0.36 * r44 + 0.78 * r44 - 0.78 * r81;
-    let r98 = 0.0 - s5;
-    let r99 = c5 + (1.0 - c5);
-    let r102 = r66 * c5 + r73 * s5;
-    let r105 = r69 * c5 + r74 * s5;
-    let r108 = r72 * c5 + r75 * s5;
-    let r118 = r78 * r99;
-    let r119 = r81 * r99;
-    let r120 = r84 * r99;
-    let r121 = 1.18 * r118;
-    let r122 = 1.18 * r119;
-    let r123 = 1.18 * r120;
-    let r131 = 0.0 - s6;
-    let r132 = c6 + (1.0 - c6);
-    let r135 = r102 * c6 + r118 * r131;
-    let r138 = r105 * c6 + r119 * r131;
-    let r141 = r108 * c6 + r120 * r131;
-    let r142 = (r66 * r98 + r73 * c5) * r132;
-    let r143 = (r69 * r98 + r74 * c5) * r132;
-    let r144 = (r72 * r98 + r75 * c5) * r132;
-    let r147 = r102 * s6 + r118 * c6;
-    let r150 = r105 * s6 + r119 * c6;
-    let r153 = r108 * s6 + r120 * c6;
-    let r154 = 1.18 * r147;
-    let r155 = 1.18 * r150;
-    let r156 = 1.18 * r153;
-    let r159 = r60 - 0.78 * r84 + 1.18 * r84 - r123 + r123 - r156;
-    let r164 = 0.0 - s7;
-    let r165 = c7 + (1.0 - c7);
-    let r184 = r147 * r165;
-    let r185 = r150 * r165;
-    let r186 = r153 * r165;
-    let r190 = r88 + 1.18 * r78 - r121 + r121 - r154 + r154 - 1.18 * r184;
-    let r191 = r89 + 1.18 * r81 - r122 + r122 - r155 + r155 - 1.18 * r185;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r8 = s2 * c3_;
+    let r13 = s2 * s3_;
+    let r14 = c3_ * r0 - s1 * s3_;
+    let r17 = c3_ * r1 + c1 * s3_;
+    let r22 = s4 * r14;
+    let r23 = c4 * r2;
+    let r24 = s4 * r17;
+    let r25 = c4 * r3;
+    let r26 = s4 * r8;
+    let r27 = c2 * c4;
+    let r28 = c4 * r14 + s4 * r2;
+    let r30 = s3_ * r0 + s1 * c3_;
+    let r32 = c4 * r17 + s4 * r3;
+    let r34 = s3_ * r1 - c1 * c3_;
+    let r36 = c4 * r8 - c2 * s4;
+    let r45 = c5 * r28 - s5 * r30;
+    let r47 = r22 - r23;
+    let r49 = c5 * r32 - s5 * r34;
+    let r51 = r24 - r25;
+    let r53 = c5 * r36 - s5 * r13;
+    let r55 = r26 + r27;
+    let r57 = s6 * r45;
+    let r58 = c6 * r47;
+    let r59 = s6 * r49;
+    let r60 = c6 * r51;
+    let r61 = s6 * r53;
+    let r62 = c6 * r55;
+    let r63 = c6 * r45 + s6 * r47;
+    let r65 = s5 * r28 + c5 * r30;
+    let r67 = c6 * r49 + s6 * r51;
+    let r69 = s5 * r32 + c5 * r34;
+    let r71 = c6 * r53 + s6 * r55;
+    let r73 = s5 * r36 + c5 * r13;
+    let r87 = 0.42 * c2 + 0.4 * r26 + 0.4 * r27 - 0.126 * r61;
+    let r96 = 0.42 * r3 - 0.4 * r24 + 0.4 * r25 + 0.126 * r59;
+    let r105 = 0.42 * r2 - 0.4 * r22 + 0.4 * r23 + 0.126 * r57;
     [
-        r190 + 1.306 * r184,
-        r191 + 1.306 * r185,
-        r159 + r156 - 1.18 * r186 + 1.306 * r186,
-        r135 * c7 + r142 * s7,
-        r138 * c7 + r143 * s7,
-        r141 * c7 + r144 * s7,
-        r135 * r164 + r142 * c7,
-        r138 * r164 + r143 * c7,
-        r141 * r164 + r144 * c7,
-        r184,
-        r185,
-        r186,
+        r105 - 0.126 * r58,
+        r96 - 0.126 * r60,
+        r87 + 0.126 * r62 + 0.36,
+        c7 * r63 - s7 * r65,
+        c7 * r67 - s7 * r69,
+        s7 * r73 - c7 * r71,
+        0.0 - (s7 * r63 + c7 * r65),
+        0.0 - (s7 * r67 + c7 * r69),
+        s7 * r71 + c7 * r73,
+        r57 - r58,
+        r59 - r60,
+        r62 - r61,
         c3_,
         s3_,
     ]
@@ -946,134 +883,95 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s6 = q[5].sin();
     let c7 = q[6].cos();
     let s7 = q[6].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.36 * r2;
-    let r5 = 0.36 - r3 + r3;
-    let r8 = c2 + (1.0 - c2);
-    let r9 = c1 * c2;
-    let r10 = s1 * c2;
-    let r11 = r2 * (0.0 - s2);
-    let r12 = r1 * r8;
-    let r13 = c1 * r8;
-    let r14 = c1 * s2;
-    let r15 = s1 * s2;
-    let r16 = r2 * c2;
-    let r17 = 0.36 * r14;
-    let r18 = 0.36 * r15;
-    let r19 = 0.36 * r16;
-    let r23 = 0.0 - r17 + r17;
-    let r24 = 0.0 - r18 + r18;
-    let r25 = r5 - r19 + r19;
-    let r27 = 0.0 - s3_;
-    let r28 = c3_ + (1.0 - c3_);
-    let r31 = r9 * c3_ + r12 * s3_;
-    let r34 = r10 * c3_ + r13 * s3_;
-    let r35 = r11 * c3_;
-    let r38 = r9 * r27 + r12 * c3_;
-    let r41 = r10 * r27 + r13 * c3_;
-    let r42 = r11 * r27;
-    let r43 = r14 * r28;
-    let r44 = r15 * r28;
-    let r45 = r16 * r28;
-    let r52 = 0.0 - r38;
-    let r53 = 0.0 - r41;
-    let r54 = 0.0 - r42;
-    let r58 = r23 - 0.36 * r43 + 0.78 * r43;
-    let r59 = r24 - 0.36 * r44 + 0.78 * r44;
-    let r60 = r25 - 0.36 * r45 + 0.78 * r45;
-    let r62 = c4 + (1.0 - c4);
-    let r63 = 0.0 - s4;
-    let r66 = r31 * c4 + r43 * s4;
-    let r69 = r34 * c4 + r44 * s4;
-    let r72 = r35 * c4 + r45 * s4;
-    let r73 = r38 * r62;
-    let r74 = r41 * r62;
-    let r75 = r42 * r62;
-    let r78 = r31 * r63 + r43 * c4;
-    let r81 = r34 * r63 + r44 * c4;
-    let r84 = r35 * r63 + r45 * c4;
-    let r94 = r58 - 0.78 * r78 + 1.18 * r78;
-    let r95 = r59 - 0.78 * r81 + 1.18 * r81;
-    let r96 = r60 - 0.78 * r84 + 1.18 * r84;
-    let r98 = 0.0 - s5;
-    let r99 = c5 + (1.0 - c5);
-    let r102 = r66 * c5 + r73 * s5;
-    let r105 = r69 * c5 + r74 * s5;
-    let r108 = r72 * c5 + r75 * s5;
-    let r111 = r66 * r98 + r73 * c5;
-    let r114 = r69 * r98 + r74 * c5;
-    let r117 = r72 * r98 + r75 * c5;
-    let r118 = r78 * r99;
-    let r119 = r81 * r99;
-    let r120 = r84 * r99;
-    let r121 = 1.18 * r118;
-    let r122 = 1.18 * r119;
-    let r123 = 1.18 * r120;
-    let r127 = r94 - r121 + r121;
-    let r128 = r95 - r122 + r122;
-    let r129 = r96 - r123 + r123;
-    let r131 = 0.0 - s6;
-    let r132 = c6 + (1.0 - c6);
-    let r135 = r102 * c6 + r118 * r131;
-    let r138 = r105 * c6 + r119 * r131;
-    let r141 = r108 * c6 + r120 * r131;
-    let r142 = r111 * r132;
-    let r143 = r114 * r132;
-    let r144 = r117 * r132;
-    let r147 = r102 * s6 + r118 * c6;
-    let r150 = r105 * s6 + r119 * c6;
-    let r153 = r108 * s6 + r120 * c6;
-    let r154 = 1.18 * r147;
-    let r155 = 1.18 * r150;
-    let r156 = 1.18 * r153;
-    let r160 = r127 - r154 + r154;
-    let r161 = r128 - r155 + r155;
-    let r162 = r129 - r156 + r156;
-    let r164 = 0.0 - s7;
-    let r165 = c7 + (1.0 - c7);
-    let r168 = r135 * c7 + r142 * s7;
-    let r171 = r138 * c7 + r143 * s7;
-    let r174 = r141 * c7 + r144 * s7;
-    let r177 = r135 * r164 + r142 * c7;
-    let r180 = r138 * r164 + r143 * c7;
-    let r183 = r141 * r164 + r144 * c7;
-    let r184 = r147 * r165;
-    let r185 = r150 * r165;
-    let r186 = r153 * r165;
-    let r196 = r160 - 1.18 * r184 + 1.306 * r184;
-    let r197 = r161 - 1.18 * r185 + 1.306 * r185;
-    let r198 = r162 - 1.18 * r186 + 1.306 * r186;
-    let r201 = r198 - r5;
-    let r208 = r196 - r23;
-    let r209 = r197 - r24;
-    let r210 = r198 - r25;
-    let r220 = r196 - r58;
-    let r221 = r197 - r59;
-    let r222 = r198 - r60;
-    let r232 = r196 - r94;
-    let r233 = r197 - r95;
-    let r234 = r198 - r96;
-    let r244 = r196 - r127;
-    let r245 = r197 - r128;
-    let r246 = r198 - r129;
-    let r256 = r196 - r160;
-    let r257 = r197 - r161;
-    let r258 = r198 - r162;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r8 = s2 * c3_;
+    let r13 = s2 * s3_;
+    let r14 = c3_ * r0 - s1 * s3_;
+    let r17 = c3_ * r1 + c1 * s3_;
+    let r22 = s4 * r14;
+    let r23 = c4 * r2;
+    let r24 = s4 * r17;
+    let r25 = c4 * r3;
+    let r26 = s4 * r8;
+    let r27 = c2 * c4;
+    let r28 = c4 * r14 + s4 * r2;
+    let r30 = s3_ * r0 + s1 * c3_;
+    let r32 = c4 * r17 + s4 * r3;
+    let r34 = s3_ * r1 - c1 * c3_;
+    let r36 = c4 * r8 - c2 * s4;
+    let r45 = c5 * r28 - s5 * r30;
+    let r47 = r22 - r23;
+    let r49 = c5 * r32 - s5 * r34;
+    let r51 = r24 - r25;
+    let r53 = c5 * r36 - s5 * r13;
+    let r55 = r26 + r27;
+    let r57 = s6 * r45;
+    let r58 = c6 * r47;
+    let r59 = s6 * r49;
+    let r60 = c6 * r51;
+    let r61 = s6 * r53;
+    let r62 = c6 * r55;
+    let r63 = c6 * r45 + s6 * r47;
+    let r65 = s5 * r28 + c5 * r30;
+    let r67 = c6 * r49 + s6 * r51;
+    let r68 = c7 * r67;
+    let r69 = s5 * r32 + c5 * r34;
+    let r70 = s7 * r69;
+    let r71 = c6 * r53 + s6 * r55;
+    let r73 = s5 * r36 + c5 * r13;
+    let r82 = 0.4 * r26;
+    let r84 = 0.4 * r27;
+    let r86 = 0.126 * r61;
+    let r88 = 0.126 * r62;
+    let r89 = 0.42 * c2 + r82 + r84 - r86 + r88;
+    let r91 = 0.4 * r24;
+    let r93 = 0.4 * r25;
+    let r95 = 0.126 * r59;
+    let r96 = 0.42 * r3 - r91 + r93 + r95;
+    let r97 = 0.126 * r60;
+    let r98 = r96 - r97;
+    let r100 = 0.4 * r22;
+    let r102 = 0.4 * r23;
+    let r104 = 0.126 * r57;
+    let r106 = 0.126 * r58;
+    let r107 = 0.42 * r2 - r100 + r102 + r104 - r106;
+    let r108 = r59 - r60;
+    let r109 = r57 - r58;
+    let r114 = r68 - r70;
+    let r115 = c7 * r63 - s7 * r65;
+    let r120 = s7 * r71 + c7 * r73;
+    let r121 = s7 * r67 + c7 * r69;
+    let r122 = s7 * r63 + c7 * r65;
+    let r146 = r88 + (r82 + r84 - r86);
+    let r150 = r97 + (r91 - r93 - r95);
+    let r154 = r106 + (r100 - r102 - r104);
+    let r159 = r61 - r62;
+    let r164 = r47 * r108;
+    let r165 = r51 * r109;
+    let r170 = r65 * r108;
+    let r171 = r69 * r109;
+    let r175 = r51 * r159 - r55 * r108;
+    let r177 = r69 * r159 - r73 * r108;
+    let r181 = r55 * r109 - r47 * r159;
+    let r183 = r73 * r109 - r65 * r159;
+    let r195 = c7 * r71 - s7 * r73;
     [
-        [0.0 - r197, c1 * r201, r15 * r210 - r16 * r209, r53 * r222 - r54 * r221, r81 * r234 - r84 * r233, r114 * r246 - r117 * r245, r150 * r258 - r153 * r257],
-        [r196, 0.0 - r1 * r201, r16 * r208 - r14 * r210, r54 * r220 - r52 * r222, r84 * r232 - r78 * r234, r117 * r244 - r111 * r246, r153 * r256 - r147 * r258],
-        [0.0, r1 * r197 - c1 * r196, r14 * r209 - r15 * r208, r52 * r221 - r53 * r220, r78 * r233 - r81 * r232, r111 * r245 - r114 * r244, r147 * r257 - r150 * r256],
-        [0.0 - r171, c1 * r174, r15 * r174 - r16 * r171, r53 * r174 - r54 * r171, r81 * r174 - r84 * r171, r114 * r174 - r117 * r171, r150 * r174 - r153 * r171],
-        [r168, 0.0 - r1 * r174, r16 * r168 - r14 * r174, r54 * r168 - r52 * r174, r84 * r168 - r78 * r174, r117 * r168 - r111 * r174, r153 * r168 - r147 * r174],
-        [0.0, r1 * r171 - c1 * r168, r14 * r171 - r15 * r168, r52 * r171 - r53 * r168, r78 * r171 - r81 * r168, r111 * r171 - r114 * r168, r147 * r171 - r150 * r168],
-        [0.0 - r180, c1 * r183, r15 * r183 - r16 * r180, r53 * r183 - r54 * r180, r81 * r183 - r84 * r180, r114 * r183 - r117 * r180, r150 * r183 - r153 * r180],
-        [r177, 0.0 - r1 * r183, r16 * r177 - r14 * r183, r54 * r177 - r52 * r183, r84 * r177 - r78 * r183, r117 * r177 - r111 * r183, r153 * r177 - r147 * r183],
-        [0.0, r1 * r180 - c1 * r177, r14 * r180 - r15 * r177, r52 * r180 - r53 * r177, r78 * r180 - r81 * r177, r111 * r180 - r114 * r177, r147 * r180 - r150 * r177],
-        [0.0 - r185, c1 * r186, r15 * r186 - r16 * r185, r53 * r186 - r54 * r185, r81 * r186 - r84 * r185, r114 * r186 - r117 * r185, r150 * r186 - r153 * r185],
-        [r184, 0.0 - r1 * r186, r16 * r184 - r14 * r186, r54 * r184 - r52 * r186, r84 * r184 - r78 * r186, r117 * r184 - r111 * r186, r153 * r184 - r147 * r186],
-        [0.0, r1 * r185 - c1 * r184, r14 * r185 - r15 * r184, r52 * r185 - r53 * r184, r78 * r185 - r81 * r184, r111 * r185 - r114 * r184, r147 * r185 - r150 * r184],
-        [0.0, 0.0, r27, 0.0, 0.0, 0.0, 0.0],
+        [r97 - r96, c1 * r89, r3 * r89 - c2 * r98, r34 * r146 - r13 * r150, 0.126 * r175, 0.126 * r177, 0.0],
+        [r107, s1 * r89, c2 * r107 - r2 * r89, r13 * r154 - r30 * r146, 0.126 * r181, 0.126 * r183, 0.0],
+        [0.0, 0.0 - (s1 * r98 + c1 * r107), r2 * r98 - r3 * r107, r34 * r154 - r30 * r150, 0.0 - 0.126 * (r164 - r165), 0.0 - 0.126 * (r170 - r171), 0.0],
+        [r70 - r68, 0.0 - c1 * r195, 0.0 - (r3 * r195 + c2 * r114), r13 * r114 - r34 * r195, r51 * r195 - r55 * r114, r69 * r195 - r73 * r114, r159 * r114 - r108 * r195],
+        [r115, 0.0 - s1 * r195, c2 * r115 + r2 * r195, r30 * r195 - r13 * r115, r55 * r115 - r47 * r195, r73 * r115 - r65 * r195, r109 * r195 - r159 * r115],
+        [0.0, 0.0 - (s1 * r114 + c1 * r115), r2 * r114 - r3 * r115, r30 * r114 - r34 * r115, r51 * r115 - r47 * r114, r69 * r115 - r65 * r114, r109 * r114 - r108 * r115],
+        [r121, c1 * r120, r3 * r120 + c2 * r121, r34 * r120 - r13 * r121, r55 * r121 - r51 * r120, r73 * r121 - r69 * r120, r108 * r120 - r159 * r121],
+        [0.0 - r122, s1 * r120, 0.0 - (c2 * r122 + r2 * r120), r13 * r122 - r30 * r120, r47 * r120 - r55 * r122, r65 * r120 - r73 * r122, r159 * r122 - r109 * r120],
+        [0.0, s1 * r121 + c1 * r122, r3 * r122 - r2 * r121, r34 * r122 - r30 * r121, r47 * r121 - r51 * r122, r65 * r121 - r69 * r122, r108 * r122 - r109 * r121],
+        [r60 - r59, 0.0 - c1 * r159, 0.0 - (r3 * r159 + c2 * r108), r13 * r108 - r34 * r159, r175, r177, 0.0],
+        [r109, 0.0 - s1 * r159, c2 * r109 + r2 * r159, r30 * r159 - r13 * r109, r181, r183, 0.0],
+        [0.0, 0.0 - (s1 * r108 + c1 * r109), r2 * r108 - r3 * r109, r30 * r108 - r34 * r109, r165 - r164, r171 - r170, 0.0],
+        [0.0, 0.0, 0.0 - s3_, 0.0, 0.0, 0.0, 0.0],
         [0.0, 0.0, c3_, 0.0, 0.0, 0.0, 0.0],
     ]
 }

@@ -317,41 +317,29 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r2 = c1 + (1.0 - c1), r6 = c2 + (1.0 - c2), r7 = c1 * c2, r8 = s1 * c2, r9 = r2 * (0.0 - s2);
-    const double r12 = c1 * s2, r13 = s1 * s2, r14 = r2 * c2, r28 = 0.0 - s3, r29 = c3 + (1.0 - c3);
-    const double r32 = r7 * c3 + r12 * r28, r35 = r8 * c3 + r13 * r28, r38 = r9 * c3 + r14 * r28;
-    const double r39 = (0.0 - s1) * r6 * r29, r40 = c1 * r6 * r29, r43 = r7 * s3 + r12 * c3;
-    const double r46 = r8 * s3 + r13 * c3, r49 = r9 * s3 + r14 * c3;
-    const double r55 = 0.29 * r2 - 0.29 * r14 + 0.56 * r14 - 0.56 * r49;
-    const double r65 = 0.0 - 0.29 * r12 + 0.56 * r12 - 0.56 * r43 + (0.302 * r32 + 0.63 * r43);
-    const double r66 = 0.0 - 0.29 * r13 + 0.56 * r13 - 0.56 * r46 + (0.302 * r35 + 0.63 * r46);
-    const double r69 = c4 + (1.0 - c4), r70 = 0.0 - s4, r71 = r32 * r69, r72 = r35 * r69, r73 = r38 * r69;
-    const double r83 = r39 * r70 + r43 * c4, r86 = r40 * r70 + r46 * c4, r87 = r49 * c4;
-    const double r90 = 0.302 * r71 + 0.63 * r83, r93 = 0.302 * r72 + 0.63 * r86, r96 = 0.302 * r73 + 0.63 * r87;
-    const double r104 = 0.0 - s5, r105 = c5 + (1.0 - c5), r108 = r71 * c5 + r83 * r104;
-    const double r111 = r72 * c5 + r86 * r104, r114 = r73 * c5 + r87 * r104, r115 = (r39 * c4 + r43 * s4) * r105;
-    const double r116 = (r40 * c4 + r46 * s4) * r105, r117 = r49 * s4 * r105, r120 = r71 * s5 + r83 * c5;
-    const double r123 = r72 * s5 + r86 * c5, r126 = r73 * s5 + r87 * c5, r129 = 0.302 * r108 + 0.63 * r120;
-    const double r132 = 0.302 * r111 + 0.63 * r123, r135 = 0.302 * r114 + 0.63 * r126;
-    const double r138 = r55 + (0.302 * r38 + 0.63 * r49) - r96 + r96 - r135, r146 = 0.0 - s6;
-    const double r147 = c6 + (1.0 - c6), r150 = r108 * c6 + r115 * r146, r153 = r111 * c6 + r116 * r146;
-    const double r156 = r114 * c6 + r117 * r146, r166 = r120 * r147, r167 = r123 * r147, r168 = r126 * r147;
-    const double r169 = 0.302 * r150, r172 = 0.302 * r153, r175 = 0.302 * r156;
-    const double r178 = r65 - r90 + r90 - r129 + r129 - (r169 + 0.63 * r166);
-    const double r179 = r66 - r93 + r93 - r132 + r132 - (r172 + 0.63 * r167);
-    const double r189 = r138 + r135 - (r175 + 0.63 * r168) + (r175 + 0.47 * r168);
-    reached[0] = r178 + (r169 + 0.47 * r166);
-    reached[1] = r179 + (r172 + 0.47 * r167);
-    reached[2] = r189;
-    reached[3] = 0.0 - r150;
-    reached[4] = 0.0 - r153;
-    reached[5] = 0.0 - r156;
-    reached[6] = r108 * s6 + r115 * c6;
-    reached[7] = r111 * s6 + r116 * c6;
-    reached[8] = r114 * s6 + r117 * c6;
-    reached[9] = 0.0 - r166;
-    reached[10] = 0.0 - r167;
-    reached[11] = 0.0 - r168;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2;
+    const double r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3, r17 = r10 + r11, r20 = r12 + r13;
+    const double r22 = r14 - r15, r23 = s4 * r22, r28 = c4 * r22, r29 = r4 - r5, r31 = s1 * s4 + c4 * r17;
+    const double r33 = r6 - r7, r35 = c1 * s4 - c4 * r20, r37 = r8 + r9, r40 = s5 * r29, r41 = c5 * r31;
+    const double r42 = s5 * r33, r43 = c5 * r35, r44 = s5 * r37, r45 = c5 * r28, r46 = c5 * r29 - s5 * r31;
+    const double r48 = s1 * c4 - s4 * r17, r50 = c5 * r33 + s5 * r35, r52 = c1 * c4 + s4 * r20;
+    const double r54 = c5 * r37 - s5 * r28, r69 = 0.27 * c2 - 0.07 * r14 + 0.07 * r15 - 0.302 * r8;
+    const double r82 = 0.27 * r3 + 0.07 * r12 + 0.07 * r13 + 0.302 * r6;
+    const double r95 = 0.27 * r2 + 0.07 * r10 + 0.07 * r11 + 0.302 * r4;
+    const double r106 = r69 - 0.302 * r9 + 0.16 * r44 + 0.16 * r45 + 0.29;
+    reached[0] = r95 - 0.302 * r5 - 0.16 * r40 - 0.16 * r41;
+    reached[1] = r82 - 0.302 * r7 - 0.16 * r42 + 0.16 * r43;
+    reached[2] = r106;
+    reached[3] = 0.0 - (c6 * r46 + s6 * r48);
+    reached[4] = s6 * r52 - c6 * r50;
+    reached[5] = c6 * r54 - s6 * r23;
+    reached[6] = s6 * r46 - c6 * r48;
+    reached[7] = s6 * r50 + c6 * r52;
+    reached[8] = 0.0 - (s6 * r54 + c6 * r23);
+    reached[9] = 0.0 - (r40 + r41);
+    reached[10] = r43 - r42;
+    reached[11] = r44 + r45;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -407,50 +395,43 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.29 * r2, r6 = c2 + (1.0 - c2), r7 = c1 * c2;
-    const double r8 = s1 * c2, r9 = r2 * (0.0 - s2), r10 = r1 * r6, r11 = c1 * r6, r12 = c1 * s2, r13 = s1 * s2;
-    const double r14 = r2 * c2, r24 = 0.0 - 0.29 * r12 + 0.56 * r12, r25 = 0.0 - 0.29 * r13 + 0.56 * r13;
-    const double r26 = r3 - 0.29 * r14 + 0.56 * r14, r28 = 0.0 - s3, r29 = c3 + (1.0 - c3);
-    const double r32 = r7 * c3 + r12 * r28, r35 = r8 * c3 + r13 * r28, r38 = r9 * c3 + r14 * r28;
-    const double r39 = r10 * r29, r40 = r11 * r29, r43 = r7 * s3 + r12 * c3, r46 = r8 * s3 + r13 * c3;
-    const double r49 = r9 * s3 + r14 * c3, r65 = r24 - 0.56 * r43 + (0.302 * r32 + 0.63 * r43);
-    const double r66 = r25 - 0.56 * r46 + (0.302 * r35 + 0.63 * r46);
-    const double r67 = r26 - 0.56 * r49 + (0.302 * r38 + 0.63 * r49), r69 = c4 + (1.0 - c4), r70 = 0.0 - s4;
-    const double r71 = r32 * r69, r72 = r35 * r69, r73 = r38 * r69, r76 = r39 * c4 + r43 * s4;
-    const double r79 = r40 * c4 + r46 * s4, r80 = r49 * s4, r83 = r39 * r70 + r43 * c4;
-    const double r86 = r40 * r70 + r46 * c4, r87 = r49 * c4, r90 = 0.302 * r71 + 0.63 * r83;
-    const double r93 = 0.302 * r72 + 0.63 * r86, r96 = 0.302 * r73 + 0.63 * r87, r100 = r65 - r90 + r90;
-    const double r101 = r66 - r93 + r93, r102 = r67 - r96 + r96, r104 = 0.0 - s5, r105 = c5 + (1.0 - c5);
-    const double r108 = r71 * c5 + r83 * r104, r111 = r72 * c5 + r86 * r104, r114 = r73 * c5 + r87 * r104;
-    const double r115 = r76 * r105, r116 = r79 * r105, r117 = r80 * r105, r120 = r71 * s5 + r83 * c5;
-    const double r123 = r72 * s5 + r86 * c5, r126 = r73 * s5 + r87 * c5, r129 = 0.302 * r108 + 0.63 * r120;
-    const double r132 = 0.302 * r111 + 0.63 * r123, r135 = 0.302 * r114 + 0.63 * r126, r139 = 0.0 - r120;
-    const double r140 = 0.0 - r123, r141 = 0.0 - r126, r142 = r100 - r129 + r129, r143 = r101 - r132 + r132;
-    const double r144 = r102 - r135 + r135, r146 = 0.0 - s6, r147 = c6 + (1.0 - c6);
-    const double r150 = r108 * c6 + r115 * r146, r153 = r111 * c6 + r116 * r146, r156 = r114 * c6 + r117 * r146;
-    const double r159 = r108 * s6 + r115 * c6, r162 = r111 * s6 + r116 * c6, r165 = r114 * s6 + r117 * c6;
-    const double r166 = r120 * r147, r167 = r123 * r147, r168 = r126 * r147, r169 = 0.302 * r150;
-    const double r172 = 0.302 * r153, r175 = 0.302 * r156;
-    const double r187 = r142 - (r169 + 0.63 * r166) + (r169 + 0.47 * r166);
-    const double r188 = r143 - (r172 + 0.63 * r167) + (r172 + 0.47 * r167);
-    const double r189 = r144 - (r175 + 0.63 * r168) + (r175 + 0.47 * r168), r190 = 0.0 - r150, r191 = 0.0 - r153;
-    const double r192 = 0.0 - r156, r193 = 0.0 - r166, r194 = 0.0 - r167, r195 = 0.0 - r168, r197 = r189 - r3;
-    const double r206 = r189 - r26, r213 = r187 - r65, r214 = r188 - r66, r215 = r189 - r67, r225 = r187 - r100;
-    const double r226 = r188 - r101, r227 = r189 - r102, r237 = r187 - r142, r238 = r188 - r143;
-    const double r239 = r189 - r144;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2;
+    const double r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3, r17 = r10 + r11, r20 = r12 + r13;
+    const double r22 = r14 - r15, r23 = s4 * r22, r28 = c4 * r22, r29 = r4 - r5, r31 = s1 * s4 + c4 * r17;
+    const double r33 = r6 - r7, r35 = c1 * s4 - c4 * r20, r37 = r8 + r9, r40 = s5 * r29, r41 = c5 * r31;
+    const double r42 = s5 * r33, r43 = c5 * r35, r44 = s5 * r37, r45 = c5 * r28, r46 = c5 * r29 - s5 * r31;
+    const double r48 = s1 * c4 - s4 * r17, r50 = c5 * r33 + s5 * r35, r52 = c1 * c4 + s4 * r20;
+    const double r54 = c5 * r37 - s5 * r28, r64 = 0.07 * r14, r66 = 0.07 * r15, r68 = 0.302 * r8;
+    const double r70 = 0.302 * r9, r72 = 0.16 * r44, r74 = 0.16 * r45;
+    const double r75 = 0.27 * c2 - r64 + r66 - r68 - r70 + r72 + r74, r77 = 0.07 * r12, r79 = 0.07 * r13;
+    const double r81 = 0.302 * r6, r83 = 0.302 * r7, r85 = 0.16 * r42, r87 = 0.16 * r43;
+    const double r88 = 0.27 * r3 + r77 + r79 + r81 - r83 - r85 + r87, r90 = 0.07 * r10, r92 = 0.07 * r11;
+    const double r94 = 0.302 * r4, r96 = 0.302 * r5, r98 = 0.16 * r40, r100 = 0.16 * r41;
+    const double r101 = 0.27 * r2 + r90 + r92 + r94 - r96 - r98 - r100, r102 = r44 + r45, r103 = r40 + r41;
+    const double r108 = c6 * r54 - s6 * r23, r109 = c6 * r46 + s6 * r48, r115 = s6 * r54 + c6 * r23;
+    const double r116 = s6 * r50 + c6 * r52, r117 = s6 * r46 - c6 * r48;
+    const double r135 = r70 + (r68 + (r64 - r66)) - r72 - r74, r151 = r42 - r43, r155 = r29 * r151;
+    const double r156 = r33 * r103, r165 = r33 * r102 - r37 * r151, r167 = r52 * r102 - r23 * r151;
+    const double r170 = r37 * r103 - r29 * r102, r172 = r23 * r103 + r48 * r102;
+    const double r176 = s1 * (r87 + (r81 + (r77 + r79) - r83 - r85)) + c1 * (r94 + (r90 + r92) - r96 - r98 - r100);
+    const double r181 = r48 * r151 + r52 * r103, r183 = c1 * r108, r184 = s1 * r108, r185 = c6 * r50 - s6 * r52;
+    const double r212 = s1 * r185 + c1 * r109, r239 = 0.0 - c1 * r115, r243 = 0.0 - s1 * r115;
+    const double r249 = 0.0 - (s1 * r116 + c1 * r117), r254 = c1 * r102, r255 = s1 * r102;
+    const double r258 = s1 * r151 + c1 * r103;
     const Jacobian result = { {
-        {0.0 - r188, c1 * r197, r11 * r206, r35 * r215 - r38 * r214, r79 * r227 - r80 * r226, r140 * r239 - r141 * r238},
-        {r187, 0.0 - r1 * r197, 0.0 - r10 * r206, r38 * r213 - r32 * r215, r80 * r225 - r76 * r227, r141 * r237 - r139 * r239},
-        {0.0, r1 * r188 - c1 * r187, r10 * (r188 - r25) - r11 * (r187 - r24), r32 * r214 - r35 * r213, r76 * r226 - r79 * r225, r139 * r238 - r140 * r237},
-        {0.0 - r191, c1 * r192, r11 * r192, r35 * r192 - r38 * r191, r79 * r192 - r80 * r191, r140 * r192 - r141 * r191},
-        {r190, 0.0 - r1 * r192, 0.0 - r10 * r192, r38 * r190 - r32 * r192, r80 * r190 - r76 * r192, r141 * r190 - r139 * r192},
-        {0.0, r1 * r191 - c1 * r190, r10 * r191 - r11 * r190, r32 * r191 - r35 * r190, r76 * r191 - r79 * r190, r139 * r191 - r140 * r190},
-        {0.0 - r162, c1 * r165, r11 * r165, r35 * r165 - r38 * r162, r79 * r165 - r80 * r162, r140 * r165 - r141 * r162},
-        {r159, 0.0 - r1 * r165, 0.0 - r10 * r165, r38 * r159 - r32 * r165, r80 * r159 - r76 * r165, r141 * r159 - r139 * r165},
-        {0.0, r1 * r162 - c1 * r159, r10 * r162 - r11 * r159, r32 * r162 - r35 * r159, r76 * r162 - r79 * r159, r139 * r162 - r140 * r159},
-        {0.0 - r194, c1 * r195, r11 * r195, r35 * r195 - r38 * r194, r79 * r195 - r80 * r194, r140 * r195 - r141 * r194},
-        {r193, 0.0 - r1 * r195, 0.0 - r10 * r195, r38 * r193 - r32 * r195, r80 * r193 - r76 * r195, r141 * r193 - r139 * r195},
-        {0.0, r1 * r194 - c1 * r193, r10 * r194 - r11 * r193, r32 * r194 - r35 * r193, r76 * r194 - r79 * r193, r139 * r194 - r140 * r193},
+        {0.0 - r88, c1 * r75, 0.0 - c1 * r135, 0.16 * r165, 0.16 * r167, 0.0},
+        {r101, s1 * r75, 0.0 - s1 * r135, 0.16 * r170, 0.16 * r172, 0.0},
+        {0.0, 0.0 - (s1 * r88 + c1 * r101), 0.0 - r176, 0.0 - 0.16 * (r155 - r156), 0.16 * r181, 0.0},
+        {r185, r183, r183, r33 * r108 - r37 * r185, r52 * r108 - r23 * r185, r102 * r185 - r151 * r108},
+        {0.0 - r109, r184, r184, r37 * r109 - r29 * r108, r23 * r109 + r48 * r108, r103 * r108 - r102 * r109},
+        {0.0, r212, r212, r33 * r109 - r29 * r185, r48 * r185 + r52 * r109, r103 * r185 - r151 * r109},
+        {0.0 - r116, r239, r239, r37 * r116 - r33 * r115, r23 * r116 - r52 * r115, r151 * r115 - r102 * r116},
+        {r117, r243, r243, r29 * r115 - r37 * r117, 0.0 - (r23 * r117 + r48 * r115), r102 * r117 - r103 * r115},
+        {0.0, r249, r249, r29 * r116 - r33 * r117, 0.0 - (r48 * r116 + r52 * r117), r151 * r117 - r103 * r116},
+        {r151, r254, r254, r165, r167, 0.0},
+        {0.0 - r103, r255, r255, r170, r172, 0.0},
+        {0.0, r258, r258, r156 - r155, r181, 0.0},
     } };
     return result;
 }
@@ -1184,16 +1165,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r100;
-    double r101;
+    double r34;
+    double r35;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r104 = 0.0 - (0.0 - (0.0 - shared->r100)), r107 = 0.0 - (0.0 - (0.0 - shared->r101));
-    const double r111 = sqrt(fmax(r107 * r107 + r104 * r104, 0.0)), c6 = r107 / r111, s6 = r104 / r111;
+    const double r38 = shared->r34 * shared->r34 + shared->r35 * shared->r35, r39 = sqrt(fmax(r38, 0.0));
+    const double c6 = shared->r34 / r39, s6 = shared->r35 / r39;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1208,38 +1189,33 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: Axis6. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - p->r12_, r1 = 0.0 - p->r22_, r2 = 0.0 - p->r32_;
-    const double r9 = r0 * known->c1 + (0.0 - (0.0 - r1)) * known->s1;
-    const double r12 = r1 * known->c1 + (0.0 - r0) * known->s1, r14 = r2 + (r2 - r2) * known->c1;
-    const double r25 = r14 * known->c2 + (0.0 - (0.0 - r9)) * known->s2, r26 = r12 + (r12 - r12) * known->c2;
-    const double r28 = 0.0 - (r9 * known->c2 + (0.0 - r14) * known->s2);
-    const double r40 = 0.0 - (r25 * known->c3 + (0.0 - r28) * known->s3);
-    const double r46 = (r26 + (r26 - r26) * known->c3) * known->c4 + (0.0 - r40) * known->s4;
-    const double r58 = p->r11_ * known->c1 + (0.0 - (0.0 - p->r21_)) * known->s1;
-    const double r61 = p->r21_ * known->c1 + (0.0 - p->r11_) * known->s1;
-    const double r63 = p->r31_ + (p->r31_ - p->r31_) * known->c1;
-    const double r74 = r63 * known->c2 + (0.0 - (0.0 - r58)) * known->s2, r75 = r61 + (r61 - r61) * known->c2;
-    const double r77 = 0.0 - (r58 * known->c2 + (0.0 - r63) * known->s2);
-    const double r89 = 0.0 - (r74 * known->c3 + (0.0 - r77) * known->s3);
-    const double r95 = (r75 + (r75 - r75) * known->c3) * known->c4 + (0.0 - r89) * known->s4, r100 = 0.0 - r95;
-    const double r101 = 0.0 - (0.0 - r46);
-    const Shared6 own = { r100, r101 };
+    const double r4 = p->r12_ * known->c1 + p->r22_ * known->s1;
+    const double r11 = known->c3 * (p->r32_ * known->c2 + known->s2 * r4);
+    const double r12 = known->s3 * (known->c2 * r4 - p->r32_ * known->s2);
+    const double r14 = known->c4 * (p->r22_ * known->c1 - p->r12_ * known->s1);
+    const double r21 = p->r11_ * known->c1 + p->r21_ * known->s1;
+    const double r28 = known->c3 * (p->r31_ * known->c2 + known->s2 * r21);
+    const double r29 = known->s3 * (known->c2 * r21 - p->r31_ * known->s2);
+    const double r31 = known->c4 * (p->r21_ * known->c1 - p->r11_ * known->s1);
+    const double r34 = r14 + known->s4 * (r11 + r12), r35 = r31 + known->s4 * (r28 + r29);
+    const Shared6 own = { r34, r35 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r51;
-    double r52;
+    double r10;
+    double r12;
+    double r19;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r53 = 0.0 - shared->r51, r55 = 0.0 - (-0.0 - shared->r52);
-    const double r59 = sqrt(fmax(r55 * r55 + r53 * r53, 0.0)), c5 = r55 / r59, s5 = r53 / r59;
+    const double r20 = shared->r12 - shared->r10, r24 = sqrt(fmax(shared->r19 * shared->r19 + r20 * r20, 0.0));
+    const double c5 = shared->r19 / r24, s5 = r20 / r24;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1251,23 +1227,19 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: Axis5. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - (0.0 - p->r23_)) * known->s1;
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1;
-    const double r11 = p->r33_ + (p->r33_ - p->r33_) * known->c1, r18 = r6 * known->c2 + (0.0 - r11) * known->s2;
-    const double r22 = r11 * known->c2 + (0.0 - (0.0 - r6)) * known->s2, r23 = r9 + (r9 - r9) * known->c2;
-    const double r34 = r22 * known->c3 + (0.0 - (0.0 - r18)) * known->s3;
-    const double r36 = 0.0 - (r18 * known->c3 + (0.0 - r22) * known->s3);
-    const double r46 = (0.0 - (r23 + (r23 - r23) * known->c3)) * known->s4, r51 = 0.0 - r36;
-    const double r52 = 0.0 - (0.0 - (0.0 - (r34 * known->c4 + r46)));
-    const Shared5 own = { r51, r52 };
+    const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1, r9 = known->c2 * r4 - p->r33_ * known->s2;
+    const double r10 = known->c3 * r9, r11 = p->r33_ * known->c2 + known->s2 * r4, r12 = known->s3 * r11;
+    const double r17 = known->c4 * (known->c3 * r11 + known->s3 * r9);
+    const double r18 = known->s4 * (p->r23_ * known->c1 - p->r13_ * known->s1), r19 = r18 - r17;
+    const Shared5 own = { r10, r12, r19 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r39;
-    double r40;
+    double r13;
+    double r14;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1275,16 +1247,15 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r41 = shared->r39 * shared->r39, r42 = shared->r40 * shared->r40, r43 = r41 + r42;
-    if (!is_away(r43, 4240000.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
+    if (!is_away(r17, 4240000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r41 - r42, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r15 - r16, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, known->f2 * (20.591260281974 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r51 = (0.0 - (0.0 - shared->r39 * w4)) / r43;
-        const double r54 = (0.0 - shared->r40 * w4) / r43, r58 = sqrt(fmax(r54 * r54 + r51 * r51, 0.0));
-        const double c4 = r54 / r58, s4 = r51 / r58;
+        const double w4 = roots0.values[i0], r23 = w4 * shared->r13 / r17, r25 = w4 * shared->r14 / r17;
+        const double r29 = sqrt(fmax(r25 * r25 + r23 * r23, 0.0)), c4 = r25 / r29, s4 = r23 / r29;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1300,8 +1271,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r43 = shared->r39 * shared->r39 + shared->r40 * shared->r40;
-    if (!is_near(r43, 4.24e-5)) {
+    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
+    if (!is_near(r17, 4.24e-5)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1319,14 +1290,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: Axis4. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - (0.0 - p->r23_)) * known->s1;
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1;
-    const double r11 = p->r33_ + (p->r33_ - p->r33_) * known->c1;
-    const double r22 = r11 * known->c2 + (0.0 - (0.0 - r6)) * known->s2, r23 = r9 + (r9 - r9) * known->c2;
-    const double r25 = 0.0 - (r6 * known->c2 + (0.0 - r11) * known->s2);
-    const double r37 = 0.0 - (r22 * known->c3 + (0.0 - r25) * known->s3);
-    const double r39 = 0.0 - (r23 + (r23 - r23) * known->c3), r40 = 0.0 - (0.0 - r37);
-    const Shared4 own = { r39, r40 };
+    const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1;
+    const double r11 = known->c3 * (p->r33_ * known->c2 + known->s2 * r4);
+    const double r12 = known->s3 * (known->c2 * r4 - p->r33_ * known->s2);
+    const double r13 = p->r13_ * known->s1 - p->r23_ * known->c1, r14 = r11 + r12;
+    const Shared4 own = { r13, r14 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1334,12 +1302,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r7;
-    double r30;
-    double r31;
-    double r32;
-    double r38;
-    double r39;
+    double r9;
+    double r12;
+    double r15;
+    double r16;
+    double r20;
+    double r21;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1347,13 +1315,13 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r42 = shared->r7 * shared->r7 + shared->r31 * shared->r31;
-    if (!is_away(r42, 77110.28000000001)) {
+    const double r24 = shared->r9 * shared->r9 + shared->r12 * shared->r12;
+    if (!is_away(r24, 77110.28000000001)) {
         return;
     }
-    const double f2 = 1.0, r45 = shared->r31 * shared->r32 - shared->r7 * shared->r30, r47 = (0.0 - r45) / r42;
-    const double r51 = 0.0 - shared->r7 * shared->r32 - shared->r31 * shared->r30, r53 = (0.0 - r51) / r42;
-    const double r57 = sqrt(fmax(r53 * r53 + r47 * r47, 0.0)), c2 = r53 / r57, s2 = r47 / r57;
+    const double f2 = 1.0, r27 = shared->r9 * shared->r16 - shared->r12 * shared->r15, r28 = r27 / r24;
+    const double r32 = shared->r12 * shared->r16 - (0.0 - shared->r9 * shared->r15), r33 = r32 / r24;
+    const double r37 = sqrt(fmax(r33 * r33 + r28 * r28, 0.0)), c2 = r33 / r37, s2 = r28 / r37;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1369,8 +1337,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r42 = shared->r7 * shared->r7 + shared->r31 * shared->r31;
-    if (!(is_near(r42, 7.711028000000001e-7) && is_near(shared->r30, 0.01 * shared->r39) && is_near(shared->r32, 0.01 * shared->r38))) {
+    const double r24 = shared->r9 * shared->r9 + shared->r12 * shared->r12;
+    if (!(is_near(r24, 7.711028000000001e-7) && is_near(shared->r16, 0.01 * shared->r21) && is_near(shared->r15, 0.01 * shared->r20))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1390,13 +1358,11 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Axis2. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r7 = 0.07 * known->c3 + -0.302 * known->s3 + 0.56 - 0.29;
-    const double r22 = (0.0 - (0.0 - (p->py + -0.16 * p->r23_))) * known->s1;
-    const double r29 = 0.0 - ((p->px + -0.16 * p->r13_) * known->c1 + r22), r30 = 0.0 - r29;
-    const double r31 = 0.0 - (0.0 - (0.302 * known->c3 + 0.07 * known->s3));
-    const double r32 = 0.0 - (0.29 - (p->pz + -0.16 * p->r33_)), r33 = p->magnitude + 1.704;
-    const double r38 = fabs(0.0 - (r33 + 0.29)), r39 = fabs(r33 + r33);
-    const Shared3 own = { r7, r30, r31, r32, r38, r39 };
+    const double r9 = 0.07 * known->c3 - 0.302 * known->s3 + 0.27, r12 = 0.302 * known->c3 + 0.07 * known->s3;
+    const double r15 = p->pz - 0.16 * p->r33_ - 0.29;
+    const double r16 = known->c1 * (p->px - 0.16 * p->r13_) + known->s1 * (p->py - 0.16 * p->r23_);
+    const double r20 = fabs(p->magnitude + 1.994), r21 = fabs(2.0 * p->magnitude + 3.408);
+    const Shared3 own = { r9, r12, r15, r16, r20, r21 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1404,21 +1370,21 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r26;
+    double r24;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r29 = shared->r26 * shared->r26 - 0.00142884 - 0.026595086400000002;
-    const double choice0_0[3] = {r29, 0.0, 1.0};
+    const double r27 = shared->r24 * shared->r24 - 0.00142884 - 0.026595086400000002;
+    const double choice0_0[3] = {r27, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->f1);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0];
-        const double r35 = (0.0 - (-0.16308 * shared->r26 - 0.0378 * w3)) / 0.028023926400000003;
-        const double r40 = (0.0 - (-0.16308 * w3 + 0.0378 * shared->r26)) / 0.028023926400000003;
-        const double r44 = sqrt(fmax(r40 * r40 + r35 * r35, 0.0)), c3 = r40 / r44, s3 = r35 / r44;
+        const double r33 = (0.0378 * w3 - (0.0 - 0.16308 * shared->r24)) / 0.028023926400000003;
+        const double r37 = (0.16308 * w3 - 0.0378 * shared->r24) / 0.028023926400000003;
+        const double r41 = sqrt(fmax(r37 * r37 + r33 * r33, 0.0)), c3 = r37 / r41, s3 = r33 / r41;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1431,20 +1397,20 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Axis3. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = p->pz + -0.16 * p->r33_;
-    const double r9 = p->px * (p->px + -0.16 * p->r13_) + p->py * (p->py + -0.16 * p->r23_);
-    const double r10 = r9 + p->pz * r5, r16 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r24 = r10 + r10 - r16 + 0.0256 + 0.29 * (0.29 - r5), r26 = 0.169004 - (r24 - 0.29 * r5);
-    const Shared2 own = { r26 };
+    const double r14 = 2.0 * (p->px * (p->px - 0.16 * p->r13_)) + 2.0 * (p->py * (p->py - 0.16 * p->r23_));
+    const double r16 = r14 + 2.0 * (p->pz * (p->pz - 0.16 * p->r33_));
+    const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
+    const double r24 = 0.059304 - (r19 - 0.58 * p->pz + 0.0928 * p->r33_);
+    const Shared2 own = { r24 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r7;
-    double r10;
-    double r13;
+    double r1;
+    double r3;
+    double r5;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
@@ -1452,18 +1418,17 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r14 = shared->r7 * shared->r7, r15 = shared->r10 * shared->r10, r16 = r14 + r15;
-    const double r17 = shared->r13 * shared->r13, r18 = r17 + r17;
-    if (!is_away(r16, 10000.0 * r18)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 10000.0 * r10)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r14 - r15, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r18, 0.0)));
+    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r26 = (0.0 - (0.0 - shared->r7 * w1)) / r16;
-        const double r29 = (0.0 - shared->r10 * w1) / r16, r33 = sqrt(fmax(r29 * r29 + r26 * r26, 0.0));
-        const double c1 = r29 / r33, s1 = r26 / r33;
+        const double w1 = roots0.values[i0], r16 = w1 * shared->r1 / r8, r18 = w1 * shared->r3 / r8;
+        const double r22 = sqrt(fmax(r18 * r18 + r16 * r16, 0.0)), c1 = 0.0 - r18 / r22, s1 = r16 / r22;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1480,8 +1445,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
  */
 static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r16 = shared->r7 * shared->r7 + shared->r10 * shared->r10, r17 = shared->r13 * shared->r13;
-    if (!is_near(r16, 1.0000000000000001e-7 * (r17 + r17))) {
+    const double r8 = shared->r1 * shared->r1 + shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
+    if (!is_near(r8, 1.0000000000000001e-7 * (r9 + r9))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1501,9 +1466,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Axis1. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r7 = 0.0 - (p->py + -0.16 * p->r23_), r10 = 0.0 - (0.0 - (p->px + -0.16 * p->r13_));
-    const double r13 = fabs(p->magnitude + 1.704);
-    const Shared1 own = { r7, r10, r13 };
+    const double r1 = 0.16 * p->r23_ - p->py, r3 = p->px - 0.16 * p->r13_, r5 = fabs(p->magnitude + 1.704);
+    const Shared1 own = { r1, r3, r5 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);

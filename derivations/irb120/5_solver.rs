@@ -441,40 +441,40 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Axis1.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r7 = 0.0 - (p.py + -0.16 * p.r23_);
-    let r10 = 0.0 - (0.0 - (p.px + -0.16 * p.r13_));
-    let r13 = f64::abs(p.magnitude + 1.704);
-    let shared = &Shared1 { r7, r10, r13 };
+    let r1 = 0.16 * p.r23_ - p.py;
+    let r3 = p.px - 0.16 * p.r13_;
+    let r5 = f64::abs(p.magnitude + 1.704);
+    let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r7: f64,
-    r10: f64,
-    r13: f64,
+    r1: f64,
+    r3: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r14 = shared.r7 * shared.r7;
-    let r15 = shared.r10 * shared.r10;
-    let r16 = r14 + r15;
-    let r17 = shared.r13 * shared.r13;
-    let r18 = r17 + r17;
-    if !is_away(r16, 10000.0 * r18) {
+    let r6 = shared.r1 * shared.r1;
+    let r7 = shared.r3 * shared.r3;
+    let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5;
+    let r10 = r9 + r9;
+    if !is_away(r8, 10000.0 * r10) {
         return;
     }
     let f1 = 1.0;
-    let roots0 = real_roots(&[0.0 - r14 - r15, 0.0, 1.0], f64::max(r18, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r6 - r7, 0.0, 1.0], f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r26 = (0.0 - (0.0 - shared.r7 * w1)) / r16;
-        let r29 = (0.0 - shared.r10 * w1) / r16;
-        let r33 = f64::max(r29 * r29 + r26 * r26, 0.0).sqrt();
-        let c1 = r29 / r33;
-        let s1 = r26 / r33;
+        let r16 = w1 * shared.r1 / r8;
+        let r18 = w1 * shared.r3 / r8;
+        let r22 = f64::max(r18 * r18 + r16 * r16, 0.0).sqrt();
+        let c1 = 0.0 - r18 / r22;
+        let s1 = r16 / r22;
         let next = Known { branch: i0, last: 2, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -484,9 +484,9 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Axis1.
 fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r16 = shared.r7 * shared.r7 + shared.r10 * shared.r10;
-    let r17 = shared.r13 * shared.r13;
-    if !is_near(r16, 1.0000000000000001e-7 * (r17 + r17)) {
+    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
+    let r9 = shared.r5 * shared.r5;
+    if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9)) {
         return;
     }
     let f1 = 1000000.0;
@@ -498,31 +498,29 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Axis3.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.pz + -0.16 * p.r33_;
-    let r9 = p.px * (p.px + -0.16 * p.r13_) + p.py * (p.py + -0.16 * p.r23_);
-    let r10 = r9 + p.pz * r5;
-    let r17 = r10 + r10 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r25 = r17 + 0.0256 + 0.29 * (0.29 - r5) - 0.29 * r5;
-    let r26 = 0.169004 - r25;
-    let shared = &Shared2 { r26 };
+    let r14 = 2.0 * (p.px * (p.px - 0.16 * p.r13_)) + 2.0 * (p.py * (p.py - 0.16 * p.r23_));
+    let r17 = r14 + 2.0 * (p.pz * (p.pz - 0.16 * p.r33_)) - p.px * p.px;
+    let r21 = r17 - p.py * p.py - p.pz * p.pz - 0.58 * p.pz;
+    let r24 = 0.059304 - (r21 + 0.0928 * p.r33_);
+    let shared = &Shared2 { r24 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r26: f64,
+    r24: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r29 = shared.r26 * shared.r26 - 0.00142884 - 0.026595086400000002;
-    let roots0 = real_roots(&[r29, 0.0, 1.0], 1.4142135623730951 * known.f1);
+    let r27 = shared.r24 * shared.r24 - 0.00142884 - 0.026595086400000002;
+    let roots0 = real_roots(&[r27, 0.0, 1.0], 1.4142135623730951 * known.f1);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r35 = (0.0 - (-0.16308 * shared.r26 - 0.0378 * w3)) / 0.028023926400000003;
-        let r40 = (0.0 - (-0.16308 * w3 + 0.0378 * shared.r26)) / 0.028023926400000003;
-        let r44 = f64::max(r40 * r40 + r35 * r35, 0.0).sqrt();
-        let c3 = r40 / r44;
-        let s3 = r35 / r44;
+        let r33 = (0.0378 * w3 - (0.0 - 0.16308 * shared.r24)) / 0.028023926400000003;
+        let r37 = (0.16308 * w3 - 0.0378 * shared.r24) / 0.028023926400000003;
+        let r41 = f64::max(r37 * r37 + r33 * r33, 0.0).sqrt();
+        let c3 = r37 / r41;
+        let s3 = r33 / r41;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -530,45 +528,42 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Axis2.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r7 = 0.07 * known.c3 + -0.302 * known.s3 + 0.56 - 0.29;
-    let r22 = (0.0 - (0.0 - (p.py + -0.16 * p.r23_))) * known.s1;
-    let r29 = 0.0 - ((p.px + -0.16 * p.r13_) * known.c1 + r22);
-    let r30 = 0.0 - r29;
-    let r31 = 0.0 - (0.0 - (0.302 * known.c3 + 0.07 * known.s3));
-    let r32 = 0.0 - (0.29 - (p.pz + -0.16 * p.r33_));
-    let r33 = p.magnitude + 1.704;
-    let r38 = f64::abs(0.0 - (r33 + 0.29));
-    let r39 = f64::abs(r33 + r33);
-    let shared = &Shared3 { r7, r30, r31, r32, r38, r39 };
+    let r9 = 0.07 * known.c3 - 0.302 * known.s3 + 0.27;
+    let r12 = 0.302 * known.c3 + 0.07 * known.s3;
+    let r15 = p.pz - 0.16 * p.r33_ - 0.29;
+    let r16 = known.c1 * (p.px - 0.16 * p.r13_) + known.s1 * (p.py - 0.16 * p.r23_);
+    let r20 = f64::abs(p.magnitude + 1.994);
+    let r21 = f64::abs(2.0 * p.magnitude + 3.408);
+    let shared = &Shared3 { r9, r12, r15, r16, r20, r21 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r7: f64,
-    r30: f64,
-    r31: f64,
-    r32: f64,
-    r38: f64,
-    r39: f64,
+    r9: f64,
+    r12: f64,
+    r15: f64,
+    r16: f64,
+    r20: f64,
+    r21: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r42 = shared.r7 * shared.r7 + shared.r31 * shared.r31;
-    if !is_away(r42, 77110.28000000001) {
+    let r24 = shared.r9 * shared.r9 + shared.r12 * shared.r12;
+    if !is_away(r24, 77110.28000000001) {
         return;
     }
     let f2 = 1.0;
-    let r45 = shared.r31 * shared.r32 - shared.r7 * shared.r30;
-    let r47 = (0.0 - r45) / r42;
-    let r51 = 0.0 - shared.r7 * shared.r32 - shared.r31 * shared.r30;
-    let r53 = (0.0 - r51) / r42;
-    let r57 = f64::max(r53 * r53 + r47 * r47, 0.0).sqrt();
-    let c2 = r53 / r57;
-    let s2 = r47 / r57;
+    let r27 = shared.r9 * shared.r16 - shared.r12 * shared.r15;
+    let r28 = r27 / r24;
+    let r32 = shared.r12 * shared.r16 - (0.0 - shared.r9 * shared.r15);
+    let r33 = r32 / r24;
+    let r37 = f64::max(r33 * r33 + r28 * r28, 0.0).sqrt();
+    let c2 = r33 / r37;
+    let s2 = r28 / r37;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -577,8 +572,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Axis2.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r42 = shared.r7 * shared.r7 + shared.r31 * shared.r31;
-    if !(is_near(r42, 7.711028000000001e-7) && is_near(shared.r30, 0.01 * shared.r39) && is_near(shared.r32, 0.01 * shared.r38)) {
+    let r24 = shared.r9 * shared.r9 + shared.r12 * shared.r12;
+    if !(is_near(r24, 7.711028000000001e-7) && is_near(shared.r16, 0.01 * shared.r21) && is_near(shared.r15, 0.01 * shared.r20)) {
         return;
     }
     let f2 = 1000000.0;
@@ -590,42 +585,38 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: Axis4.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - (0.0 - p.r23_)) * known.s1;
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r11 = p.r33_ + (p.r33_ - p.r33_) * known.c1;
-    let r22 = r11 * known.c2 + (0.0 - (0.0 - r6)) * known.s2;
-    let r23 = r9 + (r9 - r9) * known.c2;
-    let r25 = 0.0 - (r6 * known.c2 + (0.0 - r11) * known.s2);
-    let r37 = 0.0 - (r22 * known.c3 + (0.0 - r25) * known.s3);
-    let r39 = 0.0 - (r23 + (r23 - r23) * known.c3);
-    let r40 = 0.0 - (0.0 - r37);
-    let shared = &Shared4 { r39, r40 };
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let r11 = known.c3 * (p.r33_ * known.c2 + known.s2 * r4);
+    let r12 = known.s3 * (known.c2 * r4 - p.r33_ * known.s2);
+    let r13 = p.r13_ * known.s1 - p.r23_ * known.c1;
+    let r14 = r11 + r12;
+    let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r39: f64,
-    r40: f64,
+    r13: f64,
+    r14: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r41 = shared.r39 * shared.r39;
-    let r42 = shared.r40 * shared.r40;
-    let r43 = r41 + r42;
-    if !is_away(r43, 4240000.0) {
+    let r15 = shared.r13 * shared.r13;
+    let r16 = shared.r14 * shared.r14;
+    let r17 = r15 + r16;
+    if !is_away(r17, 4240000.0) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r41 - r42, 0.0, 1.0], known.f2 * (20.591260281974 * known.f1));
+    let roots0 = real_roots(&[0.0 - r15 - r16, 0.0, 1.0], known.f2 * (20.591260281974 * known.f1));
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r51 = (0.0 - (0.0 - shared.r39 * w4)) / r43;
-        let r54 = (0.0 - shared.r40 * w4) / r43;
-        let r58 = f64::max(r54 * r54 + r51 * r51, 0.0).sqrt();
-        let c4 = r54 / r58;
-        let s4 = r51 / r58;
+        let r23 = w4 * shared.r13 / r17;
+        let r25 = w4 * shared.r14 / r17;
+        let r29 = f64::max(r25 * r25 + r23 * r23, 0.0).sqrt();
+        let c4 = r25 / r29;
+        let s4 = r23 / r29;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -635,8 +626,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Axis4.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r43 = shared.r39 * shared.r39 + shared.r40 * shared.r40;
-    if !is_near(r43, 4.24e-5) {
+    let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
+    if !is_near(r17, 4.24e-5) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -647,78 +638,62 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: Axis5.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - (0.0 - p.r23_)) * known.s1;
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r11 = p.r33_ + (p.r33_ - p.r33_) * known.c1;
-    let r18 = r6 * known.c2 + (0.0 - r11) * known.s2;
-    let r22 = r11 * known.c2 + (0.0 - (0.0 - r6)) * known.s2;
-    let r23 = r9 + (r9 - r9) * known.c2;
-    let r34 = r22 * known.c3 + (0.0 - (0.0 - r18)) * known.s3;
-    let r36 = 0.0 - (r18 * known.c3 + (0.0 - r22) * known.s3);
-    let r46 = (0.0 - (r23 + (r23 - r23) * known.c3)) * known.s4;
-    let r51 = 0.0 - r36;
-    let r52 = 0.0 - (0.0 - (0.0 - (r34 * known.c4 + r46)));
-    let shared = &Shared5 { r51, r52 };
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let r9 = known.c2 * r4 - p.r33_ * known.s2;
+    let r10 = known.c3 * r9;
+    let r11 = p.r33_ * known.c2 + known.s2 * r4;
+    let r12 = known.s3 * r11;
+    let r18 = known.s4 * (p.r23_ * known.c1 - p.r13_ * known.s1);
+    let r19 = r18 - known.c4 * (known.c3 * r11 + known.s3 * r9);
+    let shared = &Shared5 { r10, r12, r19 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r51: f64,
-    r52: f64,
+    r10: f64,
+    r12: f64,
+    r19: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r53 = 0.0 - shared.r51;
-    let r55 = 0.0 - (-0.0 - shared.r52);
-    let r59 = f64::max(r55 * r55 + r53 * r53, 0.0).sqrt();
-    let c5 = r55 / r59;
-    let s5 = r53 / r59;
+    let r20 = shared.r12 - shared.r10;
+    let r24 = f64::max(shared.r19 * shared.r19 + r20 * r20, 0.0).sqrt();
+    let c5 = shared.r19 / r24;
+    let s5 = r20 / r24;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: Axis6.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - p.r12_;
-    let r1 = 0.0 - p.r22_;
-    let r2 = 0.0 - p.r32_;
-    let r9 = r0 * known.c1 + (0.0 - (0.0 - r1)) * known.s1;
-    let r12 = r1 * known.c1 + (0.0 - r0) * known.s1;
-    let r14 = r2 + (r2 - r2) * known.c1;
-    let r25 = r14 * known.c2 + (0.0 - (0.0 - r9)) * known.s2;
-    let r26 = r12 + (r12 - r12) * known.c2;
-    let r28 = 0.0 - (r9 * known.c2 + (0.0 - r14) * known.s2);
-    let r40 = 0.0 - (r25 * known.c3 + (0.0 - r28) * known.s3);
-    let r46 = (r26 + (r26 - r26) * known.c3) * known.c4 + (0.0 - r40) * known.s4;
-    let r58 = p.r11_ * known.c1 + (0.0 - (0.0 - p.r21_)) * known.s1;
-    let r61 = p.r21_ * known.c1 + (0.0 - p.r11_) * known.s1;
-    let r63 = p.r31_ + (p.r31_ - p.r31_) * known.c1;
-    let r74 = r63 * known.c2 + (0.0 - (0.0 - r58)) * known.s2;
-    let r75 = r61 + (r61 - r61) * known.c2;
-    let r77 = 0.0 - (r58 * known.c2 + (0.0 - r63) * known.s2);
-    let r89 = 0.0 - (r74 * known.c3 + (0.0 - r77) * known.s3);
-    let r95 = (r75 + (r75 - r75) * known.c3) * known.c4 + (0.0 - r89) * known.s4;
-    let r100 = 0.0 - r95;
-    let r101 = 0.0 - (0.0 - r46);
-    let shared = &Shared6 { r100, r101 };
+    let r4 = p.r12_ * known.c1 + p.r22_ * known.s1;
+    let r11 = known.c3 * (p.r32_ * known.c2 + known.s2 * r4);
+    let r12 = known.s3 * (known.c2 * r4 - p.r32_ * known.s2);
+    let r14 = known.c4 * (p.r22_ * known.c1 - p.r12_ * known.s1);
+    let r21 = p.r11_ * known.c1 + p.r21_ * known.s1;
+    let r28 = known.c3 * (p.r31_ * known.c2 + known.s2 * r21);
+    let r29 = known.s3 * (known.c2 * r21 - p.r31_ * known.s2);
+    let r31 = known.c4 * (p.r21_ * known.c1 - p.r11_ * known.s1);
+    let r34 = r14 + known.s4 * (r11 + r12);
+    let r35 = r31 + known.s4 * (r28 + r29);
+    let shared = &Shared6 { r34, r35 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r100: f64,
-    r101: f64,
+    r34: f64,
+    r35: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r104 = 0.0 - (0.0 - (0.0 - shared.r100));
-    let r107 = 0.0 - (0.0 - (0.0 - shared.r101));
-    let r111 = f64::max(r107 * r107 + r104 * r104, 0.0).sqrt();
-    let c6 = r107 / r111;
-    let s6 = r104 / r111;
+    let r38 = shared.r34 * shared.r34 + shared.r35 * shared.r35;
+    let r39 = f64::max(r38, 0.0).sqrt();
+    let c6 = shared.r34 / r39;
+    let s6 = shared.r35 / r39;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -747,80 +722,60 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r2 = c1 + (1.0 - c1);
-    let r6 = c2 + (1.0 - c2);
-    let r7 = c1 * c2;
-    let r8 = s1 * c2;
-    let r9 = r2 * (0.0 - s2);
-    let r12 = c1 * s2;
-    let r13 = s1 * s2;
-    let r14 = r2 * c2;
-    let r28 = 0.0 - s3;
-    let r29 = c3 + (1.0 - c3);
-    let r32 = r7 * c3 + r12 * r28;
-    let r35 = r8 * c3 + r13 * r28;
-    let r38 = r9 * c3 + r14 * r28;
-    let r39 = (0.0 - s1) * r6 * r29;
-    let r40 = c1 * r6 * r29;
-    let r43 = r7 * s3 + r12 * c3;
-    let r46 = r8 * s3 + r13 * c3;
-    let r49 = r9 * s3 + r14 * c3;
-    let r55 = 0.29 * r2 - 0.29 * r14 + 0.56 * r14 - 0.56 * r49;
-    let r65 = 0.0 - 0.29 * r12 + 0.56 * r12 - 0.56 * r43 + (0.302 * r32 + 0.63 * r43);
-    let r66 = 0.0 - 0.29 * r13 + 0.56 * r13 - 0.56 * r46 + (0.302 * r35 + 0.63 * r46);
-    let r69 = c4 + (1.0 - c4);
-    let r70 = 0.0 - s4;
-    let r71 = r32 * r69;
-    let r72 = r35 * r69;
-    let r73 = r38 * r69;
-    let r83 = r39 * r70 + r43 * c4;
-    let r86 = r40 * r70 + r46 * c4;
-    let r87 = r49 * c4;
-    let r90 = 0.302 * r71 + 0.63 * r83;
-    let r93 = 0.302 * r72 + 0.63 * r86;
-    let r96 = 0.302 * r73 + 0.63 * r87;
-    let r104 = 0.0 - s5;
-    let r105 = c5 + (1.0 - c5);
-    let r108 = r71 * c5 + r83 * r104;
-    let r111 = r72 * c5 + r86 * r104;
-    let r114 = r73 * c5 + r87 * r104;
-    let r115 = (r39 * c4 + r43 * s4) * r105;
-    let r116 = (r40 * c4 + r46 * s4) * r105;
-    let r117 = r49 * s4 * r105;
-    let r120 = r71 * s5 + r83 * c5;
-    let r123 = r72 * s5 + r86 * c5;
-    let r126 = r73 * s5 + r87 * c5;
-    let r129 = 0.302 * r108 + 0.63 * r120;
-    let r132 = 0.302 * r111 + 0.63 * r123;
-    let r135 = 0.302 * r114 + 0.63 * r126;
-    let r138 = r55 + (0.302 * r38 + 0.63 * r49) - r96 + r96 - r135;
-    let r146 = 0.0 - s6;
-    let r147 = c6 + (1.0 - c6);
-    let r150 = r108 * c6 + r115 * r146;
-    let r153 = r111 * c6 + r116 * r146;
-    let r156 = r114 * c6 + r117 * r146;
-    let r166 = r120 * r147;
-    let r167 = r123 * r147;
-    let r168 = r126 * r147;
-    let r169 = 0.302 * r150;
-    let r172 = 0.302 * r153;
-    let r175 = 0.302 * r156;
-    let r178 = r65 - r90 + r90 - r129 + r129 - (r169 + 0.63 * r166);
-    let r179 = r66 - r93 + r93 - r132 + r132 - (r172 + 0.63 * r167);
-    let r189 = r138 + r135 - (r175 + 0.63 * r168) + (r175 + 0.47 * r168);
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r10 = s3 * r0;
+    let r11 = c3 * r2;
+    let r12 = s3 * r1;
+    let r13 = c3 * r3;
+    let r14 = s2 * s3;
+    let r15 = c2 * c3;
+    let r17 = r10 + r11;
+    let r20 = r12 + r13;
+    let r22 = r14 - r15;
+    let r23 = s4 * r22;
+    let r28 = c4 * r22;
+    let r29 = r4 - r5;
+    let r31 = s1 * s4 + c4 * r17;
+    let r33 = r6 - r7;
+    let r35 = c1 * s4 - c4 * r20;
+    let r37 = r8 + r9;
+    let r40 = s5 * r29;
+    let r41 = c5 * r31;
+    let r42 = s5 * r33;
+    let r43 = c5 * r35;
+    let r44 = s5 * r37;
+    let r45 = c5 * r28;
+    let r46 = c5 * r29 - s5 * r31;
+    let r48 = s1 * c4 - s4 * r17;
+    let r50 = c5 * r33 + s5 * r35;
+    let r52 = c1 * c4 + s4 * r20;
+    let r54 = c5 * r37 - s5 * r28;
+    let r69 = 0.27 * c2 - 0.07 * r14 + 0.07 * r15 - 0.302 * r8;
+    let r82 = 0.27 * r3 + 0.07 * r12 + 0.07 * r13 + 0.302 * r6;
+    let r95 = 0.27 * r2 + 0.07 * r10 + 0.07 * r11 + 0.302 * r4;
+    let r106 = r69 - 0.302 * r9 + 0.16 * r44 + 0.16 * r45 + 0.29;
     [
-        r178 + (r169 + 0.47 * r166),
-        r179 + (r172 + 0.47 * r167),
-        r189,
-        0.0 - r150,
-        0.0 - r153,
-        0.0 - r156,
-        r108 * s6 + r115 * c6,
-        r111 * s6 + r116 * c6,
-        r114 * s6 + r117 * c6,
-        0.0 - r166,
-        0.0 - r167,
-        0.0 - r168,
+        r95 - 0.302 * r5 - 0.16 * r40 - 0.16 * r41,
+        r82 - 0.302 * r7 - 0.16 * r42 + 0.16 * r43,
+        r106,
+        0.0 - (c6 * r46 + s6 * r48),
+        s6 * r52 - c6 * r50,
+        c6 * r54 - s6 * r23,
+        s6 * r46 - c6 * r48,
+        s6 * r50 + c6 * r52,
+        0.0 - (s6 * r54 + c6 * r23),
+        0.0 - (r40 + r41),
+        r43 - r42,
+        r44 + r45,
     ]
 }
 
@@ -878,118 +833,104 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.29 * r2;
-    let r6 = c2 + (1.0 - c2);
-    let r7 = c1 * c2;
-    let r8 = s1 * c2;
-    let r9 = r2 * (0.0 - s2);
-    let r10 = r1 * r6;
-    let r11 = c1 * r6;
-    let r12 = c1 * s2;
-    let r13 = s1 * s2;
-    let r14 = r2 * c2;
-    let r24 = 0.0 - 0.29 * r12 + 0.56 * r12;
-    let r25 = 0.0 - 0.29 * r13 + 0.56 * r13;
-    let r26 = r3 - 0.29 * r14 + 0.56 * r14;
-    let r28 = 0.0 - s3;
-    let r29 = c3 + (1.0 - c3);
-    let r32 = r7 * c3 + r12 * r28;
-    let r35 = r8 * c3 + r13 * r28;
-    let r38 = r9 * c3 + r14 * r28;
-    let r39 = r10 * r29;
-    let r40 = r11 * r29;
-    let r43 = r7 * s3 + r12 * c3;
-    let r46 = r8 * s3 + r13 * c3;
-    let r49 = r9 * s3 + r14 * c3;
-    let r65 = r24 - 0.56 * r43 + (0.302 * r32 + 0.63 * r43);
-    let r66 = r25 - 0.56 * r46 + (0.302 * r35 + 0.63 * r46);
-    let r67 = r26 - 0.56 * r49 + (0.302 * r38 + 0.63 * r49);
-    let r69 = c4 + (1.0 - c4);
-    let r70 = 0.0 - s4;
-    let r71 = r32 * r69;
-    let r72 = r35 * r69;
-    let r73 = r38 * r69;
-    let r76 = r39 * c4 + r43 * s4;
-    let r79 = r40 * c4 + r46 * s4;
-    let r80 = r49 * s4;
-    let r83 = r39 * r70 + r43 * c4;
-    let r86 = r40 * r70 + r46 * c4;
-    let r87 = r49 * c4;
-    let r90 = 0.302 * r71 + 0.63 * r83;
-    let r93 = 0.302 * r72 + 0.63 * r86;
-    let r96 = 0.302 * r73 + 0.63 * r87;
-    let r100 = r65 - r90 + r90;
-    let r101 = r66 - r93 + r93;
-    let r102 = r67 - r96 + r96;
-    let r104 = 0.0 - s5;
-    let r105 = c5 + (1.0 - c5);
-    let r108 = r71 * c5 + r83 * r104;
-    let r111 = r72 * c5 + r86 * r104;
-    let r114 = r73 * c5 + r87 * r104;
-    let r115 = r76 * r105;
-    let r116 = r79 * r105;
-    let r117 = r80 * r105;
-    let r120 = r71 * s5 + r83 * c5;
-    let r123 = r72 * s5 + r86 * c5;
-    let r126 = r73 * s5 + r87 * c5;
-    let r129 = 0.302 * r108 + 0.63 * r120;
-    let r132 = 0.302 * r111 + 0.63 * r123;
-    let r135 = 0.302 * r114 + 0.63 * r126;
-    let r139 = 0.0 - r120;
-    let r140 = 0.0 - r123;
-    let r141 = 0.0 - r126;
-    let r142 = r100 - r129 + r129;
-    let r143 = r101 - r132 + r132;
-    let r144 = r102 - r135 + r135;
-    let r146 = 0.0 - s6;
-    let r147 = c6 + (1.0 - c6);
-    let r150 = r108 * c6 + r115 * r146;
-    let r153 = r111 * c6 + r116 * r146;
-    let r156 = r114 * c6 + r117 * r146;
-    let r159 = r108 * s6 + r115 * c6;
-    let r162 = r111 * s6 + r116 * c6;
-    let r165 = r114 * s6 + r117 * c6;
-    let r166 = r120 * r147;
-    let r167 = r123 * r147;
-    let r168 = r126 * r147;
-    let r169 = 0.302 * r150;
-    let r172 = 0.302 * r153;
-    let r175 = 0.302 * r156;
-    let r187 = r142 - (r169 + 0.63 * r166) + (r169 + 0.47 * r166);
-    let r188 = r143 - (r172 + 0.63 * r167) + (r172 + 0.47 * r167);
-    let r189 = r144 - (r175 + 0.63 * r168) + (r175 + 0.47 * r168);
-    let r190 = 0.0 - r150;
-    let r191 = 0.0 - r153;
-    let r192 = 0.0 - r156;
-    let r193 = 0.0 - r166;
-    let r194 = 0.0 - r167;
-    let r195 = 0.0 - r168;
-    let r197 = r189 - r3;
-    let r206 = r189 - r26;
-    let r213 = r187 - r65;
-    let r214 = r188 - r66;
-    let r215 = r189 - r67;
-    let r225 = r187 - r100;
-    let r226 = r188 - r101;
-    let r227 = r189 - r102;
-    let r237 = r187 - r142;
-    let r238 = r188 - r143;
-    let r239 = r189 - r144;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r10 = s3 * r0;
+    let r11 = c3 * r2;
+    let r12 = s3 * r1;
+    let r13 = c3 * r3;
+    let r14 = s2 * s3;
+    let r15 = c2 * c3;
+    let r17 = r10 + r11;
+    let r20 = r12 + r13;
+    let r22 = r14 - r15;
+    let r23 = s4 * r22;
+    let r28 = c4 * r22;
+    let r29 = r4 - r5;
+    let r31 = s1 * s4 + c4 * r17;
+    let r33 = r6 - r7;
+    let r35 = c1 * s4 - c4 * r20;
+    let r37 = r8 + r9;
+    let r40 = s5 * r29;
+    let r41 = c5 * r31;
+    let r42 = s5 * r33;
+    let r43 = c5 * r35;
+    let r44 = s5 * r37;
+    let r45 = c5 * r28;
+    let r46 = c5 * r29 - s5 * r31;
+    let r48 = s1 * c4 - s4 * r17;
+    let r50 = c5 * r33 + s5 * r35;
+    let r52 = c1 * c4 + s4 * r20;
+    let r54 = c5 * r37 - s5 * r28;
+    let r64 = 0.07 * r14;
+    let r66 = 0.07 * r15;
+    let r68 = 0.302 * r8;
+    let r70 = 0.302 * r9;
+    let r72 = 0.16 * r44;
+    let r74 = 0.16 * r45;
+    let r75 = 0.27 * c2 - r64 + r66 - r68 - r70 + r72 + r74;
+    let r77 = 0.07 * r12;
+    let r79 = 0.07 * r13;
+    let r81 = 0.302 * r6;
+    let r83 = 0.302 * r7;
+    let r85 = 0.16 * r42;
+    let r87 = 0.16 * r43;
+    let r88 = 0.27 * r3 + r77 + r79 + r81 - r83 - r85 + r87;
+    let r90 = 0.07 * r10;
+    let r92 = 0.07 * r11;
+    let r94 = 0.302 * r4;
+    let r96 = 0.302 * r5;
+    let r98 = 0.16 * r40;
+    let r100 = 0.16 * r41;
+    let r101 = 0.27 * r2 + r90 + r92 + r94 - r96 - r98 - r100;
+    let r102 = r44 + r45;
+    let r103 = r40 + r41;
+    let r108 = c6 * r54 - s6 * r23;
+    let r109 = c6 * r46 + s6 * r48;
+    let r115 = s6 * r54 + c6 * r23;
+    let r116 = s6 * r50 + c6 * r52;
+    let r117 = s6 * r46 - c6 * r48;
+    let r135 = r70 + (r68 + (r64 - r66)) - r72 - r74;
+    let r151 = r42 - r43;
+    let r155 = r29 * r151;
+    let r156 = r33 * r103;
+    let r165 = r33 * r102 - r37 * r151;
+    let r167 = r52 * r102 - r23 * r151;
+    let r170 = r37 * r103 - r29 * r102;
+    let r172 = r23 * r103 + r48 * r102;
+    let r176 = s1 * (r87 + (r81 + (r77 + r79) - r83 - r85)) + c1 * (r94 + (r90 + r92) - r96 - r98 - r100);
+    let r181 = r48 * r151 + r52 * r103;
+    let r183 = c1 * r108;
+    let r184 = s1 * r108;
+    let r185 = c6 * r50 - s6 * r52;
+    let r212 = s1 * r185 + c1 * r109;
+    let r239 = 0.0 - c1 * r115;
+    let r243 = 0.0 - s1 * r115;
+    let r249 = 0.0 - (s1 * r116 + c1 * r117);
+    let r254 = c1 * r102;
+    let r255 = s1 * r102;
+    let r258 = s1 * r151 + c1 * r103;
     [
-        [0.0 - r188, c1 * r197, r11 * r206, r35 * r215 - r38 * r214, r79 * r227 - r80 * r226, r140 * r239 - r141 * r238],
-        [r187, 0.0 - r1 * r197, 0.0 - r10 * r206, r38 * r213 - r32 * r215, r80 * r225 - r76 * r227, r141 * r237 - r139 * r239],
-        [0.0, r1 * r188 - c1 * r187, r10 * (r188 - r25) - r11 * (r187 - r24), r32 * r214 - r35 * r213, r76 * r226 - r79 * r225, r139 * r238 - r140 * r237],
-        [0.0 - r191, c1 * r192, r11 * r192, r35 * r192 - r38 * r191, r79 * r192 - r80 * r191, r140 * r192 - r141 * r191],
-        [r190, 0.0 - r1 * r192, 0.0 - r10 * r192, r38 * r190 - r32 * r192, r80 * r190 - r76 * r192, r141 * r190 - r139 * r192],
-        [0.0, r1 * r191 - c1 * r190, r10 * r191 - r11 * r190, r32 * r191 - r35 * r190, r76 * r191 - r79 * r190, r139 * r191 - r140 * r190],
-        [0.0 - r162, c1 * r165, r11 * r165, r35 * r165 - r38 * r162, r79 * r165 - r80 * r162, r140 * r165 - r141 * r162],
-        [r159, 0.0 - r1 * r165, 0.0 - r10 * r165, r38 * r159 - r32 * r165, r80 * r159 - r76 * r165, r141 * r159 - r139 * r165],
-        [0.0, r1 * r162 - c1 * r159, r10 * r162 - r11 * r159, r32 * r162 - r35 * r159, r76 * r162 - r79 * r159, r139 * r162 - r140 * r159],
-        [0.0 - r194, c1 * r195, r11 * r195, r35 * r195 - r38 * r194, r79 * r195 - r80 * r194, r140 * r195 - r141 * r194],
-        [r193, 0.0 - r1 * r195, 0.0 - r10 * r195, r38 * r193 - r32 * r195, r80 * r193 - r76 * r195, r141 * r193 - r139 * r195],
-        [0.0, r1 * r194 - c1 * r193, r10 * r194 - r11 * r193, r32 * r194 - r35 * r193, r76 * r194 - r79 * r193, r139 * r194 - r140 * r193],
+        [0.0 - r88, c1 * r75, 0.0 - c1 * r135, 0.16 * r165, 0.16 * r167, 0.0],
+        [r101, s1 * r75, 0.0 - s1 * r135, 0.16 * r170, 0.16 * r172, 0.0],
+        [0.0, 0.0 - (s1 * r88 + c1 * r101), 0.0 - r176, 0.0 - 0.16 * (r155 - r156), 0.16 * r181, 0.0],
+        [r185, r183, r183, r33 * r108 - r37 * r185, r52 * r108 - r23 * r185, r102 * r185 - r151 * r108],
+        [0.0 - r109, r184, r184, r37 * r109 - r29 * r108, r23 * r109 + r48 * r108, r103 * r108 - r102 * r109],
+        [0.0, r212, r212, r33 * r109 - r29 * r185, r48 * r185 + r52 * r109, r103 * r185 - r151 * r109],
+        [0.0 - r116, r239, r239, r37 * r116 - r33 * r115, r23 * r116 - r52 * r115, r151 * r115 - r102 * r116],
+        [r117, r243, r243, r29 * r115 - r37 * r117, 0.0 - (r23 * r117 + r48 * r115), r102 * r117 - r103 * r115],
+        [0.0, r249, r249, r29 * r116 - r33 * r117, 0.0 - (r48 * r116 + r52 * r117), r151 * r117 - r103 * r116],
+        [r151, r254, r254, r165, r167, 0.0],
+        [0.0 - r103, r255, r255, r170, r172, 0.0],
+        [0.0, r258, r258, r156 - r155, r181, 0.0],
     ]
 }
 

@@ -284,64 +284,93 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.495 * r2, r14 = c2 + (1.0 - c2), r15 = c1 * c2;
-    const double r16 = s1 * c2, r17 = r2 * (0.0 - s2), r18 = r1 * r14, r19 = c1 * r14, r20 = c1 * s2;
-    const double r21 = s1 * s2, r22 = r2 * c2, r23 = 0.175 * r15, r28 = 0.175 * r16, r33 = 0.175 * r17;
-    const double r36 = 0.175 * c1 + 1e-5 * r1 - (r23 + 1e-5 * r18 + 0.495 * r20);
-    const double r37 = 0.175 * s1 + 1e-5 * c1 - (r28 + 1e-5 * r19 + 0.495 * r21);
-    const double r51 = 0.495 - r3 + r3 - (r33 + 0.495 * r22) + (r33 + 1.395 * r22), r53 = 0.0 - s3;
-    const double r54 = c3 + (1.0 - c3), r57 = r15 * c3 + r20 * r53, r60 = r16 * c3 + r21 * r53;
-    const double r63 = r17 * c3 + r22 * r53, r64 = r18 * r54, r65 = r19 * r54, r68 = r15 * s3 + r20 * c3;
-    const double r71 = r16 * s3 + r21 * c3, r74 = r17 * s3 + r22 * c3;
-    const double r88 = r36 + (r23 + 2e-5 * r18 + 1.395 * r20) - (0.175 * r57 + 2e-5 * r64 + 1.395 * r68);
-    const double r89 = r37 + (r28 + 2e-5 * r19 + 1.395 * r21) - (0.175 * r60 + 2e-5 * r65 + 1.395 * r71);
-    const double r116 = r88 + (0.17501 * r57 + 1e-5 * r64 + 1.57 * r68);
-    const double r117 = r89 + (0.17501 * r60 + 1e-5 * r65 + 1.57 * r71);
-    const double r118 = r51 - (0.175 * r63 + 1.395 * r74) + (0.17501 * r63 + 1.57 * r74);
-    const double r119 = 9.9999999995e-6 * s4, r120 = 1.0 - c4, r122 = c4 + 0.9999999999 * r120;
-    const double r123 = 0.0 - r119, r124 = -9.999999999e-6 * r120, r125 = 100000.0 * r119;
-    const double r126 = -100000.0 * r119, r128 = c4 + 9.999999999e-11 * r120;
-    const double r133 = r57 * r122 + r64 * r123 + r68 * r124, r138 = r60 * r122 + r65 * r123 + r71 * r124;
-    const double r141 = r63 * r122 + r74 * r124, r146 = r57 * r119 + r64 * c4 + r68 * r125;
-    const double r151 = r60 * r119 + r65 * c4 + r71 * r125, r154 = r63 * r119 + r74 * r125;
-    const double r159 = r57 * r124 + r64 * r126 + r68 * r128, r164 = r60 * r124 + r65 * r126 + r71 * r128;
-    const double r167 = r63 * r124 + r74 * r128, r183 = r116 - (0.17501 * r133 + 1e-5 * r146 + 1.57 * r159);
-    const double r184 = r117 - (0.17501 * r138 + 1e-5 * r151 + 1.57 * r164);
-    const double r185 = r118 - (0.17501 * r141 + 1e-5 * r154 + 1.57 * r167);
-    const double r199 = 1.13501 * r133 + 2e-5 * r146 + 1.57001 * r159;
-    const double r204 = 1.13501 * r138 + 2e-5 * r151 + 1.57001 * r164;
-    const double r209 = 1.13501 * r141 + 2e-5 * r154 + 1.57001 * r167, r213 = 9.9999999995e-6 * s5;
-    const double r214 = 1.0 - c5, r216 = c5 + 9.999999999e-11 * r214, r217 = 9.999999999e-6 * r214;
-    const double r218 = -100000.0 * r213, r220 = c5 + 0.9999999999 * r214, r221 = 100000.0 * r213;
-    const double r222 = 0.0 - r213, r227 = r133 * r216 + r146 * r217 + r159 * r218;
-    const double r232 = r138 * r216 + r151 * r217 + r164 * r218, r237 = r141 * r216 + r154 * r217 + r167 * r218;
-    const double r242 = r133 * r217 + r146 * r220 + r159 * r213, r247 = r138 * r217 + r151 * r220 + r164 * r213;
-    const double r252 = r141 * r217 + r154 * r220 + r167 * r213, r257 = r133 * r221 + r146 * r222 + r159 * c5;
-    const double r262 = r138 * r221 + r151 * r222 + r164 * c5, r267 = r141 * r221 + r154 * r222 + r167 * c5;
-    const double r272 = 1.13501 * r227 + 2e-5 * r242 + 1.57001 * r257;
-    const double r277 = 1.13501 * r232 + 2e-5 * r247 + 1.57001 * r262;
-    const double r282 = 1.13501 * r237 + 2e-5 * r252 + 1.57001 * r267;
-    const double r290 = 1.27001 * r227 + 1e-5 * r242 + 1.57002 * r257;
-    const double r295 = 1.27001 * r232 + 1e-5 * r247 + 1.57002 * r262;
-    const double r300 = 1.27001 * r237 + 1e-5 * r252 + 1.57002 * r267, r305 = c6 + (1.0 - c6), r306 = 0.0 - s6;
-    const double r307 = r227 * r305, r308 = r232 * r305, r309 = r237 * r305, r312 = r242 * c6 + r257 * s6;
-    const double r315 = r247 * c6 + r262 * s6, r318 = r252 * c6 + r267 * s6, r321 = r242 * r306 + r257 * c6;
-    const double r324 = r247 * r306 + r262 * c6, r327 = r252 * r306 + r267 * c6;
-    const double r332 = 1.27001 * r307 + 1e-5 * r312 + 1.57002 * r321;
-    const double r337 = 1.27001 * r308 + 1e-5 * r315 + 1.57002 * r324;
-    const double r342 = 1.27001 * r309 + 1e-5 * r318 + 1.57002 * r327;
-    reached[0] = r183 + r199 - r272 + r290 - r332 + r332;
-    reached[1] = r184 + r204 - r277 + r295 - r337 + r337;
-    reached[2] = r185 + r209 - r282 + r300 - r342 + r342;
-    reached[3] = 0.0 - r321;
-    reached[4] = 0.0 - r324;
-    reached[5] = 0.0 - r327;
-    reached[6] = r312;
-    reached[7] = r315;
-    reached[8] = r318;
-    reached[9] = r307;
-    reached[10] = r308;
-    reached[11] = r309;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2;
+    const double r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3, r16 = r4 - r5;
+    const double r18 = 9.999999999e-11 * c4 + 0.9999999999, r19 = r16 * r18, r20 = s1 * s4, r21 = r10 + r11;
+    const double r22 = c4 - 1.0, r23 = r21 * r22, r24 = r6 - r7, r25 = r18 * r24, r26 = c1 * s4, r27 = r12 + r13;
+    const double r28 = r22 * r27, r29 = r8 + r9, r30 = r18 * r29, r31 = r14 - r15, r32 = r22 * r31;
+    const double r33 = s4 * r16, r34 = s1 * c4, r35 = s4 * r21, r36 = s4 * r24, r37 = c1 * c4, r38 = s4 * r27;
+    const double r39 = s4 * r29, r40 = s4 * r31, r41 = r16 * r22, r43 = 0.9999999999 * c4 + 9.999999999e-11;
+    const double r44 = r21 * r43, r45 = r22 * r24, r46 = r27 * r43, r47 = r22 * r29, r48 = r31 * r43;
+    const double r55 = 0.175 * c1 + 0.9 * r2 + 1e-5 * r4 - 1e-5 * r5;
+    const double r63 = r55 + 0.175 * r10 + 0.175 * r11 - 1e-5 * s1 - 0.17501 * r19;
+    const double r67 = r63 - 1.5700017500215 * r20 - 1.75009999982499e-6 * r23;
+    const double r71 = r67 - 9.999999999500001e-11 * r33 + 1e-5 * r34;
+    const double r75 = r71 - 9.9999999995e-6 * r35 - 1.569999999843e-5 * r41;
+    const double r84 = 0.175 * s1 + 0.9 * r3 + 1e-5 * r6 - 1e-5 * r7;
+    const double r92 = r84 + 0.175 * r12 + 0.175 * r13 + 1e-5 * c1 - 0.17501 * r25;
+    const double r96 = r92 + 1.5700017500215 * r26 - 1.75009999982499e-6 * r28;
+    const double r100 = r96 - 9.999999999500001e-11 * r36 - 1e-5 * r37;
+    const double r104 = r100 - 9.9999999995e-6 * r38 - 1.569999999843e-5 * r45;
+    const double r110 = r19 + 9.9999999995e-6 * r20 + 9.999999999e-6 * r23;
+    const double r112 = 0.9999999999 * c5 + 9.999999999e-11, r113 = r110 * r112;
+    const double r117 = 9.9999999995e-6 * r33 - r34 + 0.9999999999500001 * r35, r118 = c5 - 1.0;
+    const double r119 = r117 * r118, r122 = 9.999999999e-6 * r41 + 0.9999999999500001 * r20, r123 = r44 + r122;
+    const double r124 = s5 * r123, r128 = r25 - 9.9999999995e-6 * r26 + 9.999999999e-6 * r28, r129 = r112 * r128;
+    const double r133 = r37 + 9.9999999995e-6 * r36 + 0.9999999999500001 * r38, r134 = r118 * r133;
+    const double r137 = 9.999999999e-6 * r45 - 0.9999999999500001 * r26, r138 = r46 + r137, r139 = s5 * r138;
+    const double r141 = r30 + 9.999999999e-6 * r32, r142 = r112 * r141;
+    const double r145 = 9.9999999995e-6 * r39 + 0.9999999999500001 * r40, r146 = r118 * r145;
+    const double r148 = r48 + 9.999999999e-6 * r47, r149 = s5 * r148, r150 = r110 * r118;
+    const double r152 = 9.999999999e-11 * c5 + 0.9999999999, r153 = r117 * r152, r154 = r118 * r128;
+    const double r155 = r133 * r152, r156 = r118 * r141, r157 = r145 * r152, r158 = s5 * r110, r159 = s5 * r117;
+    const double r160 = c5 * r123, r161 = s5 * r128, r162 = s5 * r133, r163 = c5 * r138, r164 = s5 * r141;
+    const double r165 = s5 * r145, r166 = c5 * r148;
+    const double r170 = r75 - 1.57 * r44 + 1.13501 * r19 + 1.570021350021499 * r20;
+    const double r174 = r170 + 1.135009999886499e-5 * r23 + 1.9999999999000001e-10 * r33;
+    const double r180 = r174 - 2e-5 * r34 + 1.9999999999e-5 * r35 + 1.570009999842999e-5 * r41;
+    const double r186 = r180 + 1.57001 * r44 - 1.13501 * r113 + 1.135009999886499e-5 * r119;
+    const double r190 = r186 + 1.1350099997432497 * r124 + 1.9999999998e-10 * r150;
+    const double r194 = r190 - 2e-5 * r153 - 1.5700099999214996 * r158;
+    const double r198 = r194 + 1.5700099999214996e-5 * r159 - 1.57001 * r160;
+    const double r202 = r104 - 1.57 * r46 + 1.13501 * r25 - 1.570021350021499 * r26;
+    const double r206 = r202 + 1.135009999886499e-5 * r28 + 1.9999999999000001e-10 * r36;
+    const double r212 = r206 + 2e-5 * r37 + 1.9999999999e-5 * r38 + 1.570009999842999e-5 * r45;
+    const double r218 = r212 + 1.57001 * r46 - 1.13501 * r129 + 1.135009999886499e-5 * r134;
+    const double r222 = r218 + 1.1350099997432497 * r139 + 1.9999999998e-10 * r154;
+    const double r226 = r222 - 2e-5 * r155 - 1.5700099999214996 * r161;
+    const double r230 = r226 + 1.5700099999214996e-5 * r162 - 1.57001 * r163;
+    const double r237 = 0.9 * c2 - 1e-5 * r8 - 1e-5 * r9 - 0.175 * r14;
+    const double r243 = r237 + 0.175 * r15 - 0.96 * r30 - 9.59999999904e-6 * r32;
+    const double r247 = r243 - 9.999999999500001e-11 * r39 - 9.9999999995e-6 * r40;
+    const double r253 = r247 - 9.999999999e-11 * r47 - 1e-5 * r48 + 1.13501 * r142;
+    const double r257 = r253 - 1.135009999886499e-5 * r146 - 1.1350099997432497 * r149;
+    const double r263 = r257 - 1.9999999998e-10 * r156 + 2e-5 * r157 + 1.5700099999214996 * r164;
+    const double r267 = r263 - 1.5700099999214996e-5 * r165 + 1.57001 * r166;
+    const double r272 = 9.999999999e-6 * r150 - r153 - 9.9999999995e-6 * r124;
+    const double r276 = 0.9999999999500001 * r158 - 9.9999999995e-6 * r159, r277 = r160 + r276;
+    const double r282 = 9.999999999e-6 * r154 - r155 - 9.9999999995e-6 * r139;
+    const double r286 = 0.9999999999500001 * r161 - 9.9999999995e-6 * r162, r287 = r163 + r286;
+    const double r292 = 9.999999999e-6 * r156 - r157 - 9.9999999995e-6 * r149;
+    const double r296 = 0.9999999999500001 * r164 - 9.9999999995e-6 * r165, r297 = r166 + r296;
+    const double r308 = r267 + 0.495 + 1.2700099998364995 * r149 + 9.999999999e-11 * r156;
+    const double r312 = r308 - 1e-5 * r157 - 1.5700199999214992 * r164;
+    const double r316 = r312 + 1.570019999921499e-5 * r165 - 1.57002 * r166;
+    const double r320 = r316 - 1.27001 * r142 + 1.270009999872999e-5 * r146;
+    const double r324 = r230 - 1.2700099998364995 * r139 - 9.999999999e-11 * r154;
+    const double r328 = r324 + 1e-5 * r155 + 1.5700199999214992 * r161;
+    const double r332 = r328 - 1.570019999921499e-5 * r162 + 1.57002 * r163;
+    const double r336 = r332 + 1.27001 * r129 - 1.270009999872999e-5 * r134;
+    const double r340 = r198 - 1.2700099998364995 * r124 - 9.999999999e-11 * r150;
+    const double r344 = r340 + 1e-5 * r153 + 1.5700199999214992 * r158;
+    const double r348 = r344 - 1.570019999921499e-5 * r159 + 1.57002 * r160;
+    const double r352 = r348 + 1.27001 * r113 - 1.270009999872999e-5 * r119;
+    const double r362 = r129 - 9.999999999e-6 * r134 - 0.9999999999500001 * r139;
+    const double r369 = r113 - 9.999999999e-6 * r119 - 0.9999999999500001 * r124;
+    const double r383 = 0.9999999999500001 * r149 - (r142 - 9.999999999e-6 * r146);
+    reached[0] = r352;
+    reached[1] = r336;
+    reached[2] = r320;
+    reached[3] = 0.0 - (s6 * r272 + c6 * r277);
+    reached[4] = 0.0 - (s6 * r282 + c6 * r287);
+    reached[5] = s6 * r292 + c6 * r297;
+    reached[6] = s6 * r277 - c6 * r272;
+    reached[7] = s6 * r287 - c6 * r282;
+    reached[8] = c6 * r292 - s6 * r297;
+    reached[9] = r369;
+    reached[10] = r362;
+    reached[11] = r383;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -397,77 +426,123 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.495 * r2, r7 = 0.175 * c1 + 1e-5 * r1;
-    const double r10 = 0.175 * s1 + 1e-5 * c1, r11 = 0.495 - r3 + r3, r14 = c2 + (1.0 - c2), r15 = c1 * c2;
-    const double r16 = s1 * c2, r17 = r2 * (0.0 - s2), r18 = r1 * r14, r19 = c1 * r14, r20 = c1 * s2;
-    const double r21 = s1 * s2, r22 = r2 * c2, r23 = 0.175 * r15, r28 = 0.175 * r16, r33 = 0.175 * r17;
-    const double r49 = r7 - (r23 + 1e-5 * r18 + 0.495 * r20) + (r23 + 2e-5 * r18 + 1.395 * r20);
-    const double r50 = r10 - (r28 + 1e-5 * r19 + 0.495 * r21) + (r28 + 2e-5 * r19 + 1.395 * r21);
-    const double r51 = r11 - (r33 + 0.495 * r22) + (r33 + 1.395 * r22), r53 = 0.0 - s3, r54 = c3 + (1.0 - c3);
-    const double r57 = r15 * c3 + r20 * r53, r60 = r16 * c3 + r21 * r53, r63 = r17 * c3 + r22 * r53;
-    const double r64 = r18 * r54, r65 = r19 * r54, r68 = r15 * s3 + r20 * c3, r71 = r16 * s3 + r21 * c3;
-    const double r74 = r17 * s3 + r22 * c3, r88 = r49 - (0.175 * r57 + 2e-5 * r64 + 1.395 * r68);
-    const double r89 = r50 - (0.175 * r60 + 2e-5 * r65 + 1.395 * r71);
-    const double r100 = 9.9999999995e-6 * (100000.0 * r57 + (0.0 - r68));
-    const double r101 = 9.9999999995e-6 * (100000.0 * r60 + (0.0 - r71));
-    const double r102 = 9.9999999995e-6 * (100000.0 * r63 + (0.0 - r74));
-    const double r116 = r88 + (0.17501 * r57 + 1e-5 * r64 + 1.57 * r68);
-    const double r117 = r89 + (0.17501 * r60 + 1e-5 * r65 + 1.57 * r71);
-    const double r118 = r51 - (0.175 * r63 + 1.395 * r74) + (0.17501 * r63 + 1.57 * r74);
-    const double r119 = 9.9999999995e-6 * s4, r120 = 1.0 - c4, r122 = c4 + 0.9999999999 * r120;
-    const double r123 = 0.0 - r119, r124 = -9.999999999e-6 * r120, r125 = 100000.0 * r119;
-    const double r126 = -100000.0 * r119, r128 = c4 + 9.999999999e-11 * r120;
-    const double r133 = r57 * r122 + r64 * r123 + r68 * r124, r138 = r60 * r122 + r65 * r123 + r71 * r124;
-    const double r141 = r63 * r122 + r74 * r124, r146 = r57 * r119 + r64 * c4 + r68 * r125;
-    const double r151 = r60 * r119 + r65 * c4 + r71 * r125, r154 = r63 * r119 + r74 * r125;
-    const double r159 = r57 * r124 + r64 * r126 + r68 * r128, r164 = r60 * r124 + r65 * r126 + r71 * r128;
-    const double r167 = r63 * r124 + r74 * r128, r183 = r116 - (0.17501 * r133 + 1e-5 * r146 + 1.57 * r159);
-    const double r184 = r117 - (0.17501 * r138 + 1e-5 * r151 + 1.57 * r164);
-    const double r185 = r118 - (0.17501 * r141 + 1e-5 * r154 + 1.57 * r167);
-    const double r192 = 9.9999999995e-6 * (r133 + 100000.0 * r146);
-    const double r193 = 9.9999999995e-6 * (r138 + 100000.0 * r151);
-    const double r194 = 9.9999999995e-6 * (r141 + 100000.0 * r154);
-    const double r199 = 1.13501 * r133 + 2e-5 * r146 + 1.57001 * r159;
-    const double r204 = 1.13501 * r138 + 2e-5 * r151 + 1.57001 * r164;
-    const double r209 = 1.13501 * r141 + 2e-5 * r154 + 1.57001 * r167, r210 = r183 + r199, r211 = r184 + r204;
-    const double r212 = r185 + r209, r213 = 9.9999999995e-6 * s5, r214 = 1.0 - c5;
-    const double r216 = c5 + 9.999999999e-11 * r214, r217 = 9.999999999e-6 * r214, r218 = -100000.0 * r213;
-    const double r220 = c5 + 0.9999999999 * r214, r221 = 100000.0 * r213, r222 = 0.0 - r213;
-    const double r227 = r133 * r216 + r146 * r217 + r159 * r218, r232 = r138 * r216 + r151 * r217 + r164 * r218;
-    const double r237 = r141 * r216 + r154 * r217 + r167 * r218, r242 = r133 * r217 + r146 * r220 + r159 * r213;
-    const double r247 = r138 * r217 + r151 * r220 + r164 * r213, r252 = r141 * r217 + r154 * r220 + r167 * r213;
-    const double r257 = r133 * r221 + r146 * r222 + r159 * c5, r262 = r138 * r221 + r151 * r222 + r164 * c5;
-    const double r267 = r141 * r221 + r154 * r222 + r167 * c5;
-    const double r272 = 1.13501 * r227 + 2e-5 * r242 + 1.57001 * r257;
-    const double r277 = 1.13501 * r232 + 2e-5 * r247 + 1.57001 * r262;
-    const double r282 = 1.13501 * r237 + 2e-5 * r252 + 1.57001 * r267;
-    const double r290 = 1.27001 * r227 + 1e-5 * r242 + 1.57002 * r257;
-    const double r295 = 1.27001 * r232 + 1e-5 * r247 + 1.57002 * r262;
-    const double r300 = 1.27001 * r237 + 1e-5 * r252 + 1.57002 * r267, r301 = r210 - r272 + r290;
-    const double r302 = r211 - r277 + r295, r303 = r212 - r282 + r300, r305 = c6 + (1.0 - c6), r306 = 0.0 - s6;
-    const double r307 = r227 * r305, r308 = r232 * r305, r309 = r237 * r305, r312 = r242 * c6 + r257 * s6;
-    const double r315 = r247 * c6 + r262 * s6, r318 = r252 * c6 + r267 * s6, r321 = r242 * r306 + r257 * c6;
-    const double r324 = r247 * r306 + r262 * c6, r327 = r252 * r306 + r267 * c6;
-    const double r332 = 1.27001 * r307 + 1e-5 * r312 + 1.57002 * r321;
-    const double r337 = 1.27001 * r308 + 1e-5 * r315 + 1.57002 * r324;
-    const double r342 = 1.27001 * r309 + 1e-5 * r318 + 1.57002 * r327, r346 = r301 - r332 + r332;
-    const double r347 = r302 - r337 + r337, r348 = r303 - r342 + r342, r349 = 0.0 - r321, r350 = 0.0 - r324;
-    const double r351 = 0.0 - r327, r356 = r348 - r11, r365 = r348 - r51, r372 = r346 - r116, r373 = r347 - r117;
-    const double r374 = r348 - r118, r384 = r346 - r210, r385 = r347 - r211, r386 = r348 - r212;
-    const double r396 = r346 - r301, r397 = r347 - r302, r398 = r348 - r303;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2;
+    const double r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3, r16 = r4 - r5;
+    const double r18 = 9.999999999e-11 * c4 + 0.9999999999, r19 = r16 * r18, r20 = s1 * s4, r21 = r10 + r11;
+    const double r22 = c4 - 1.0, r23 = r21 * r22, r24 = r6 - r7, r25 = r18 * r24, r26 = c1 * s4, r27 = r12 + r13;
+    const double r28 = r22 * r27, r29 = r8 + r9, r30 = r18 * r29, r31 = r14 - r15, r32 = r22 * r31;
+    const double r33 = s4 * r16, r34 = s1 * c4, r35 = s4 * r21, r36 = s4 * r24, r37 = c1 * c4, r38 = s4 * r27;
+    const double r39 = s4 * r29, r40 = s4 * r31, r41 = r16 * r22, r43 = 0.9999999999 * c4 + 9.999999999e-11;
+    const double r44 = r21 * r43, r45 = r22 * r24, r46 = r27 * r43, r47 = r22 * r29, r48 = r31 * r43;
+    const double r49 = 0.175 * c1, r50 = 0.9 * r2, r52 = 1e-5 * r4, r54 = 1e-5 * r5, r56 = 0.175 * r10;
+    const double r58 = 0.175 * r11, r60 = 1e-5 * s1;
+    const double r63 = r49 + r50 + r52 - r54 + r56 + r58 - r60 - 0.17501 * r19;
+    const double r67 = r63 - 1.5700017500215 * r20 - 1.75009999982499e-6 * r23;
+    const double r71 = r67 - 9.999999999500001e-11 * r33 + 1e-5 * r34;
+    const double r75 = r71 - 9.9999999995e-6 * r35 - 1.569999999843e-5 * r41, r77 = r75 - 1.57 * r44;
+    const double r78 = 0.175 * s1, r79 = 0.9 * r3, r81 = 1e-5 * r6, r83 = 1e-5 * r7, r85 = 0.175 * r12;
+    const double r87 = 0.175 * r13, r89 = 1e-5 * c1;
+    const double r92 = r78 + r79 + r81 - r83 + r85 + r87 + r89 - 0.17501 * r25;
+    const double r96 = r92 + 1.5700017500215 * r26 - 1.75009999982499e-6 * r28;
+    const double r100 = r96 - 9.999999999500001e-11 * r36 - 1e-5 * r37;
+    const double r104 = r100 - 9.9999999995e-6 * r38 - 1.569999999843e-5 * r45, r106 = r104 - 1.57 * r46;
+    const double r110 = r19 + 9.9999999995e-6 * r20 + 9.999999999e-6 * r23;
+    const double r112 = 0.9999999999 * c5 + 9.999999999e-11, r113 = r110 * r112;
+    const double r117 = 9.9999999995e-6 * r33 - r34 + 0.9999999999500001 * r35, r118 = c5 - 1.0;
+    const double r119 = r117 * r118, r122 = 9.999999999e-6 * r41 + 0.9999999999500001 * r20, r123 = r44 + r122;
+    const double r124 = s5 * r123, r128 = r25 - 9.9999999995e-6 * r26 + 9.999999999e-6 * r28, r129 = r112 * r128;
+    const double r133 = r37 + 9.9999999995e-6 * r36 + 0.9999999999500001 * r38, r134 = r118 * r133;
+    const double r137 = 9.999999999e-6 * r45 - 0.9999999999500001 * r26, r138 = r46 + r137, r139 = s5 * r138;
+    const double r141 = r30 + 9.999999999e-6 * r32, r142 = r112 * r141;
+    const double r145 = 9.9999999995e-6 * r39 + 0.9999999999500001 * r40, r146 = r118 * r145;
+    const double r148 = r48 + 9.999999999e-6 * r47, r149 = s5 * r148, r150 = r110 * r118;
+    const double r152 = 9.999999999e-11 * c5 + 0.9999999999, r153 = r117 * r152, r154 = r118 * r128;
+    const double r155 = r133 * r152, r156 = r118 * r141, r157 = r145 * r152, r158 = s5 * r110, r159 = s5 * r117;
+    const double r160 = c5 * r123, r161 = s5 * r128, r162 = s5 * r133, r163 = c5 * r138, r164 = s5 * r141;
+    const double r165 = s5 * r145, r166 = c5 * r148, r167 = 1.13501 * r19, r169 = 1.570021350021499 * r20;
+    const double r171 = 1.135009999886499e-5 * r23, r173 = 1.9999999999000001e-10 * r33, r175 = 2e-5 * r34;
+    const double r177 = 1.9999999999e-5 * r35, r178 = r77 + r167 + r169 + r171 + r173 - r175 + r177;
+    const double r179 = 1.570009999842999e-5 * r41, r181 = 1.57001 * r44;
+    const double r186 = r178 + r179 + r181 - 1.13501 * r113 + 1.135009999886499e-5 * r119;
+    const double r190 = r186 + 1.1350099997432497 * r124 + 1.9999999998e-10 * r150;
+    const double r194 = r190 - 2e-5 * r153 - 1.5700099999214996 * r158;
+    const double r198 = r194 + 1.5700099999214996e-5 * r159 - 1.57001 * r160, r199 = 1.13501 * r25;
+    const double r201 = 1.570021350021499 * r26, r203 = 1.135009999886499e-5 * r28;
+    const double r205 = 1.9999999999000001e-10 * r36, r207 = 2e-5 * r37, r209 = 1.9999999999e-5 * r38;
+    const double r210 = r106 + r199 - r201 + r203 + r205 + r207 + r209, r211 = 1.570009999842999e-5 * r45;
+    const double r213 = 1.57001 * r46, r218 = r210 + r211 + r213 - 1.13501 * r129 + 1.135009999886499e-5 * r134;
+    const double r222 = r218 + 1.1350099997432497 * r139 + 1.9999999998e-10 * r154;
+    const double r226 = r222 - 2e-5 * r155 - 1.5700099999214996 * r161;
+    const double r230 = r226 + 1.5700099999214996e-5 * r162 - 1.57001 * r163, r231 = 0.9 * c2, r232 = 1e-5 * r8;
+    const double r234 = 1e-5 * r9, r236 = 0.175 * r14, r238 = 0.175 * r15, r240 = 0.96 * r30;
+    const double r242 = 9.59999999904e-6 * r32, r243 = r231 - r232 - r234 - r236 + r238 - r240 - r242;
+    const double r244 = 9.999999999500001e-11 * r39, r246 = 9.9999999995e-6 * r40, r248 = 9.999999999e-11 * r47;
+    const double r250 = 1e-5 * r48, r253 = r243 - r244 - r246 - r248 - r250 + 1.13501 * r142;
+    const double r257 = r253 - 1.135009999886499e-5 * r146 - 1.1350099997432497 * r149;
+    const double r263 = r257 - 1.9999999998e-10 * r156 + 2e-5 * r157 + 1.5700099999214996 * r164;
+    const double r267 = r263 - 1.5700099999214996e-5 * r165 + 1.57001 * r166;
+    const double r272 = 9.999999999e-6 * r150 - r153 - 9.9999999995e-6 * r124, r273 = c6 * r272;
+    const double r276 = 0.9999999999500001 * r158 - 9.9999999995e-6 * r159, r277 = r160 + r276, r278 = s6 * r277;
+    const double r282 = 9.999999999e-6 * r154 - r155 - 9.9999999995e-6 * r139;
+    const double r286 = 0.9999999999500001 * r161 - 9.9999999995e-6 * r162, r287 = r163 + r286;
+    const double r292 = 9.999999999e-6 * r156 - r157 - 9.9999999995e-6 * r149;
+    const double r296 = 0.9999999999500001 * r164 - 9.9999999995e-6 * r165, r297 = r166 + r296;
+    const double r308 = r267 + 0.495 + 1.2700099998364995 * r149 + 9.999999999e-11 * r156;
+    const double r312 = r308 - 1e-5 * r157 - 1.5700199999214992 * r164;
+    const double r316 = r312 + 1.570019999921499e-5 * r165 - 1.57002 * r166;
+    const double r320 = r316 - 1.27001 * r142 + 1.270009999872999e-5 * r146;
+    const double r324 = r230 - 1.2700099998364995 * r139 - 9.999999999e-11 * r154;
+    const double r328 = r324 + 1e-5 * r155 + 1.5700199999214992 * r161;
+    const double r332 = r328 - 1.570019999921499e-5 * r162 + 1.57002 * r163, r334 = r332 + 1.27001 * r129;
+    const double r335 = 1.270009999872999e-5 * r134, r336 = r334 - r335;
+    const double r340 = r198 - 1.2700099998364995 * r124 - 9.999999999e-11 * r150;
+    const double r344 = r340 + 1e-5 * r153 + 1.5700199999214992 * r158;
+    const double r348 = r344 - 1.570019999921499e-5 * r159 + 1.57002 * r160;
+    const double r352 = r348 + 1.27001 * r113 - 1.270009999872999e-5 * r119, r356 = s6 * r292 + c6 * r297;
+    const double r357 = s6 * r282 + c6 * r287, r358 = s6 * r272 + c6 * r277, r360 = r129 - 9.999999999e-6 * r134;
+    const double r361 = 0.9999999999500001 * r139, r362 = r360 - r361;
+    const double r369 = r113 - 9.999999999e-6 * r119 - 0.9999999999500001 * r124, r375 = c6 * r292 - s6 * r297;
+    const double r385 = r320 - 0.495, r388 = r336 - r78, r391 = r352 - r49, r394 = r320 - r231;
+    const double r395 = r394 - 0.495, r398 = r388 - r79, r402 = r391 - r50;
+    const double r410 = r60 + (r54 + (r402 - r52) - r56 - r58), r415 = r83 + (r398 - r81) - r85 - r87 - r89;
+    const double r419 = r236 + (r234 + (r232 + r394)) - r238, r420 = r419 - 0.495;
+    const double r423 = 0.9999999999500001 * r6 - 0.9999999999500001 * r7;
+    const double r427 = r423 - 9.9999999995e-6 * r12 - 9.9999999995e-6 * r13;
+    const double r431 = 0.9999999999500001 * r8 + 0.9999999999500001 * r9;
+    const double r435 = r431 - 9.9999999995e-6 * r14 + 9.9999999995e-6 * r15;
+    const double r440 = 0.9999999999500001 * r4 - 0.9999999999500001 * r5;
+    const double r444 = r440 - 9.9999999995e-6 * r10 - 9.9999999995e-6 * r11;
+    const double r453 = r175 + (r352 - r77 - r167 - r169 - r171 - r173), r456 = r453 - r177 - r179 - r181;
+    const double r462 = r201 + (r336 - r106 - r199) - r203 - r205 - r207, r465 = r462 - r209 - r211 - r213;
+    const double r470 = r248 + (r246 + (r244 + (r242 + (r240 + r419)))), r472 = r250 + r470 - 0.495;
+    const double r475 = 9.9999999995e-6 * r25 - 9.999999999000001e-11 * r26;
+    const double r479 = r475 + 9.9999999985e-11 * r28 + 9.999999999e-6 * r36;
+    const double r483 = r479 + 0.9999999999500001 * r37 + 0.9999999999000001 * r38;
+    const double r487 = 9.9999999995e-6 * r30 + 9.9999999985e-11 * r32;
+    const double r491 = r487 + 9.999999999e-6 * r39 + 0.9999999999000001 * r40;
+    const double r496 = 9.9999999995e-6 * r19 + 9.999999999000001e-11 * r20;
+    const double r500 = r496 + 9.9999999985e-11 * r23 + 9.999999999e-6 * r33;
+    const double r504 = r500 - 0.9999999999500001 * r34 + 0.9999999999000001 * r35;
+    const double r516 = 0.0 - (s1 * (r388 - r89) + c1 * (r60 + r391));
+    const double r517 = s1 * (r398 - 2e-5 * c1) + c1 * (r402 + 2e-5 * s1), r521 = c1 * r356, r522 = s1 * r356;
+    const double r538 = r142 - 9.999999999e-6 * r146 - 0.9999999999500001 * r149, r550 = s1 * r357 + c1 * r358;
+    const double r554 = c1 * r375, r555 = s1 * r375, r556 = c6 * r282 - s6 * r287, r558 = r273 - r278;
+    const double r584 = s1 * r556 + c1 * r558, r605 = 0.0 - c1 * r538, r608 = 0.0 - s1 * r538;
+    const double r612 = 0.0 - (s1 * r362 + c1 * r369);
     const Jacobian result = { {
-        {0.0 - r347, c1 * r356, r19 * r365, r101 * r374 - r102 * r373, r193 * r386 - r194 * r385, r232 * r398 - r237 * r397},
-        {r346, 0.0 - r1 * r356, 0.0 - r18 * r365, r102 * r372 - r100 * r374, r194 * r384 - r192 * r386, r237 * r396 - r227 * r398},
-        {0.0, r1 * (r347 - r10) - c1 * (r346 - r7), r18 * (r347 - r50) - r19 * (r346 - r49), r100 * r373 - r101 * r372, r192 * r385 - r193 * r384, r227 * r397 - r232 * r396},
-        {0.0 - r350, c1 * r351, r19 * r351, r101 * r351 - r102 * r350, r193 * r351 - r194 * r350, r232 * r351 - r237 * r350},
-        {r349, 0.0 - r1 * r351, 0.0 - r18 * r351, r102 * r349 - r100 * r351, r194 * r349 - r192 * r351, r237 * r349 - r227 * r351},
-        {0.0, r1 * r350 - c1 * r349, r18 * r350 - r19 * r349, r100 * r350 - r101 * r349, r192 * r350 - r193 * r349, r227 * r350 - r232 * r349},
-        {0.0 - r315, c1 * r318, r19 * r318, r101 * r318 - r102 * r315, r193 * r318 - r194 * r315, r232 * r318 - r237 * r315},
-        {r312, 0.0 - r1 * r318, 0.0 - r18 * r318, r102 * r312 - r100 * r318, r194 * r312 - r192 * r318, r237 * r312 - r227 * r318},
-        {0.0, r1 * r315 - c1 * r312, r18 * r315 - r19 * r312, r100 * r315 - r101 * r312, r192 * r315 - r193 * r312, r227 * r315 - r232 * r312},
-        {0.0 - r308, c1 * r309, r19 * r309, r101 * r309 - r102 * r308, r193 * r309 - r194 * r308, r232 * r309 - r237 * r308},
-        {r307, 0.0 - r1 * r309, 0.0 - r18 * r309, r102 * r307 - r100 * r309, r194 * r307 - r192 * r309, r237 * r307 - r227 * r309},
-        {0.0, r1 * r308 - c1 * r307, r18 * r308 - r19 * r307, r100 * r308 - r101 * r307, r192 * r308 - r193 * r307, r227 * r308 - r232 * r307},
+        {r335 - r334, c1 * r385, c1 * r395, r420 * r427 + r415 * r435, r472 * r483 + r465 * r491, 0.0},
+        {r352, s1 * r385, s1 * r395, 0.0 - (r410 * r435 + r420 * r444), 0.0 - (r456 * r491 + r472 * r504), 0.0},
+        {0.0, r516, 0.0 - r517, r415 * r444 - r410 * r427, r465 * r504 - r456 * r483, 0.0},
+        {r357, r521, r521, r427 * r356 - r435 * r357, r483 * r356 - r491 * r357, r356 * r362 - r357 * r538},
+        {0.0 - r358, r522, r522, r435 * r358 - r444 * r356, r491 * r358 - r504 * r356, r358 * r538 - r356 * r369},
+        {0.0, r550, r550, r427 * r358 - r444 * r357, r483 * r358 - r504 * r357, r358 * r362 - r357 * r369},
+        {r556, r554, r554, r427 * r375 - r435 * r556, r483 * r375 - r491 * r556, r362 * r375 - r538 * r556},
+        {r278 - r273, r555, r555, r435 * r558 - r444 * r375, r491 * r558 - r504 * r375, r538 * r558 - r369 * r375},
+        {0.0, r584, r584, r427 * r558 - r444 * r556, r483 * r558 - r504 * r556, r362 * r558 - r369 * r556},
+        {r361 - r360, r605, r605, r435 * r362 - r427 * r538, r491 * r362 - r483 * r538, 0.0},
+        {r369, r608, r608, r444 * r538 - r435 * r369, r504 * r538 - r491 * r369, 0.0},
+        {0.0, r612, r612, r444 * r362 - r427 * r369, r504 * r362 - r483 * r369, 0.0},
     } };
     return result;
 }
@@ -1176,16 +1251,16 @@ static const double SAMPLES_1[32][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r103;
-    double r104;
+    double r34;
+    double r35;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r105 = 0.0 - shared->r104, r107 = 0.0 - (-0.0 - shared->r103);
-    const double r111 = sqrt(fmax(r107 * r107 + r105 * r105, 0.0)), c6 = r107 / r111, s6 = r105 / r111;
+    const double r38 = shared->r35 * shared->r35 + shared->r34 * shared->r34, r39 = sqrt(fmax(r38, 0.0));
+    const double c6 = shared->r35 / r39, s6 = shared->r34 / r39;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1200,38 +1275,32 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: joint_6. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - p->r11_, r1 = 0.0 - p->r21_, r2 = 0.0 - p->r31_;
-    const double r9 = r0 * known->c1 + (0.0 - (0.0 - r1)) * known->s1;
-    const double r12 = r1 * known->c1 + (0.0 - r0) * known->s1, r14 = r2 + (r2 - r2) * known->c1;
-    const double r25 = r14 * known->c2 + (0.0 - (0.0 - r9)) * known->s2, r26 = r12 + (r12 - r12) * known->c2;
-    const double r28 = 0.0 - (r9 * known->c2 + (0.0 - r14) * known->s2);
-    const double r40 = 0.0 - (r25 * known->c3 + (0.0 - r28) * known->s3);
-    const double r46 = (r26 + (r26 - r26) * known->c3) * known->c4 + (0.0 - r40) * known->s4;
-    const double r52 = 0.0 - p->r12_, r53 = 0.0 - p->r22_, r54 = 0.0 - p->r32_;
-    const double r61 = r52 * known->c1 + (0.0 - (0.0 - r53)) * known->s1;
-    const double r64 = r53 * known->c1 + (0.0 - r52) * known->s1, r66 = r54 + (r54 - r54) * known->c1;
-    const double r77 = r66 * known->c2 + (0.0 - (0.0 - r61)) * known->s2, r78 = r64 + (r64 - r64) * known->c2;
-    const double r80 = 0.0 - (r61 * known->c2 + (0.0 - r66) * known->s2);
-    const double r92 = 0.0 - (r77 * known->c3 + (0.0 - r80) * known->s3);
-    const double r98 = (r78 + (r78 - r78) * known->c3) * known->c4 + (0.0 - r92) * known->s4, r103 = 0.0 - r98;
-    const double r104 = 0.0 - (0.0 - r46);
-    const Shared6 own = { r103, r104 };
+    const double r4 = p->r11_ * known->c1 + p->r21_ * known->s1;
+    const double r11 = known->c3 * (p->r31_ * known->c2 + known->s2 * r4);
+    const double r12 = known->s3 * (known->c2 * r4 - p->r31_ * known->s2);
+    const double r14 = known->c4 * (p->r21_ * known->c1 - p->r11_ * known->s1);
+    const double r21 = p->r12_ * known->c1 + p->r22_ * known->s1;
+    const double r28 = known->c3 * (p->r32_ * known->c2 + known->s2 * r21);
+    const double r29 = known->s3 * (known->c2 * r21 - p->r32_ * known->s2);
+    const double r31 = known->c4 * (p->r22_ * known->c1 - p->r12_ * known->s1);
+    const double r34 = r14 + known->s4 * (r11 + r12), r35 = r31 + known->s4 * (r28 + r29);
+    const Shared6 own = { r34, r35 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r51;
-    double r52;
+    double r19;
+    double r20;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r54 = 0.0 - (0.0 - shared->r52), r56 = 0.0 - (0.0 - shared->r51);
-    const double r60 = sqrt(fmax(r56 * r56 + r54 * r54, 0.0)), c5 = r56 / r60, s5 = r54 / r60;
+    const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20, r24 = sqrt(fmax(r23, 0.0));
+    const double c5 = shared->r19 / r24, s5 = shared->r20 / r24;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1243,23 +1312,20 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: joint_5. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - (0.0 - p->r23_)) * known->s1;
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1;
-    const double r11 = p->r33_ + (p->r33_ - p->r33_) * known->c1, r18 = r6 * known->c2 + (0.0 - r11) * known->s2;
-    const double r22 = r11 * known->c2 + (0.0 - (0.0 - r6)) * known->s2, r23 = r9 + (r9 - r9) * known->c2;
-    const double r34 = r22 * known->c3 + (0.0 - (0.0 - r18)) * known->s3;
-    const double r36 = 0.0 - (r18 * known->c3 + (0.0 - r22) * known->s3);
-    const double r46 = (0.0 - (r23 + (r23 - r23) * known->c3)) * known->s4, r51 = 0.0 - r36;
-    const double r52 = 0.0 - (0.0 - (0.0 - (r34 * known->c4 + r46)));
-    const Shared5 own = { r51, r52 };
+    const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1, r9 = known->c2 * r4 - p->r33_ * known->s2;
+    const double r11 = p->r33_ * known->c2 + known->s2 * r4;
+    const double r17 = known->c4 * (known->c3 * r11 + known->s3 * r9);
+    const double r18 = known->s4 * (p->r23_ * known->c1 - p->r13_ * known->s1);
+    const double r19 = known->c3 * r9 - known->s3 * r11, r20 = r18 - r17;
+    const Shared5 own = { r19, r20 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r39;
-    double r40;
+    double r13;
+    double r14;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1267,17 +1333,16 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r41 = shared->r39 * shared->r39, r42 = shared->r40 * shared->r40, r43 = r41 + r42;
-    if (!is_away(r43, 4240000.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
+    if (!is_away(r17, 4240000.0)) {
         return;
     }
-    const double r48 = 3162.2776601683795 * (known->f2 * (20.591260281974 * known->f1));
-    const double choice0_0[3] = {0.0 - r41 - r42, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, r48);
+    const double r22 = 3162.2776601683795 * (known->f2 * (20.591260281974 * known->f1));
+    const double choice0_0[3] = {0.0 - r15 - r16, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, r22);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r52 = (0.0 - (0.0 - shared->r39 * w4)) / r43;
-        const double r55 = (0.0 - shared->r40 * w4) / r43, r59 = sqrt(fmax(r55 * r55 + r52 * r52, 0.0));
-        const double c4 = r55 / r59, s4 = r52 / r59;
+        const double w4 = roots0.values[i0], r24 = w4 * shared->r13 / r17, r26 = w4 * shared->r14 / r17;
+        const double r30 = sqrt(fmax(r26 * r26 + r24 * r24, 0.0)), c4 = r26 / r30, s4 = r24 / r30;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1293,8 +1358,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r43 = shared->r39 * shared->r39 + shared->r40 * shared->r40;
-    if (!is_near(r43, 0.424)) {
+    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
+    if (!is_near(r17, 0.424)) {
         return;
     }
     for (size_t i0 = 0; i0 < 32; i0++) {
@@ -1312,14 +1377,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: joint_4. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - (0.0 - p->r23_)) * known->s1;
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1;
-    const double r11 = p->r33_ + (p->r33_ - p->r33_) * known->c1;
-    const double r22 = r11 * known->c2 + (0.0 - (0.0 - r6)) * known->s2, r23 = r9 + (r9 - r9) * known->c2;
-    const double r25 = 0.0 - (r6 * known->c2 + (0.0 - r11) * known->s2);
-    const double r37 = 0.0 - (r22 * known->c3 + (0.0 - r25) * known->s3);
-    const double r39 = 0.0 - (r23 + (r23 - r23) * known->c3), r40 = 0.0 - (0.0 - r37);
-    const Shared4 own = { r39, r40 };
+    const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1;
+    const double r11 = known->c3 * (p->r33_ * known->c2 + known->s2 * r4);
+    const double r12 = known->s3 * (known->c2 * r4 - p->r33_ * known->s2);
+    const double r13 = p->r13_ * known->s1 - p->r23_ * known->c1, r14 = r11 + r12;
+    const Shared4 own = { r13, r14 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1328,11 +1390,11 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 /* What the charts of block 3 share. */
 typedef struct {
     double r9;
-    double r34;
-    double r35;
-    double r36;
-    double r45;
-    double r46;
+    double r12;
+    double r15;
+    double r17;
+    double r21;
+    double r22;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1340,13 +1402,13 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r49 = shared->r9 * shared->r9 + shared->r35 * shared->r35;
-    if (!is_away(r49, 593980.2803052878)) {
+    const double r25 = shared->r9 * shared->r9 + shared->r12 * shared->r12;
+    if (!is_away(r25, 593980.2803052878)) {
         return;
     }
-    const double f2 = 1.0, r52 = shared->r35 * shared->r36 - shared->r9 * shared->r34, r54 = (0.0 - r52) / r49;
-    const double r58 = 0.0 - shared->r9 * shared->r36 - shared->r35 * shared->r34, r60 = (0.0 - r58) / r49;
-    const double r64 = sqrt(fmax(r60 * r60 + r54 * r54, 0.0)), c2 = r60 / r64, s2 = r54 / r64;
+    const double f2 = 1.0, r28 = shared->r9 * shared->r17 - shared->r12 * shared->r15, r29 = r28 / r25;
+    const double r33 = shared->r12 * shared->r17 - (0.0 - shared->r9 * shared->r15), r34 = r33 / r25;
+    const double r38 = sqrt(fmax(r34 * r34 + r29 * r29, 0.0)), c2 = r34 / r38, s2 = r29 / r38;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1362,8 +1424,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r49 = shared->r9 * shared->r9 + shared->r35 * shared->r35;
-    if (!(is_near(r49, 0.05939802803052878) && is_near(shared->r34, shared->r46) && is_near(shared->r36, shared->r45))) {
+    const double r25 = shared->r9 * shared->r9 + shared->r12 * shared->r12;
+    if (!(is_near(r25, 0.05939802803052878) && is_near(shared->r17, shared->r22) && is_near(shared->r15, shared->r21))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1383,16 +1445,14 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: joint_2. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = 0.9600082497039992 * known->c3 + 0.1750000000825 * known->s3;
-    const double r5 = 0.1750000000825 * known->c3 + -0.9600082497039992 * known->s3, r9 = r5 + 1.395 - 0.495;
-    const double r17 = 0.495 - (p->pz + -0.13500000019600084 * p->r33_);
-    const double r21 = 0.0 - (p->py + -0.13500000019600084 * p->r23_);
-    const double r24 = (p->px + -0.13500000019600084 * p->r13_) * known->c1;
-    const double r34 = -0.175 - (0.0 - (r24 + (0.0 - r21) * known->s1));
-    const double r35 = 0.0 - (0.0 - (r2 + 0.175 - 0.175)), r36 = 0.0 - r17;
-    const double r37 = p->magnitude + 5.545016499768999, r45 = fabs(0.0 - (r37 + 0.495));
-    const double r46 = fabs(r37 + r37 + 0.175);
-    const Shared3 own = { r9, r34, r35, r36, r45, r46 };
+    const double r2 = known->c1 * (p->px - 0.13500000019600084 * p->r13_);
+    const double r5 = known->s1 * (p->py - 0.13500000019600084 * p->r23_);
+    const double r8 = 0.1750000000825 * known->c3 - 0.9600082497039992 * known->s3, r9 = r8 + 0.9;
+    const double r12 = 0.9600082497039992 * known->c3 + 0.1750000000825 * known->s3;
+    const double r15 = p->pz - 0.13500000019600084 * p->r33_ - 0.495, r17 = r2 + r5 - 0.175;
+    const double r21 = fabs(p->magnitude + 6.040016499768999);
+    const double r22 = fabs(2.0 * p->magnitude + 11.265032999537999);
+    const Shared3 own = { r9, r12, r15, r17, r21, r22 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1400,23 +1460,23 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r51;
+    double r30;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r53 = shared->r51 * shared->r51 - 0.09922500009355499;
-    const double r56 = 3162.2776601683795 * (1.4142135623730951 * known->f1);
-    const double choice0_0[3] = {r53 - 2.9860353199791447, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, r56);
+    const double r32 = shared->r30 * shared->r30 - 0.09922500009355499;
+    const double r35 = 3162.2776601683795 * (1.4142135623730951 * known->f1);
+    const double choice0_0[3] = {r32 - 2.9860353199791447, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, r35);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r59 = -1.7280148494671985 * shared->r51 - 0.3150000001485 * w3;
-        const double r61 = (0.0 - r59) / 3.0852603200727;
-        const double r64 = -1.7280148494671985 * w3 + 0.3150000001485 * shared->r51;
-        const double r66 = (0.0 - r64) / 3.0852603200727, r70 = sqrt(fmax(r66 * r66 + r61 * r61, 0.0));
-        const double c3 = r66 / r70, s3 = r61 / r70;
+        const double w3 = roots0.values[i0];
+        const double r39 = 0.3150000001485 * w3 - (0.0 - 1.7280148494671985 * shared->r30);
+        const double r40 = r39 / 3.0852603200727, r43 = 1.7280148494671985 * w3 - 0.3150000001485 * shared->r30;
+        const double r44 = r43 / 3.0852603200727, r48 = sqrt(fmax(r44 * r44 + r40 * r40, 0.0)), c3 = r44 / r48;
+        const double s3 = r40 / r48;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1429,24 +1489,22 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: joint_3. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r3 = p->px + -0.13500000019600084 * p->r13_, r4 = p->py + -0.13500000019600084 * p->r23_;
-    const double r5 = p->pz + -0.13500000019600084 * p->r33_, r10 = p->px * r3 + p->py * r4 + p->pz * r5;
-    const double r16 = p->px * p->px + p->py * p->py + p->pz * p->pz, r19 = r5 - 0.495;
-    const double r26 = r3 * known->c1 + (0.0 - (0.0 - r4)) * known->s1;
-    const double r32 = r19 + (r19 - r19) * known->c1 + 0.495, r33 = 0.495 * r5;
-    const double r36 = r10 + r10 - r16 + 0.018225000052920222 - (r33 + r33 - 0.245025), r37 = 0.495 * r32;
-    const double r46 = 0.175 * (0.175 - r26) + 0.495 * (0.495 - r32);
-    const double r50 = r36 + (r37 + r37 - 0.245025) + r46 - (0.175 * r26 + r37), r51 = 1.762240839528611 - r50;
-    const Shared2 own = { r51 };
+    const double r1 = p->px - 0.13500000019600084 * p->r13_, r4 = p->py - 0.13500000019600084 * p->r23_;
+    const double r8 = p->pz * (p->pz - 0.13500000019600084 * p->r33_);
+    const double r18 = 2.0 * (p->px * r1) + 2.0 * (p->py * r4) + 2.0 * r8;
+    const double r21 = r18 - p->px * p->px - p->py * p->py - p->pz * p->pz;
+    const double r25 = r21 - 0.35 * (known->c1 * r1) - 0.35 * (known->s1 * r4);
+    const double r29 = r25 - 0.99 * p->pz + 0.13365000019404083 * p->r33_, r30 = 1.4683658394756909 - r29;
+    const Shared2 own = { r30 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r8;
-    double r12;
-    double r17;
+    double r1;
+    double r3;
+    double r5;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
@@ -1454,18 +1512,17 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r18 = shared->r8 * shared->r8, r19 = shared->r12 * shared->r12, r20 = r18 + r19;
-    const double r21 = shared->r17 * shared->r17, r22 = r21 + r21;
-    if (!is_away(r20, 10000.0 * r22)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 10000.0 * r10)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r18 - r19, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 3162.2776601683795 * sqrt(fmax(r22, 0.0)));
+    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, 3162.2776601683795 * sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r31 = (0.0 - (0.0 - shared->r8 * w1)) / r20;
-        const double r34 = (0.0 - shared->r12 * w1) / r20, r38 = sqrt(fmax(r34 * r34 + r31 * r31, 0.0));
-        const double c1 = r34 / r38, s1 = r31 / r38;
+        const double w1 = roots0.values[i0], r17 = w1 * shared->r1 / r8, r19 = w1 * shared->r3 / r8;
+        const double r23 = sqrt(fmax(r19 * r19 + r17 * r17, 0.0)), c1 = 0.0 - r19 / r23, s1 = r17 / r23;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1482,8 +1539,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
  */
 static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r20 = shared->r8 * shared->r8 + shared->r12 * shared->r12, r21 = shared->r17 * shared->r17;
-    if (!is_near(r20, 0.001 * (r21 + r21))) {
+    const double r8 = shared->r1 * shared->r1 + shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
+    if (!is_near(r8, 0.001 * (r9 + r9))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1503,10 +1560,9 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: joint_1. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r8 = 0.0 - (p->py + -0.13500000019600084 * p->r23_);
-    const double r10 = 0.0 - (p->px + -0.13500000019600084 * p->r13_), r12 = 0.0 - r10;
-    const double r17 = fabs(p->magnitude + 5.545016499768999);
-    const Shared1 own = { r8, r12, r17 };
+    const double r1 = 0.13500000019600084 * p->r23_ - p->py, r3 = p->px - 0.13500000019600084 * p->r13_;
+    const double r5 = fabs(p->magnitude + 5.545016499768999);
+    const Shared1 own = { r1, r3, r5 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);

@@ -464,41 +464,41 @@ const SAMPLES_1: [[f64; 2]; 32] = [
 
 /// Block 1: joint_1.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r8 = 0.0 - (p.py + -0.13500000019600084 * p.r23_);
-    let r12 = 0.0 - (0.0 - (p.px + -0.13500000019600084 * p.r13_));
-    let r17 = f64::abs(p.magnitude + 5.545016499768999);
-    let shared = &Shared1 { r8, r12, r17 };
+    let r1 = 0.13500000019600084 * p.r23_ - p.py;
+    let r3 = p.px - 0.13500000019600084 * p.r13_;
+    let r5 = f64::abs(p.magnitude + 5.545016499768999);
+    let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r8: f64,
-    r12: f64,
-    r17: f64,
+    r1: f64,
+    r3: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r18 = shared.r8 * shared.r8;
-    let r19 = shared.r12 * shared.r12;
-    let r20 = r18 + r19;
-    let r21 = shared.r17 * shared.r17;
-    let r22 = r21 + r21;
-    if !is_away(r20, 10000.0 * r22) {
+    let r6 = shared.r1 * shared.r1;
+    let r7 = shared.r3 * shared.r3;
+    let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5;
+    let r10 = r9 + r9;
+    if !is_away(r8, 10000.0 * r10) {
         return;
     }
     let f1 = 1.0;
-    let r27 = 3162.2776601683795 * f64::max(r22, 0.0).sqrt();
-    let roots0 = real_roots(&[0.0 - r18 - r19, 0.0, 1.0], r27);
+    let r15 = 3162.2776601683795 * f64::max(r10, 0.0).sqrt();
+    let roots0 = real_roots(&[0.0 - r6 - r7, 0.0, 1.0], r15);
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r31 = (0.0 - (0.0 - shared.r8 * w1)) / r20;
-        let r34 = (0.0 - shared.r12 * w1) / r20;
-        let r38 = f64::max(r34 * r34 + r31 * r31, 0.0).sqrt();
-        let c1 = r34 / r38;
-        let s1 = r31 / r38;
+        let r17 = w1 * shared.r1 / r8;
+        let r19 = w1 * shared.r3 / r8;
+        let r23 = f64::max(r19 * r19 + r17 * r17, 0.0).sqrt();
+        let c1 = 0.0 - r19 / r23;
+        let s1 = r17 / r23;
         let next = Known { branch: i0, last: 2, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -508,9 +508,9 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is near zero.
 /// Free: joint_1.
 fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r20 = shared.r8 * shared.r8 + shared.r12 * shared.r12;
-    let r21 = shared.r17 * shared.r17;
-    if !is_near(r20, 0.001 * (r21 + r21)) {
+    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
+    let r9 = shared.r5 * shared.r5;
+    if !is_near(r8, 0.001 * (r9 + r9)) {
         return;
     }
     let f1 = 1000000.0;
@@ -522,42 +522,35 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: joint_3.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = p.px + -0.13500000019600084 * p.r13_;
-    let r4 = p.py + -0.13500000019600084 * p.r23_;
-    let r5 = p.pz + -0.13500000019600084 * p.r33_;
-    let r10 = p.px * r3 + p.py * r4 + p.pz * r5;
-    let r17 = r10 + r10 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r19 = r5 - 0.495;
-    let r26 = r3 * known.c1 + (0.0 - (0.0 - r4)) * known.s1;
-    let r32 = r19 + (r19 - r19) * known.c1 + 0.495;
-    let r33 = 0.495 * r5;
-    let r36 = r17 + 0.018225000052920222 - (r33 + r33 - 0.245025);
-    let r37 = 0.495 * r32;
-    let r46 = 0.175 * (0.175 - r26) + 0.495 * (0.495 - r32);
-    let r50 = r36 + (r37 + r37 - 0.245025) + r46 - (0.175 * r26 + r37);
-    let r51 = 1.762240839528611 - r50;
-    let shared = &Shared2 { r51 };
+    let r1 = p.px - 0.13500000019600084 * p.r13_;
+    let r4 = p.py - 0.13500000019600084 * p.r23_;
+    let r17 = 2.0 * (p.pz * (p.pz - 0.13500000019600084 * p.r33_));
+    let r19 = 2.0 * (p.px * r1) + 2.0 * (p.py * r4) + r17 - p.px * p.px;
+    let r23 = r19 - p.py * p.py - p.pz * p.pz - 0.35 * (known.c1 * r1);
+    let r29 = r23 - 0.35 * (known.s1 * r4) - 0.99 * p.pz + 0.13365000019404083 * p.r33_;
+    let r30 = 1.4683658394756909 - r29;
+    let shared = &Shared2 { r30 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r51: f64,
+    r30: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r53 = shared.r51 * shared.r51 - 0.09922500009355499;
-    let r56 = 3162.2776601683795 * (1.4142135623730951 * known.f1);
-    let roots0 = real_roots(&[r53 - 2.9860353199791447, 0.0, 1.0], r56);
+    let r32 = shared.r30 * shared.r30 - 0.09922500009355499;
+    let r35 = 3162.2776601683795 * (1.4142135623730951 * known.f1);
+    let roots0 = real_roots(&[r32 - 2.9860353199791447, 0.0, 1.0], r35);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r59 = -1.7280148494671985 * shared.r51 - 0.3150000001485 * w3;
-        let r61 = (0.0 - r59) / 3.0852603200727;
-        let r64 = -1.7280148494671985 * w3 + 0.3150000001485 * shared.r51;
-        let r66 = (0.0 - r64) / 3.0852603200727;
-        let r70 = f64::max(r66 * r66 + r61 * r61, 0.0).sqrt();
-        let c3 = r66 / r70;
-        let s3 = r61 / r70;
+        let r39 = 0.3150000001485 * w3 - (0.0 - 1.7280148494671985 * shared.r30);
+        let r40 = r39 / 3.0852603200727;
+        let r43 = 1.7280148494671985 * w3 - 0.3150000001485 * shared.r30;
+        let r44 = r43 / 3.0852603200727;
+        let r48 = f64::max(r44 * r44 + r40 * r40, 0.0).sqrt();
+        let c3 = r44 / r48;
+        let s3 = r40 / r48;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -565,19 +558,16 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: joint_2.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.9600082497039992 * known.c3 + 0.1750000000825 * known.s3;
-    let r5 = 0.1750000000825 * known.c3 + -0.9600082497039992 * known.s3;
-    let r9 = r5 + 1.395 - 0.495;
-    let r17 = 0.495 - (p.pz + -0.13500000019600084 * p.r33_);
-    let r22 = 0.0 - (0.0 - (p.py + -0.13500000019600084 * p.r23_));
-    let r24 = (p.px + -0.13500000019600084 * p.r13_) * known.c1;
-    let r34 = -0.175 - (0.0 - (r24 + r22 * known.s1));
-    let r35 = 0.0 - (0.0 - (r2 + 0.175 - 0.175));
-    let r36 = 0.0 - r17;
-    let r37 = p.magnitude + 5.545016499768999;
-    let r45 = f64::abs(0.0 - (r37 + 0.495));
-    let r46 = f64::abs(r37 + r37 + 0.175);
-    let shared = &Shared3 { r9, r34, r35, r36, r45, r46 };
+    let r2 = known.c1 * (p.px - 0.13500000019600084 * p.r13_);
+    let r5 = known.s1 * (p.py - 0.13500000019600084 * p.r23_);
+    let r8 = 0.1750000000825 * known.c3 - 0.9600082497039992 * known.s3;
+    let r9 = r8 + 0.9;
+    let r12 = 0.9600082497039992 * known.c3 + 0.1750000000825 * known.s3;
+    let r15 = p.pz - 0.13500000019600084 * p.r33_ - 0.495;
+    let r17 = r2 + r5 - 0.175;
+    let r21 = f64::abs(p.magnitude + 6.040016499768999);
+    let r22 = f64::abs(2.0 * p.magnitude + 11.265032999537999);
+    let shared = &Shared3 { r9, r12, r15, r17, r21, r22 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -585,28 +575,28 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 /// What the charts of block 3 share.
 struct Shared3 {
     r9: f64,
-    r34: f64,
-    r35: f64,
-    r36: f64,
-    r45: f64,
-    r46: f64,
+    r12: f64,
+    r15: f64,
+    r17: f64,
+    r21: f64,
+    r22: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r49 = shared.r9 * shared.r9 + shared.r35 * shared.r35;
-    if !is_away(r49, 593980.2803052878) {
+    let r25 = shared.r9 * shared.r9 + shared.r12 * shared.r12;
+    if !is_away(r25, 593980.2803052878) {
         return;
     }
     let f2 = 1.0;
-    let r52 = shared.r35 * shared.r36 - shared.r9 * shared.r34;
-    let r54 = (0.0 - r52) / r49;
-    let r58 = 0.0 - shared.r9 * shared.r36 - shared.r35 * shared.r34;
-    let r60 = (0.0 - r58) / r49;
-    let r64 = f64::max(r60 * r60 + r54 * r54, 0.0).sqrt();
-    let c2 = r60 / r64;
-    let s2 = r54 / r64;
+    let r28 = shared.r9 * shared.r17 - shared.r12 * shared.r15;
+    let r29 = r28 / r25;
+    let r33 = shared.r12 * shared.r17 - (0.0 - shared.r9 * shared.r15);
+    let r34 = r33 / r25;
+    let r38 = f64::max(r34 * r34 + r29 * r29, 0.0).sqrt();
+    let c2 = r34 / r38;
+    let s2 = r29 / r38;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -615,8 +605,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: joint_2.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r49 = shared.r9 * shared.r9 + shared.r35 * shared.r35;
-    if !(is_near(r49, 0.05939802803052878) && is_near(shared.r34, shared.r46) && is_near(shared.r36, shared.r45)) {
+    let r25 = shared.r9 * shared.r9 + shared.r12 * shared.r12;
+    if !(is_near(r25, 0.05939802803052878) && is_near(shared.r17, shared.r22) && is_near(shared.r15, shared.r21)) {
         return;
     }
     let f2 = 1000000.0;
@@ -628,43 +618,39 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: joint_4.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - (0.0 - p.r23_)) * known.s1;
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r11 = p.r33_ + (p.r33_ - p.r33_) * known.c1;
-    let r22 = r11 * known.c2 + (0.0 - (0.0 - r6)) * known.s2;
-    let r23 = r9 + (r9 - r9) * known.c2;
-    let r25 = 0.0 - (r6 * known.c2 + (0.0 - r11) * known.s2);
-    let r37 = 0.0 - (r22 * known.c3 + (0.0 - r25) * known.s3);
-    let r39 = 0.0 - (r23 + (r23 - r23) * known.c3);
-    let r40 = 0.0 - (0.0 - r37);
-    let shared = &Shared4 { r39, r40 };
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let r11 = known.c3 * (p.r33_ * known.c2 + known.s2 * r4);
+    let r12 = known.s3 * (known.c2 * r4 - p.r33_ * known.s2);
+    let r13 = p.r13_ * known.s1 - p.r23_ * known.c1;
+    let r14 = r11 + r12;
+    let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r39: f64,
-    r40: f64,
+    r13: f64,
+    r14: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r41 = shared.r39 * shared.r39;
-    let r42 = shared.r40 * shared.r40;
-    let r43 = r41 + r42;
-    if !is_away(r43, 4240000.0) {
+    let r15 = shared.r13 * shared.r13;
+    let r16 = shared.r14 * shared.r14;
+    let r17 = r15 + r16;
+    if !is_away(r17, 4240000.0) {
         return;
     }
-    let r48 = 3162.2776601683795 * (known.f2 * (20.591260281974 * known.f1));
-    let roots0 = real_roots(&[0.0 - r41 - r42, 0.0, 1.0], r48);
+    let r22 = 3162.2776601683795 * (known.f2 * (20.591260281974 * known.f1));
+    let roots0 = real_roots(&[0.0 - r15 - r16, 0.0, 1.0], r22);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r52 = (0.0 - (0.0 - shared.r39 * w4)) / r43;
-        let r55 = (0.0 - shared.r40 * w4) / r43;
-        let r59 = f64::max(r55 * r55 + r52 * r52, 0.0).sqrt();
-        let c4 = r55 / r59;
-        let s4 = r52 / r59;
+        let r24 = w4 * shared.r13 / r17;
+        let r26 = w4 * shared.r14 / r17;
+        let r30 = f64::max(r26 * r26 + r24 * r24, 0.0).sqrt();
+        let c4 = r26 / r30;
+        let s4 = r24 / r30;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -674,8 +660,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: joint_4.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r43 = shared.r39 * shared.r39 + shared.r40 * shared.r40;
-    if !is_near(r43, 0.424) {
+    let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
+    if !is_near(r17, 0.424) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -686,81 +672,60 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: joint_5.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - (0.0 - p.r23_)) * known.s1;
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r11 = p.r33_ + (p.r33_ - p.r33_) * known.c1;
-    let r18 = r6 * known.c2 + (0.0 - r11) * known.s2;
-    let r22 = r11 * known.c2 + (0.0 - (0.0 - r6)) * known.s2;
-    let r23 = r9 + (r9 - r9) * known.c2;
-    let r34 = r22 * known.c3 + (0.0 - (0.0 - r18)) * known.s3;
-    let r36 = 0.0 - (r18 * known.c3 + (0.0 - r22) * known.s3);
-    let r46 = (0.0 - (r23 + (r23 - r23) * known.c3)) * known.s4;
-    let r51 = 0.0 - r36;
-    let r52 = 0.0 - (0.0 - (0.0 - (r34 * known.c4 + r46)));
-    let shared = &Shared5 { r51, r52 };
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let r9 = known.c2 * r4 - p.r33_ * known.s2;
+    let r11 = p.r33_ * known.c2 + known.s2 * r4;
+    let r18 = known.s4 * (p.r23_ * known.c1 - p.r13_ * known.s1);
+    let r19 = known.c3 * r9 - known.s3 * r11;
+    let r20 = r18 - known.c4 * (known.c3 * r11 + known.s3 * r9);
+    let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r51: f64,
-    r52: f64,
+    r19: f64,
+    r20: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r54 = 0.0 - (0.0 - shared.r52);
-    let r56 = 0.0 - (0.0 - shared.r51);
-    let r60 = f64::max(r56 * r56 + r54 * r54, 0.0).sqrt();
-    let c5 = r56 / r60;
-    let s5 = r54 / r60;
+    let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
+    let r24 = f64::max(r23, 0.0).sqrt();
+    let c5 = shared.r19 / r24;
+    let s5 = shared.r20 / r24;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: joint_6.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - p.r11_;
-    let r1 = 0.0 - p.r21_;
-    let r2 = 0.0 - p.r31_;
-    let r9 = r0 * known.c1 + (0.0 - (0.0 - r1)) * known.s1;
-    let r12 = r1 * known.c1 + (0.0 - r0) * known.s1;
-    let r14 = r2 + (r2 - r2) * known.c1;
-    let r25 = r14 * known.c2 + (0.0 - (0.0 - r9)) * known.s2;
-    let r26 = r12 + (r12 - r12) * known.c2;
-    let r28 = 0.0 - (r9 * known.c2 + (0.0 - r14) * known.s2);
-    let r40 = 0.0 - (r25 * known.c3 + (0.0 - r28) * known.s3);
-    let r46 = (r26 + (r26 - r26) * known.c3) * known.c4 + (0.0 - r40) * known.s4;
-    let r52 = 0.0 - p.r12_;
-    let r53 = 0.0 - p.r22_;
-    let r54 = 0.0 - p.r32_;
-    let r61 = r52 * known.c1 + (0.0 - (0.0 - r53)) * known.s1;
-    let r64 = r53 * known.c1 + (0.0 - r52) * known.s1;
-    let r66 = r54 + (r54 - r54) * known.c1;
-    let r77 = r66 * known.c2 + (0.0 - (0.0 - r61)) * known.s2;
-    let r78 = r64 + (r64 - r64) * known.c2;
-    let r80 = 0.0 - (r61 * known.c2 + (0.0 - r66) * known.s2);
-    let r92 = 0.0 - (r77 * known.c3 + (0.0 - r80) * known.s3);
-    let r98 = (r78 + (r78 - r78) * known.c3) * known.c4 + (0.0 - r92) * known.s4;
-    let r103 = 0.0 - r98;
-    let r104 = 0.0 - (0.0 - r46);
-    let shared = &Shared6 { r103, r104 };
+    let r4 = p.r11_ * known.c1 + p.r21_ * known.s1;
+    let r11 = known.c3 * (p.r31_ * known.c2 + known.s2 * r4);
+    let r12 = known.s3 * (known.c2 * r4 - p.r31_ * known.s2);
+    let r14 = known.c4 * (p.r21_ * known.c1 - p.r11_ * known.s1);
+    let r21 = p.r12_ * known.c1 + p.r22_ * known.s1;
+    let r28 = known.c3 * (p.r32_ * known.c2 + known.s2 * r21);
+    let r29 = known.s3 * (known.c2 * r21 - p.r32_ * known.s2);
+    let r31 = known.c4 * (p.r22_ * known.c1 - p.r12_ * known.s1);
+    let r34 = r14 + known.s4 * (r11 + r12);
+    let r35 = r31 + known.s4 * (r28 + r29);
+    let shared = &Shared6 { r34, r35 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r103: f64,
-    r104: f64,
+    r34: f64,
+    r35: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r105 = 0.0 - shared.r104;
-    let r107 = 0.0 - (-0.0 - shared.r103);
-    let r111 = f64::max(r107 * r107 + r105 * r105, 0.0).sqrt();
-    let c6 = r107 / r111;
-    let s6 = r105 / r111;
+    let r38 = shared.r35 * shared.r35 + shared.r34 * shared.r34;
+    let r39 = f64::max(r38, 0.0).sqrt();
+    let c6 = shared.r35 / r39;
+    let s6 = shared.r34 / r39;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -789,112 +754,159 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.495 * r2;
-    let r14 = c2 + (1.0 - c2);
-    let r15 = c1 * c2;
-    let r16 = s1 * c2;
-    let r17 = r2 * (0.0 - s2);
-    let r18 = r1 * r14;
-    let r19 = c1 * r14;
-    let r20 = c1 * s2;
-    let r21 = s1 * s2;
-    let r22 = r2 * c2;
-    let r23 = 0.175 * r15;
-    let r28 = 0.175 * r16;
-    let r33 = 0.175 * r17;
-    let r36 = 0.175 * c1 + 1e-5 * r1 - (r23 + 1e-5 * r18 + 0.495 * r20);
-    let r37 = 0.175 * s1 + 1e-5 * c1 - (r28 + 1e-5 * r19 + 0.495 * r21);
-    let r51 = 0.495 - r3 + r3 - (r33 + 0.495 * r22) + (r33 + 1.395 * r22);
-    let r53 = 0.0 - s3;
-    let r54 = c3 + (1.0 - c3);
-    let r57 = r15 * c3 + r20 * r53;
-    let r60 = r16 * c3 + r21 * r53;
-    let r63 = r17 * c3 + r22 * r53;
-    let r64 = r18 * r54;
-    let r65 = r19 * r54;
-    let r68 = r15 * s3 + r20 * c3;
-    let r71 = r16 * s3 + r21 * c3;
-    let r74 = r17 * s3 + r22 * c3;
-    let r88 = r36 + (r23 + 2e-5 * r18 + 1.395 * r20) - (0.175 * r57 + 2e-5 * r64 + 1.395 * r68);
-    let r89 = r37 + (r28 + 2e-5 * r19 + 1.395 * r21) - (0.175 * r60 + 2e-5 * r65 + 1.395 * r71);
-    let r116 = r88 + (0.17501 * r57 + 1e-5 * r64 + 1.57 * r68);
-    let r117 = r89 + (0.17501 * r60 + 1e-5 * r65 + 1.57 * r71);
-    let r118 = r51 - (0.175 * r63 + 1.395 * r74) + (0.17501 * r63 + 1.57 * r74);
-    let r119 = 9.9999999995e-6 * s4;
-    let r120 = 1.0 - c4;
-    let r122 = c4 + 0.9999999999 * r120;
-    let r123 = 0.0 - r119;
-    let r124 = -9.999999999e-6 * r120;
-    let r125 = 100000.0 * r119;
-    let r126 = -100000.0 * r119;
-    let r128 = c4 + 9.999999999e-11 * r120;
-    let r133 = r57 * r122 + r64 * r123 + r68 * r124;
-    let r138 = r60 * r122 + r65 * r123 + r71 * r124;
-    let r141 = r63 * r122 + r74 * r124;
-    let r146 = r57 * r119 + r64 * c4 + r68 * r125;
-    let r151 = r60 * r119 + r65 * c4 + r71 * r125;
-    let r154 = r63 * r119 + r74 * r125;
-    let r159 = r57 * r124 + r64 * r126 + r68 * r128;
-    let r164 = r60 * r124 + r65 * r126 + r71 * r128;
-    let r167 = r63 * r124 + r74 * r128;
-    let r183 = r116 - (0.17501 * r133 + 1e-5 * r146 + 1.57 * r159);
-    let r184 = r117 - (0.17501 * r138 + 1e-5 * r151 + 1.57 * r164);
-    let r185 = r118 - (0.17501 * r141 + 1e-5 * r154 + 1.57 * r167);
-    let r199 = 1.13501 * r133 + 2e-5 * r146 + 1.57001 * r159;
-    let r204 = 1.13501 * r138 + 2e-5 * r151 + 1.57001 * r164;
-    let r209 = 1.13501 * r141 + 2e-5 * r154 + 1.57001 * r167;
-    let r213 = 9.9999999995e-6 * s5;
-    let r214 = 1.0 - c5;
-    let r216 = c5 + 9.999999999e-11 * r214;
-    let r217 = 9.999999999e-6 * r214;
-    let r218 = -100000.0 * r213;
-    let r220 = c5 + 0.9999999999 * r214;
-    let r221 = 100000.0 * r213;
-    let r222 = 0.0 - r213;
-    let r227 = r133 * r216 + r146 * r217 + r159 * r218;
-    let r232 = r138 * r216 + r151 * r217 + r164 * r218;
-    let r237 = r141 * r216 + r154 * r217 + r167 * r218;
-    let r242 = r133 * r217 + r146 * r220 + r159 * r213;
-    let r247 = r138 * r217 + r151 * r220 + r164 * r213;
-    let r252 = r141 * r217 + r154 * r220 + r167 * r213;
-    let r257 = r133 * r221 + r146 * r222 + r159 * c5;
-    let r262 = r138 * r221 + r151 * r222 + r164 * c5;
-    let r267 = r141 * r221 + r154 * r222 + r167 * c5;
-    let r272 = 1.13501 * r227 + 2e-5 * r242 + 1.57001 * r257;
-    let r277 = 1.13501 * r232 + 2e-5 * r247 + 1.57001 * r262;
-    let r282 = 1.13501 * r237 + 2e-5 * r252 + 1.57001 * r267;
-    let r290 = 1.27001 * r227 + 1e-5 * r242 + 1.57002 * r257;
-    let r295 = 1.27001 * r232 + 1e-5 * r247 + 1.57002 * r262;
-    let r300 = 1.27001 * r237 + 1e-5 * r252 + 1.57002 * r267;
-    let r305 = c6 + (1.0 - c6);
-    let r306 = 0.0 - s6;
-    let r307 = r227 * r305;
-    let r308 = r232 * r305;
-    let r309 = r237 * r305;
-    let r312 = r242 * c6 + r257 * s6;
-    let r315 = r247 * c6 + r262 * s6;
-    let r318 = r252 * c6 + r267 * s6;
-    let r321 = r242 * r306 + r257 * c6;
-    let r324 = r247 * r306 + r262 * c6;
-    let r327 = r252 * r306 + r267 * c6;
-    let r332 = 1.27001 * r307 + 1e-5 * r312 + 1.57002 * r321;
-    let r337 = 1.27001 * r308 + 1e-5 * r315 + 1.57002 * r324;
-    let r342 = 1.27001 * r309 + 1e-5 * r318 + 1.57002 * r327;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r10 = s3 * r0;
+    let r11 = c3 * r2;
+    let r12 = s3 * r1;
+    let r13 = c3 * r3;
+    let r14 = s2 * s3;
+    let r15 = c2 * c3;
+    let r16 = r4 - r5;
+    let r18 = 9.999999999e-11 * c4 + 0.9999999999;
+    let r19 = r16 * r18;
+    let r20 = s1 * s4;
+    let r21 = r10 + r11;
+    let r22 = c4 - 1.0;
+    let r23 = r21 * r22;
+    let r24 = r6 - r7;
+    let r25 = r18 * r24;
+    let r26 = c1 * s4;
+    let r27 = r12 + r13;
+    let r28 = r22 * r27;
+    let r29 = r8 + r9;
+    let r30 = r18 * r29;
+    let r31 = r14 - r15;
+    let r32 = r22 * r31;
+    let r33 = s4 * r16;
+    let r34 = s1 * c4;
+    let r35 = s4 * r21;
+    let r36 = s4 * r24;
+    let r37 = c1 * c4;
+    let r38 = s4 * r27;
+    let r39 = s4 * r29;
+    let r40 = s4 * r31;
+    let r41 = r16 * r22;
+    let r43 = 0.9999999999 * c4 + 9.999999999e-11;
+    let r44 = r21 * r43;
+    let r45 = r22 * r24;
+    let r46 = r27 * r43;
+    let r47 = r22 * r29;
+    let r48 = r31 * r43;
+    let r55 = 0.175 * c1 + 0.9 * r2 + 1e-5 * r4 - 1e-5 * r5;
+    let r63 = r55 + 0.175 * r10 + 0.175 * r11 - 1e-5 * s1 - 0.17501 * r19;
+    let r67 = r63 - 1.5700017500215 * r20 - 1.75009999982499e-6 * r23;
+    let r71 = r67 - 9.999999999500001e-11 * r33 + 1e-5 * r34;
+    let r75 = r71 - 9.9999999995e-6 * r35 - 1.569999999843e-5 * r41;
+    let r84 = 0.175 * s1 + 0.9 * r3 + 1e-5 * r6 - 1e-5 * r7;
+    let r92 = r84 + 0.175 * r12 + 0.175 * r13 + 1e-5 * c1 - 0.17501 * r25;
+    let r96 = r92 + 1.5700017500215 * r26 - 1.75009999982499e-6 * r28;
+    let r100 = r96 - 9.999999999500001e-11 * r36 - 1e-5 * r37;
+    let r104 = r100 - 9.9999999995e-6 * r38 - 1.569999999843e-5 * r45;
+    let r110 = r19 + 9.9999999995e-6 * r20 + 9.999999999e-6 * r23;
+    let r112 = 0.9999999999 * c5 + 9.999999999e-11;
+    let r113 = r110 * r112;
+    let r117 = 9.9999999995e-6 * r33 - r34 + 0.9999999999500001 * r35;
+    let r118 = c5 - 1.0;
+    let r119 = r117 * r118;
+    let r122 = 9.999999999e-6 * r41 + 0.9999999999500001 * r20;
+    let r123 = r44 + r122;
+    let r124 = s5 * r123;
+    let r128 = r25 - 9.9999999995e-6 * r26 + 9.999999999e-6 * r28;
+    let r129 = r112 * r128;
+    let r133 = r37 + 9.9999999995e-6 * r36 + 0.9999999999500001 * r38;
+    let r134 = r118 * r133;
+    let r137 = 9.999999999e-6 * r45 - 0.9999999999500001 * r26;
+    let r138 = r46 + r137;
+    let r139 = s5 * r138;
+    let r141 = r30 + 9.999999999e-6 * r32;
+    let r142 = r112 * r141;
+    let r145 = 9.9999999995e-6 * r39 + 0.9999999999500001 * r40;
+    let r146 = r118 * r145;
+    let r148 = r48 + 9.999999999e-6 * r47;
+    let r149 = s5 * r148;
+    let r150 = r110 * r118;
+    let r152 = 9.999999999e-11 * c5 + 0.9999999999;
+    let r153 = r117 * r152;
+    let r154 = r118 * r128;
+    let r155 = r133 * r152;
+    let r156 = r118 * r141;
+    let r157 = r145 * r152;
+    let r158 = s5 * r110;
+    let r159 = s5 * r117;
+    let r160 = c5 * r123;
+    let r161 = s5 * r128;
+    let r162 = s5 * r133;
+    let r163 = c5 * r138;
+    let r164 = s5 * r141;
+    let r165 = s5 * r145;
+    let r166 = c5 * r148;
+    let r170 = r75 - 1.57 * r44 + 1.13501 * r19 + 1.570021350021499 * r20;
+    let r174 = r170 + 1.135009999886499e-5 * r23 + 1.9999999999000001e-10 * r33;
+    let r180 = r174 - 2e-5 * r34 + 1.9999999999e-5 * r35 + 1.570009999842999e-5 * r41;
+    let r186 = r180 + 1.57001 * r44 - 1.13501 * r113 + 1.135009999886499e-5 * r119;
+    let r190 = r186 + 1.1350099997432497 * r124 + 1.9999999998e-10 * r150;
+    let r194 = r190 - 2e-5 * r153 - 1.5700099999214996 * r158;
+    let r198 = r194 + 1.5700099999214996e-5 * r159 - 1.57001 * r160;
+    let r202 = r104 - 1.57 * r46 + 1.13501 * r25 - 1.570021350021499 * r26;
+    let r206 = r202 + 1.135009999886499e-5 * r28 + 1.9999999999000001e-10 * r36;
+    let r212 = r206 + 2e-5 * r37 + 1.9999999999e-5 * r38 + 1.570009999842999e-5 * r45;
+    let r218 = r212 + 1.57001 * r46 - 1.13501 * r129 + 1.135009999886499e-5 * r134;
+    let r222 = r218 + 1.1350099997432497 * r139 + 1.9999999998e-10 * r154;
+    let r226 = r222 - 2e-5 * r155 - 1.5700099999214996 * r161;
+    let r230 = r226 + 1.5700099999214996e-5 * r162 - 1.57001 * r163;
+    let r237 = 0.9 * c2 - 1e-5 * r8 - 1e-5 * r9 - 0.175 * r14;
+    let r243 = r237 + 0.175 * r15 - 0.96 * r30 - 9.59999999904e-6 * r32;
+    let r247 = r243 - 9.999999999500001e-11 * r39 - 9.9999999995e-6 * r40;
+    let r253 = r247 - 9.999999999e-11 * r47 - 1e-5 * r48 + 1.13501 * r142;
+    let r257 = r253 - 1.135009999886499e-5 * r146 - 1.1350099997432497 * r149;
+    let r263 = r257 - 1.9999999998e-10 * r156 + 2e-5 * r157 + 1.5700099999214996 * r164;
+    let r267 = r263 - 1.5700099999214996e-5 * r165 + 1.57001 * r166;
+    let r272 = 9.999999999e-6 * r150 - r153 - 9.9999999995e-6 * r124;
+    let r276 = 0.9999999999500001 * r158 - 9.9999999995e-6 * r159;
+    let r277 = r160 + r276;
+    let r282 = 9.999999999e-6 * r154 - r155 - 9.9999999995e-6 * r139;
+    let r286 = 0.9999999999500001 * r161 - 9.9999999995e-6 * r162;
+    let r287 = r163 + r286;
+    let r292 = 9.999999999e-6 * r156 - r157 - 9.9999999995e-6 * r149;
+    let r296 = 0.9999999999500001 * r164 - 9.9999999995e-6 * r165;
+    let r297 = r166 + r296;
+    let r308 = r267 + 0.495 + 1.2700099998364995 * r149 + 9.999999999e-11 * r156;
+    let r312 = r308 - 1e-5 * r157 - 1.5700199999214992 * r164;
+    let r316 = r312 + 1.570019999921499e-5 * r165 - 1.57002 * r166;
+    let r320 = r316 - 1.27001 * r142 + 1.270009999872999e-5 * r146;
+    let r324 = r230 - 1.2700099998364995 * r139 - 9.999999999e-11 * r154;
+    let r328 = r324 + 1e-5 * r155 + 1.5700199999214992 * r161;
+    let r332 = r328 - 1.570019999921499e-5 * r162 + 1.57002 * r163;
+    let r336 = r332 + 1.27001 * r129 - 1.270009999872999e-5 * r134;
+    let r340 = r198 - 1.2700099998364995 * r124 - 9.999999999e-11 * r150;
+    let r344 = r340 + 1e-5 * r153 + 1.5700199999214992 * r158;
+    let r348 = r344 - 1.570019999921499e-5 * r159 + 1.57002 * r160;
+    let r352 = r348 + 1.27001 * r113 - 1.270009999872999e-5 * r119;
+    let r362 = r129 - 9.999999999e-6 * r134 - 0.9999999999500001 * r139;
+    let r369 = r113 - 9.999999999e-6 * r119 - 0.9999999999500001 * r124;
+    let r383 = 0.9999999999500001 * r149 - (r142 - 9.999999999e-6 * r146);
     [
-        r183 + r199 - r272 + r290 - r332 + r332,
-        r184 + r204 - r277 + r295 - r337 + r337,
-        r185 + r209 - r282 + r300 - r342 + r342,
-        0.0 - r321,
-        0.0 - r324,
-        0.0 - r327,
-        r312,
-        r315,
-        r318,
-        r307,
-        r308,
-        r309,
+        r352,
+        r336,
+        r320,
+        0.0 - (s6 * r272 + c6 * r277),
+        0.0 - (s6 * r282 + c6 * r287),
+        s6 * r292 + c6 * r297,
+        s6 * r277 - c6 * r272,
+        s6 * r287 - c6 * r282,
+        c6 * r292 - s6 * r297,
+        r369,
+        r362,
+        r383,
     ]
 }
 
@@ -952,144 +964,248 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.495 * r2;
-    let r7 = 0.175 * c1 + 1e-5 * r1;
-    let r10 = 0.175 * s1 + 1e-5 * c1;
-    let r11 = 0.495 - r3 + r3;
-    let r14 = c2 + (1.0 - c2);
-    let r15 = c1 * c2;
-    let r16 = s1 * c2;
-    let r17 = r2 * (0.0 - s2);
-    let r18 = r1 * r14;
-    let r19 = c1 * r14;
-    let r20 = c1 * s2;
-    let r21 = s1 * s2;
-    let r22 = r2 * c2;
-    let r23 = 0.175 * r15;
-    let r28 = 0.175 * r16;
-    let r33 = 0.175 * r17;
-    let r49 = r7 - (r23 + 1e-5 * r18 + 0.495 * r20) + (r23 + 2e-5 * r18 + 1.395 * r20);
-    let r50 = r10 - (r28 + 1e-5 * r19 + 0.495 * r21) + (r28 + 2e-5 * r19 + 1.395 * r21);
-    let r51 = r11 - (r33 + 0.495 * r22) + (r33 + 1.395 * r22);
-    let r53 = 0.0 - s3;
-    let r54 = c3 + (1.0 - c3);
-    let r57 = r15 * c3 + r20 * r53;
-    let r60 = r16 * c3 + r21 * r53;
-    let r63 = r17 * c3 + r22 * r53;
-    let r64 = r18 * r54;
-    let r65 = r19 * r54;
-    let r68 = r15 * s3 + r20 * c3;
-    let r71 = r16 * s3 + r21 * c3;
-    let r74 = r17 * s3 + r22 * c3;
-    let r88 = r49 - (0.175 * r57 + 2e-5 * r64 + 1.395 * r68);
-    let r89 = r50 - (0.175 * r60 + 2e-5 * r65 + 1.395 * r71);
-    let r100 = 9.9999999995e-6 * (100000.0 * r57 + (0.0 - r68));
-    let r101 = 9.9999999995e-6 * (100000.0 * r60 + (0.0 - r71));
-    let r102 = 9.9999999995e-6 * (100000.0 * r63 + (0.0 - r74));
-    let r116 = r88 + (0.17501 * r57 + 1e-5 * r64 + 1.57 * r68);
-    let r117 = r89 + (0.17501 * r60 + 1e-5 * r65 + 1.57 * r71);
-    let r118 = r51 - (0.175 * r63 + 1.395 * r74) + (0.17501 * r63 + 1.57 * r74);
-    let r119 = 9.9999999995e-6 * s4;
-    let r120 = 1.0 - c4;
-    let r122 = c4 + 0.9999999999 * r120;
-    let r123 = 0.0 - r119;
-    let r124 = -9.999999999e-6 * r120;
-    let r125 = 100000.0 * r119;
-    let r126 = -100000.0 * r119;
-    let r128 = c4 + 9.999999999e-11 * r120;
-    let r133 = r57 * r122 + r64 * r123 + r68 * r124;
-    let r138 = r60 * r122 + r65 * r123 + r71 * r124;
-    let r141 = r63 * r122 + r74 * r124;
-    let r146 = r57 * r119 + r64 * c4 + r68 * r125;
-    let r151 = r60 * r119 + r65 * c4 + r71 * r125;
-    let r154 = r63 * r119 + r74 * r125;
-    let r159 = r57 * r124 + r64 * r126 + r68 * r128;
-    let r164 = r60 * r124 + r65 * r126 + r71 * r128;
-    let r167 = r63 * r124 + r74 * r128;
-    let r183 = r116 - (0.17501 * r133 + 1e-5 * r146 + 1.57 * r159);
-    let r184 = r117 - (0.17501 * r138 + 1e-5 * r151 + 1.57 * r164);
-    let r185 = r118 - (0.17501 * r141 + 1e-5 * r154 + 1.57 * r167);
-    let r192 = 9.9999999995e-6 * (r133 + 100000.0 * r146);
-    let r193 = 9.9999999995e-6 * (r138 + 100000.0 * r151);
-    let r194 = 9.9999999995e-6 * (r141 + 100000.0 * r154);
-    let r199 = 1.13501 * r133 + 2e-5 * r146 + 1.57001 * r159;
-    let r204 = 1.13501 * r138 + 2e-5 * r151 + 1.57001 * r164;
-    let r209 = 1.13501 * r141 + 2e-5 * r154 + 1.57001 * r167;
-    let r210 = r183 + r199;
-    let r211 = r184 + r204;
-    let r212 = r185 + r209;
-    let r213 = 9.9999999995e-6 * s5;
-    let r214 = 1.0 - c5;
-    let r216 = c5 + 9.999999999e-11 * r214;
-    let r217 = 9.999999999e-6 * r214;
-    let r218 = -100000.0 * r213;
-    let r220 = c5 + 0.9999999999 * r214;
-    let r221 = 100000.0 * r213;
-    let r222 = 0.0 - r213;
-    let r227 = r133 * r216 + r146 * r217 + r159 * r218;
-    let r232 = r138 * r216 + r151 * r217 + r164 * r218;
-    let r237 = r141 * r216 + r154 * r217 + r167 * r218;
-    let r242 = r133 * r217 + r146 * r220 + r159 * r213;
-    let r247 = r138 * r217 + r151 * r220 + r164 * r213;
-    let r252 = r141 * r217 + r154 * r220 + r167 * r213;
-    let r257 = r133 * r221 + r146 * r222 + r159 * c5;
-    let r262 = r138 * r221 + r151 * r222 + r164 * c5;
-    let r267 = r141 * r221 + r154 * r222 + r167 * c5;
-    let r272 = 1.13501 * r227 + 2e-5 * r242 + 1.57001 * r257;
-    let r277 = 1.13501 * r232 + 2e-5 * r247 + 1.57001 * r262;
-    let r282 = 1.13501 * r237 + 2e-5 * r252 + 1.57001 * r267;
-    let r290 = 1.27001 * r227 + 1e-5 * r242 + 1.57002 * r257;
-    let r295 = 1.27001 * r232 + 1e-5 * r247 + 1.57002 * r262;
-    let r300 = 1.27001 * r237 + 1e-5 * r252 + 1.57002 * r267;
-    let r301 = r210 - r272 + r290;
-    let r302 = r211 - r277 + r295;
-    let r303 = r212 - r282 + r300;
-    let r305 = c6 + (1.0 - c6);
-    let r306 = 0.0 - s6;
-    let r307 = r227 * r305;
-    let r308 = r232 * r305;
-    let r309 = r237 * r305;
-    let r312 = r242 * c6 + r257 * s6;
-    let r315 = r247 * c6 + r262 * s6;
-    let r318 = r252 * c6 + r267 * s6;
-    let r321 = r242 * r306 + r257 * c6;
-    let r324 = r247 * r306 + r262 * c6;
-    let r327 = r252 * r306 + r267 * c6;
-    let r332 = 1.27001 * r307 + 1e-5 * r312 + 1.57002 * r321;
-    let r337 = 1.27001 * r308 + 1e-5 * r315 + 1.57002 * r324;
-    let r342 = 1.27001 * r309 + 1e-5 * r318 + 1.57002 * r327;
-    let r346 = r301 - r332 + r332;
-    let r347 = r302 - r337 + r337;
-    let r348 = r303 - r342 + r342;
-    let r349 = 0.0 - r321;
-    let r350 = 0.0 - r324;
-    let r351 = 0.0 - r327;
-    let r356 = r348 - r11;
-    let r365 = r348 - r51;
-    let r372 = r346 - r116;
-    let r373 = r347 - r117;
-    let r374 = r348 - r118;
-    let r384 = r346 - r210;
-    let r385 = r347 - r211;
-    let r386 = r348 - r212;
-    let r396 = r346 - r301;
-    let r397 = r347 - r302;
-    let r398 = r348 - r303;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r10 = s3 * r0;
+    let r11 = c3 * r2;
+    let r12 = s3 * r1;
+    let r13 = c3 * r3;
+    let r14 = s2 * s3;
+    let r15 = c2 * c3;
+    let r16 = r4 - r5;
+    let r18 = 9.999999999e-11 * c4 + 0.9999999999;
+    let r19 = r16 * r18;
+    let r20 = s1 * s4;
+    let r21 = r10 + r11;
+    let r22 = c4 - 1.0;
+    let r23 = r21 * r22;
+    let r24 = r6 - r7;
+    let r25 = r18 * r24;
+    let r26 = c1 * s4;
+    let r27 = r12 + r13;
+    let r28 = r22 * r27;
+    let r29 = r8 + r9;
+    let r30 = r18 * r29;
+    let r31 = r14 - r15;
+    let r32 = r22 * r31;
+    let r33 = s4 * r16;
+    let r34 = s1 * c4;
+    let r35 = s4 * r21;
+    let r36 = s4 * r24;
+    let r37 = c1 * c4;
+    let r38 = s4 * r27;
+    let r39 = s4 * r29;
+    let r40 = s4 * r31;
+    let r41 = r16 * r22;
+    let r43 = 0.9999999999 * c4 + 9.999999999e-11;
+    let r44 = r21 * r43;
+    let r45 = r22 * r24;
+    let r46 = r27 * r43;
+    let r47 = r22 * r29;
+    let r48 = r31 * r43;
+    let r49 = 0.175 * c1;
+    let r50 = 0.9 * r2;
+    let r52 = 1e-5 * r4;
+    let r54 = 1e-5 * r5;
+    let r56 = 0.175 * r10;
+    let r58 = 0.175 * r11;
+    let r60 = 1e-5 * s1;
+    let r63 = r49 + r50 + r52 - r54 + r56 + r58 - r60 - 0.17501 * r19;
+    let r67 = r63 - 1.5700017500215 * r20 - 1.75009999982499e-6 * r23;
+    let r71 = r67 - 9.999999999500001e-11 * r33 + 1e-5 * r34;
+    let r75 = r71 - 9.9999999995e-6 * r35 - 1.569999999843e-5 * r41;
+    let r77 = r75 - 1.57 * r44;
+    let r78 = 0.175 * s1;
+    let r79 = 0.9 * r3;
+    let r81 = 1e-5 * r6;
+    let r83 = 1e-5 * r7;
+    let r85 = 0.175 * r12;
+    let r87 = 0.175 * r13;
+    let r89 = 1e-5 * c1;
+    let r92 = r78 + r79 + r81 - r83 + r85 + r87 + r89 - 0.17501 * r25;
+    let r96 = r92 + 1.5700017500215 * r26 - 1.75009999982499e-6 * r28;
+    let r100 = r96 - 9.999999999500001e-11 * r36 - 1e-5 * r37;
+    let r104 = r100 - 9.9999999995e-6 * r38 - 1.569999999843e-5 * r45;
+    let r106 = r104 - 1.57 * r46;
+    let r110 = r19 + 9.9999999995e-6 * r20 + 9.999999999e-6 * r23;
+    let r112 = 0.9999999999 * c5 + 9.999999999e-11;
+    let r113 = r110 * r112;
+    let r117 = 9.9999999995e-6 * r33 - r34 + 0.9999999999500001 * r35;
+    let r118 = c5 - 1.0;
+    let r119 = r117 * r118;
+    let r122 = 9.999999999e-6 * r41 + 0.9999999999500001 * r20;
+    let r123 = r44 + r122;
+    let r124 = s5 * r123;
+    let r128 = r25 - 9.9999999995e-6 * r26 + 9.999999999e-6 * r28;
+    let r129 = r112 * r128;
+    let r133 = r37 + 9.9999999995e-6 * r36 + 0.9999999999500001 * r38;
+    let r134 = r118 * r133;
+    let r137 = 9.999999999e-6 * r45 - 0.9999999999500001 * r26;
+    let r138 = r46 + r137;
+    let r139 = s5 * r138;
+    let r141 = r30 + 9.999999999e-6 * r32;
+    let r142 = r112 * r141;
+    let r145 = 9.9999999995e-6 * r39 + 0.9999999999500001 * r40;
+    let r146 = r118 * r145;
+    let r148 = r48 + 9.999999999e-6 * r47;
+    let r149 = s5 * r148;
+    let r150 = r110 * r118;
+    let r152 = 9.999999999e-11 * c5 + 0.9999999999;
+    let r153 = r117 * r152;
+    let r154 = r118 * r128;
+    let r155 = r133 * r152;
+    let r156 = r118 * r141;
+    let r157 = r145 * r152;
+    let r158 = s5 * r110;
+    let r159 = s5 * r117;
+    let r160 = c5 * r123;
+    let r161 = s5 * r128;
+    let r162 = s5 * r133;
+    let r163 = c5 * r138;
+    let r164 = s5 * r141;
+    let r165 = s5 * r145;
+    let r166 = c5 * r148;
+    let r167 = 1.13501 * r19;
+    let r169 = 1.570021350021499 * r20;
+    let r171 = 1.135009999886499e-5 * r23;
+    let r173 = 1.9999999999000001e-10 * r33;
+    let r175 = 2e-5 * r34;
+    let r177 = 1.9999999999e-5 * r35;
+    let r178 = r77 + r167 + r169 + r171 + r173 - r175 + r177;
+    let r179 = 1.570009999842999e-5 * r41;
+    let r181 = 1.57001 * r44;
+    let r186 = r178 + r179 + r181 - 1.13501 * r113 + 1.135009999886499e-5 * r119;
+    let r190 = r186 + 1.1350099997432497 * r124 + 1.9999999998e-10 * r150;
+    let r194 = r190 - 2e-5 * r153 - 1.5700099999214996 * r158;
+    let r198 = r194 + 1.5700099999214996e-5 * r159 - 1.57001 * r160;
+    let r199 = 1.13501 * r25;
+    let r201 = 1.570021350021499 * r26;
+    let r203 = 1.135009999886499e-5 * r28;
+    let r205 = 1.9999999999000001e-10 * r36;
+    let r207 = 2e-5 * r37;
+    let r209 = 1.9999999999e-5 * r38;
+    let r210 = r106 + r199 - r201 + r203 + r205 + r207 + r209;
+    let r211 = 1.570009999842999e-5 * r45;
+    let r213 = 1.57001 * r46;
+    let r218 = r210 + r211 + r213 - 1.13501 * r129 + 1.135009999886499e-5 * r134;
+    let r222 = r218 + 1.1350099997432497 * r139 + 1.9999999998e-10 * r154;
+    let r226 = r222 - 2e-5 * r155 - 1.5700099999214996 * r161;
+    let r230 = r226 + 1.5700099999214996e-5 * r162 - 1.57001 * r163;
+    let r231 = 0.9 * c2;
+    let r232 = 1e-5 * r8;
+    let r234 = 1e-5 * r9;
+    let r236 = 0.175 * r14;
+    let r238 = 0.175 * r15;
+    let r240 = 0.96 * r30;
+    let r242 = 9.59999999904e-6 * r32;
+    let r243 = r231 - r232 - r234 - r236 + r238 - r240 - r242;
+    let r244 = 9.999999999500001e-11 * r39;
+    let r246 = 9.9999999995e-6 * r40;
+    let r248 = 9.999999999e-11 * r47;
+    let r250 = 1e-5 * r48;
+    let r253 = r243 - r244 - r246 - r248 - r250 + 1.13501 * r142;
+    let r257 = r253 - 1.135009999886499e-5 * r146 - 1.1350099997432497 * r149;
+    let r263 = r257 - 1.9999999998e-10 * r156 + 2e-5 * r157 + 1.5700099999214996 * r164;
+    let r267 = r263 - 1.5700099999214996e-5 * r165 + 1.57001 * r166;
+    let r272 = 9.999999999e-6 * r150 - r153 - 9.9999999995e-6 * r124;
+    let r273 = c6 * r272;
+    let r276 = 0.9999999999500001 * r158 - 9.9999999995e-6 * r159;
+    let r277 = r160 + r276;
+    let r278 = s6 * r277;
+    let r282 = 9.999999999e-6 * r154 - r155 - 9.9999999995e-6 * r139;
+    let r286 = 0.9999999999500001 * r161 - 9.9999999995e-6 * r162;
+    let r287 = r163 + r286;
+    let r292 = 9.999999999e-6 * r156 - r157 - 9.9999999995e-6 * r149;
+    let r296 = 0.9999999999500001 * r164 - 9.9999999995e-6 * r165;
+    let r297 = r166 + r296;
+    let r308 = r267 + 0.495 + 1.2700099998364995 * r149 + 9.999999999e-11 * r156;
+    let r312 = r308 - 1e-5 * r157 - 1.5700199999214992 * r164;
+    let r316 = r312 + 1.570019999921499e-5 * r165 - 1.57002 * r166;
+    let r320 = r316 - 1.27001 * r142 + 1.270009999872999e-5 * r146;
+    let r324 = r230 - 1.2700099998364995 * r139 - 9.999999999e-11 * r154;
+    let r328 = r324 + 1e-5 * r155 + 1.5700199999214992 * r161;
+    let r332 = r328 - 1.570019999921499e-5 * r162 + 1.57002 * r163;
+    let r334 = r332 + 1.27001 * r129;
+    let r335 = 1.270009999872999e-5 * r134;
+    let r336 = r334 - r335;
+    let r340 = r198 - 1.2700099998364995 * r124 - 9.999999999e-11 * r150;
+    let r344 = r340 + 1e-5 * r153 + 1.5700199999214992 * r158;
+    let r348 = r344 - 1.570019999921499e-5 * r159 + 1.57002 * r160;
+    let r352 = r348 + 1.27001 * r113 - 1.270009999872999e-5 * r119;
+    let r356 = s6 * r292 + c6 * r297;
+    let r357 = s6 * r282 + c6 * r287;
+    let r358 = s6 * r272 + c6 * r277;
+    let r360 = r129 - 9.999999999e-6 * r134;
+    let r361 = 0.9999999999500001 * r139;
+    let r362 = r360 - r361;
+    let r369 = r113 - 9.999999999e-6 * r119 - 0.9999999999500001 * r124;
+    let r375 = c6 * r292 - s6 * r297;
+    let r385 = r320 - 0.495;
+    let r388 = r336 - r78;
+    let r391 = r352 - r49;
+    let r394 = r320 - r231;
+    let r395 = r394 - 0.495;
+    let r398 = r388 - r79;
+    let r402 = r391 - r50;
+    let r410 = r60 + (r54 + (r402 - r52) - r56 - r58);
+    let r415 = r83 + (r398 - r81) - r85 - r87 - r89;
+    let r419 = r236 + (r234 + (r232 + r394)) - r238;
+    let r420 = r419 - 0.495;
+    let r423 = 0.9999999999500001 * r6 - 0.9999999999500001 * r7;
+    let r427 = r423 - 9.9999999995e-6 * r12 - 9.9999999995e-6 * r13;
+    let r431 = 0.9999999999500001 * r8 + 0.9999999999500001 * r9;
+    let r435 = r431 - 9.9999999995e-6 * r14 + 9.9999999995e-6 * r15;
+    let r440 = 0.9999999999500001 * r4 - 0.9999999999500001 * r5;
+    let r444 = r440 - 9.9999999995e-6 * r10 - 9.9999999995e-6 * r11;
+    let r453 = r175 + (r352 - r77 - r167 - r169 - r171 - r173);
+    let r456 = r453 - r177 - r179 - r181;
+    let r462 = r201 + (r336 - r106 - r199) - r203 - r205 - r207;
+    let r465 = r462 - r209 - r211 - r213;
+    let r470 = r248 + (r246 + (r244 + (r242 + (r240 + r419))));
+    let r472 = r250 + r470 - 0.495;
+    let r475 = 9.9999999995e-6 * r25 - 9.999999999000001e-11 * r26;
+    let r479 = r475 + 9.9999999985e-11 * r28 + 9.999999999e-6 * r36;
+    let r483 = r479 + 0.9999999999500001 * r37 + 0.9999999999000001 * r38;
+    let r487 = 9.9999999995e-6 * r30 + 9.9999999985e-11 * r32;
+    let r491 = r487 + 9.999999999e-6 * r39 + 0.9999999999000001 * r40;
+    let r496 = 9.9999999995e-6 * r19 + 9.999999999000001e-11 * r20;
+    let r500 = r496 + 9.9999999985e-11 * r23 + 9.999999999e-6 * r33;
+    let r504 = r500 - 0.9999999999500001 * r34 + 0.9999999999000001 * r35;
+    let r516 = 0.0 - (s1 * (r388 - r89) + c1 * (r60 + r391));
+    let r517 = s1 * (r398 - 2e-5 * c1) + c1 * (r402 + 2e-5 * s1);
+    let r521 = c1 * r356;
+    let r522 = s1 * r356;
+    let r538 = r142 - 9.999999999e-6 * r146 - 0.9999999999500001 * r149;
+    let r550 = s1 * r357 + c1 * r358;
+    let r554 = c1 * r375;
+    let r555 = s1 * r375;
+    let r556 = c6 * r282 - s6 * r287;
+    let r558 = r273 - r278;
+    let r584 = s1 * r556 + c1 * r558;
+    let r605 = 0.0 - c1 * r538;
+    let r608 = 0.0 - s1 * r538;
+    let r612 = 0.0 - (s1 * r362 + c1 * r369);
     [
-        [0.0 - r347, c1 * r356, r19 * r365, r101 * r374 - r102 * r373, r193 * r386 - r194 * r385, r232 * r398 - r237 * r397],
-        [r346, 0.0 - r1 * r356, 0.0 - r18 * r365, r102 * r372 - r100 * r374, r194 * r384 - r192 * r386, r237 * r396 - r227 * r398],
-        [0.0, r1 * (r347 - r10) - c1 * (r346 - r7), r18 * (r347 - r50) - r19 * (r346 - r49), r100 * r373 - r101 * r372, r192 * r385 - r193 * r384, r227 * r397 - r232 * r396],
-        [0.0 - r350, c1 * r351, r19 * r351, r101 * r351 - r102 * r350, r193 * r351 - r194 * r350, r232 * r351 - r237 * r350],
-        [r349, 0.0 - r1 * r351, 0.0 - r18 * r351, r102 * r349 - r100 * r351, r194 * r349 - r192 * r351, r237 * r349 - r227 * r351],
-        [0.0, r1 * r350 - c1 * r349, r18 * r350 - r19 * r349, r100 * r350 - r101 * r349, r192 * r350 - r193 * r349, r227 * r350 - r232 * r349],
-        [0.0 - r315, c1 * r318, r19 * r318, r101 * r318 - r102 * r315, r193 * r318 - r194 * r315, r232 * r318 - r237 * r315],
-        [r312, 0.0 - r1 * r318, 0.0 - r18 * r318, r102 * r312 - r100 * r318, r194 * r312 - r192 * r318, r237 * r312 - r227 * r318],
-        [0.0, r1 * r315 - c1 * r312, r18 * r315 - r19 * r312, r100 * r315 - r101 * r312, r192 * r315 - r193 * r312, r227 * r315 - r232 * r312],
-        [0.0 - r308, c1 * r309, r19 * r309, r101 * r309 - r102 * r308, r193 * r309 - r194 * r308, r232 * r309 - r237 * r308],
-        [r307, 0.0 - r1 * r309, 0.0 - r18 * r309, r102 * r307 - r100 * r309, r194 * r307 - r192 * r309, r237 * r307 - r227 * r309],
-        [0.0, r1 * r308 - c1 * r307, r18 * r308 - r19 * r307, r100 * r308 - r101 * r307, r192 * r308 - r193 * r307, r227 * r308 - r232 * r307],
+        [r335 - r334, c1 * r385, c1 * r395, r420 * r427 + r415 * r435, r472 * r483 + r465 * r491, 0.0],
+        [r352, s1 * r385, s1 * r395, 0.0 - (r410 * r435 + r420 * r444), 0.0 - (r456 * r491 + r472 * r504), 0.0],
+        [0.0, r516, 0.0 - r517, r415 * r444 - r410 * r427, r465 * r504 - r456 * r483, 0.0],
+        [r357, r521, r521, r427 * r356 - r435 * r357, r483 * r356 - r491 * r357, r356 * r362 - r357 * r538],
+        [0.0 - r358, r522, r522, r435 * r358 - r444 * r356, r491 * r358 - r504 * r356, r358 * r538 - r356 * r369],
+        [0.0, r550, r550, r427 * r358 - r444 * r357, r483 * r358 - r504 * r357, r358 * r362 - r357 * r369],
+        [r556, r554, r554, r427 * r375 - r435 * r556, r483 * r375 - r491 * r556, r362 * r375 - r538 * r556],
+        [r278 - r273, r555, r555, r435 * r558 - r444 * r375, r491 * r558 - r504 * r375, r538 * r558 - r369 * r375],
+        [0.0, r584, r584, r427 * r558 - r444 * r556, r483 * r558 - r504 * r556, r362 * r558 - r369 * r556],
+        [r361 - r360, r605, r605, r435 * r362 - r427 * r538, r491 * r362 - r483 * r538, 0.0],
+        [r369, r608, r608, r444 * r538 - r435 * r369, r504 * r538 - r491 * r369, 0.0],
+        [0.0, r612, r612, r444 * r362 - r427 * r369, r504 * r362 - r483 * r369, 0.0],
     ]
 }
 

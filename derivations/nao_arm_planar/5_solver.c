@@ -273,7 +273,7 @@ static void tip(const double *q, double *reached)
 {
     const double c4 = cos(q[1]), c2 = cos(q[0]), s4 = sin(q[1]), s2 = sin(q[0]);
     reached[0] = 105.0 * c2 + 113.7 * s4;
-    reached[1] = 113.7 * c4 + 105.0 * s2;
+    reached[1] = 105.0 * s2 + 113.7 * c4;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -309,8 +309,8 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c4 = cos(q[1]), c2 = cos(q[0]), s4 = sin(q[1]), s2 = sin(q[0]);
     const Jacobian result = { {
-        {-105.0 * s2, 113.7 * c4},
-        {105.0 * c2, -113.7 * s4},
+        {0.0 - 105.0 * s2, 113.7 * c4},
+        {105.0 * c2, 0.0 - 113.7 * s4},
     } };
     return result;
 }
@@ -894,7 +894,8 @@ static void chart_1_2(const Parameters *p, Answers *answers)
     const double choice0_0[3] = {r8, 0.0, 517107600.0 * r0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double s4 = roots0.values[i0], c2 = -379.0 * s4 / 350.0, c4 = (r1 + 190269.0) / (22740.0 * p->py);
+        const double s4 = roots0.values[i0], c2 = 0.0 - 379.0 * s4 / 350.0;
+        const double c4 = (r1 + 190269.0) / (22740.0 * p->py);
         const double q[JOINTS] = {angle(c2, s2), angle(c4, s4)};
         finish(p, 2 + i0, 4, q, NONE_FREE, answers);
     }

@@ -321,7 +321,7 @@ fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
     let r8 = r0 * (10000.0 * r0 - 479053800.0) + 36202292361.0;
     let roots0 = real_roots(&[r8, 0.0, 517107600.0 * r0], 1.0);
     for (i0, &s4) in roots0.as_slice().iter().enumerate() {
-        let c2 = -379.0 * s4 / 350.0;
+        let c2 = 0.0 - 379.0 * s4 / 350.0;
         let c4 = (r1 + 190269.0) / (22740.0 * p.py);
         let q = [angle(c2, s2), angle(c4, s4)];
         answers.finish(p, 2 + i0, 4, q, NONE_FREE);
@@ -339,7 +339,7 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s2 = q[0].sin();
     [
         105.0 * c2 + 113.7 * s4,
-        113.7 * c4 + 105.0 * s2,
+        105.0 * s2 + 113.7 * c4,
     ]
 }
 
@@ -370,8 +370,8 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s4 = q[1].sin();
     let s2 = q[0].sin();
     [
-        [-105.0 * s2, 113.7 * c4],
-        [105.0 * c2, -113.7 * s4],
+        [0.0 - 105.0 * s2, 113.7 * c4],
+        [105.0 * c2, 0.0 - 113.7 * s4],
     ]
 }
 

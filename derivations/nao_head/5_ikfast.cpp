@@ -267,7 +267,7 @@ static void tip(const double *q, double *reached)
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]);
     reached[0] = c1 * c2;
     reached[1] = s1 * c2;
-    reached[2] = (c1 + (1.0 - c1)) * (0.0 - s2);
+    reached[2] = 0.0 - s2;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -303,12 +303,11 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), r1 = 0.0 - s1, r9 = c1 * c2;
-    const double r10 = s1 * c2, r11 = (c1 + (1.0 - c1)) * (0.0 - s2);
+    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), r0 = c1 * c2, r1 = s1 * c2;
     const Jacobian result = { {
-        {0.0 - r10, c1 * r11},
-        {r9, 0.0 - r1 * r11},
-        {0.0, r1 * r10 - c1 * r9},
+        {0.0 - r1, 0.0 - c1 * s2},
+        {r0, 0.0 - s1 * s2},
+        {0.0, 0.0 - (s1 * r1 + c1 * r0)},
     } };
     return result;
 }
@@ -1008,16 +1007,15 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r14;
-    double r15;
+    double r2;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r16 = 0.0 - shared->r15, r18 = 0.0 - (-0.0 - shared->r14);
-    const double r22 = sqrt(fmax(r18 * r18 + r16 * r16, 0.0)), c2 = r18 / r22, s2 = r16 / r22;
+    const double r6 = sqrt(fmax(shared->r2 * shared->r2 + p->dz * p->dz, 0.0)), c2 = shared->r2 / r6;
+    const double s2 = 0.0 - p->dz / r6;
     const double q[JOINTS] = {angle(known->c1, known->s1), angle(c2, s2)};
     finish(p, known->branch, known->last, q, known->free, answers);
 }
@@ -1025,34 +1023,26 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: HeadPitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r7 = p->dx * known->c1 + (0.0 - (0.0 - p->dy)) * known->s1, r14 = 0.0 - (0.0 - r7);
-    const double r15 = 0.0 - (0.0 - p->dz);
-    const Shared2 own = { r14, r15 };
+    const double r2 = p->dx * known->c1 + p->dy * known->s1;
+    const Shared2 own = { r2 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
-/* What the charts of block 1 share. */
-typedef struct {
-    double r1;
-    double r4;
-} Shared1;
-
 /* Chart 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r5 = shared->r1 * shared->r1, r6 = shared->r4 * shared->r4, r7 = r5 + r6;
-    if (!is_away(r7, 20000.0)) {
+    const double r0 = p->dy * p->dy, r1 = p->dx * p->dx, r2 = r0 + r1;
+    if (!is_away(r2, 20000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r5 - r6, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r0 - r1, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r13 = (0.0 - (0.0 - shared->r1 * w1)) / r7;
-        const double r16 = (0.0 - shared->r4 * w1) / r7, r20 = sqrt(fmax(r16 * r16 + r13 * r13, 0.0));
-        const double c1 = r16 / r20, s1 = r13 / r20;
+        const double w1 = roots0.values[i0], r6 = p->dy * w1 / r2, r8 = p->dx * w1 / r2;
+        const double r12 = sqrt(fmax(r8 * r8 + r6 * r6, 0.0)), c1 = 0.0 - r8 / r12, s1 = 0.0 - r6 / r12;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1066,10 +1056,9 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
  * It runs where A^2 + B^2 is near zero.
  * Free: HeadYaw.
  */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_2(const Parameters *p, Answers *answers)
 {
-    const double r7 = shared->r1 * shared->r1 + shared->r4 * shared->r4;
-    if (!is_near(r7, 2.0000000000000002e-7)) {
+    if (!is_near(p->dy * p->dy + p->dx * p->dx, 2.0000000000000002e-7)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1087,11 +1076,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: HeadYaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r1 = 0.0 - p->dy, r4 = 0.0 - (0.0 - p->dx);
-    const Shared1 own = { r1, r4 };
-    const Shared1 *const shared = &own;
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
+    chart_1_1(p, answers);
+    chart_1_2(p, answers);
 }
 
 static double dot(const double *a, const double *b)

@@ -365,35 +365,26 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: HeadYaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - p.dy;
-    let r4 = 0.0 - (0.0 - p.dx);
-    let shared = &Shared1 { r1, r4 };
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
-}
-
-/// What the charts of block 1 share.
-struct Shared1 {
-    r1: f64,
-    r4: f64,
+    chart_1_1(p, answers);
+    chart_1_2(p, answers);
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r5 = shared.r1 * shared.r1;
-    let r6 = shared.r4 * shared.r4;
-    let r7 = r5 + r6;
-    if !is_away(r7, 20000.0) {
+fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let r0 = p.dy * p.dy;
+    let r1 = p.dx * p.dx;
+    let r2 = r0 + r1;
+    if !is_away(r2, 20000.0) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r5 - r6, 0.0, 1.0], 1.4142135623730951);
+    let roots0 = real_roots(&[0.0 - r0 - r1, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r13 = (0.0 - (0.0 - shared.r1 * w1)) / r7;
-        let r16 = (0.0 - shared.r4 * w1) / r7;
-        let r20 = f64::max(r16 * r16 + r13 * r13, 0.0).sqrt();
-        let c1 = r16 / r20;
-        let s1 = r13 / r20;
+        let r6 = p.dy * w1 / r2;
+        let r8 = p.dx * w1 / r2;
+        let r12 = f64::max(r8 * r8 + r6 * r6, 0.0).sqrt();
+        let c1 = 0.0 - r8 / r12;
+        let s1 = 0.0 - r6 / r12;
         let next = Known { branch: i0, last: 2, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -402,9 +393,8 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 2 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HeadYaw.
-fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r7 = shared.r1 * shared.r1 + shared.r4 * shared.r4;
-    if !is_near(r7, 2.0000000000000002e-7) {
+fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
+    if !is_near(p.dy * p.dy + p.dx * p.dx, 2.0000000000000002e-7) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -415,26 +405,21 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: HeadPitch.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r7 = p.dx * known.c1 + (0.0 - (0.0 - p.dy)) * known.s1;
-    let r14 = 0.0 - (0.0 - r7);
-    let r15 = 0.0 - (0.0 - p.dz);
-    let shared = &Shared2 { r14, r15 };
+    let r2 = p.dx * known.c1 + p.dy * known.s1;
+    let shared = &Shared2 { r2 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r14: f64,
-    r15: f64,
+    r2: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r16 = 0.0 - shared.r15;
-    let r18 = 0.0 - (-0.0 - shared.r14);
-    let r22 = f64::max(r18 * r18 + r16 * r16, 0.0).sqrt();
-    let c2 = r18 / r22;
-    let s2 = r16 / r22;
+    let r6 = f64::max(shared.r2 * shared.r2 + p.dz * p.dz, 0.0).sqrt();
+    let c2 = shared.r2 / r6;
+    let s2 = 0.0 - p.dz / r6;
     let q = [angle(known.c1, known.s1), angle(c2, s2)];
     answers.finish(p, known.branch, known.last, q, known.free);
 }
@@ -451,7 +436,7 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     [
         c1 * c2,
         s1 * c2,
-        (c1 + (1.0 - c1)) * (0.0 - s2),
+        0.0 - s2,
     ]
 }
 
@@ -483,14 +468,12 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s1 = q[0].sin();
     let c2 = q[1].cos();
     let s2 = q[1].sin();
-    let r1 = 0.0 - s1;
-    let r9 = c1 * c2;
-    let r10 = s1 * c2;
-    let r11 = (c1 + (1.0 - c1)) * (0.0 - s2);
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
     [
-        [0.0 - r10, c1 * r11],
-        [r9, 0.0 - r1 * r11],
-        [0.0, r1 * r10 - c1 * r9],
+        [0.0 - r1, 0.0 - c1 * s2],
+        [r0, 0.0 - s1 * s2],
+        [0.0, 0.0 - (s1 * r1 + c1 * r0)],
     ]
 }
 

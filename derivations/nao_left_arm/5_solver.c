@@ -297,41 +297,21 @@ static Parameters parameters(const double *target)
 static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), r1 = 0.0 - s1;
-    const double r2 = c1 + (1.0 - c1), r3 = 0.1 * s1, r4 = 0.098 * r2, r5 = 0.1 * c1, r13 = 0.0 - s2;
-    const double r14 = c2 + (1.0 - c2), r15 = c1 * c2, r16 = r2 * s2, r17 = r1 * c2, r18 = c1 * r13;
-    const double r19 = r2 * c2, r20 = r1 * r13, r21 = s1 * r14, r22 = c1 * r14, r24 = 0.1 * r21, r28 = 0.1 * r22;
-    const double r44 = 0.0 - r3 + r3 - (0.098 * r18 + r24) + (0.105 * r15 + 0.113 * r18 + r24);
-    const double r45 = 0.098 - r4 + r4 - 0.098 * r19 + (0.105 * r16 + 0.113 * r19);
-    const double r46 = 0.1 - r5 + r5 - (0.098 * r20 + r28) + (0.105 * r17 + 0.113 * r20 + r28);
-    const double r48 = c3 + (1.0 - c3), r49 = 0.0 - s3, r50 = r15 * r48, r51 = r16 * r48, r52 = r17 * r48;
-    const double r55 = r18 * c3 + r21 * s3, r56 = r19 * c3, r59 = r20 * c3 + r22 * s3;
-    const double r62 = r18 * r49 + r21 * c3, r63 = r19 * r49, r66 = r20 * r49 + r22 * c3;
-    const double r71 = 0.105 * r50 + 0.113 * r55 + 0.1 * r62, r76 = 0.105 * r51 + 0.113 * r56 + 0.1 * r63;
-    const double r81 = 0.105 * r52 + 0.113 * r59 + 0.1 * r66, r89 = 0.0 - s4, r90 = c4 + (1.0 - c4);
-    const double r93 = r50 * c4 + r55 * s4, r96 = r51 * c4 + r56 * s4, r99 = r52 * c4 + r59 * s4;
-    const double r102 = r50 * r89 + r55 * c4, r105 = r51 * r89 + r56 * c4, r108 = r52 * r89 + r59 * c4;
-    const double r109 = r62 * r90, r110 = r63 * r90, r111 = r66 * r90, r113 = 0.113 * r102, r115 = 0.1 * r109;
-    const double r118 = 0.113 * r105, r120 = 0.1 * r110, r123 = 0.113 * r108, r125 = 0.1 * r111;
-    const double r127 = r44 - r71 + r71 - (0.105 * r93 + r113 + r115);
-    const double r128 = r45 - r76 + r76 - (0.105 * r96 + r118 + r120);
-    const double r129 = r46 - r81 + r81 - (0.105 * r99 + r123 + r125), r143 = c5 + (1.0 - c5), r144 = 0.0 - s5;
-    const double r145 = r93 * r143, r146 = r96 * r143, r147 = r99 * r143, r159 = r102 * r144 + r109 * c5;
-    const double r162 = r105 * r144 + r110 * c5, r165 = r108 * r144 + r111 * c5;
-    const double r167 = 0.113 * (r102 * c5 + r109 * s5), r172 = 0.113 * (r105 * c5 + r110 * s5);
-    const double r177 = 0.113 * (r108 * c5 + r111 * s5);
-    const double r181 = r127 + (0.16095 * r93 + r113 + r115) - (0.16095 * r145 + r167 + 0.1 * r159);
-    const double r182 = r128 + (0.16095 * r96 + r118 + r120) - (0.16095 * r146 + r172 + 0.1 * r162);
-    const double r183 = r129 + (0.16095 * r99 + r123 + r125) - (0.16095 * r147 + r177 + 0.1 * r165);
-    const double r196 = r181 + (0.2187 * r145 + r167 + 0.08769 * r159);
-    const double r197 = r182 + (0.2187 * r146 + r172 + 0.08769 * r162);
-    const double r198 = r183 + (0.2187 * r147 + r177 + 0.08769 * r165);
-    reached[0] = r196;
-    reached[1] = r197;
-    reached[2] = r198;
-    reached[3] = r145;
-    reached[4] = r146;
-    reached[5] = r147;
+    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r6 = c2 * c3, r14 = c4 * r0, r15 = c3 * r2 - s1 * s3;
+    const double r16 = s4 * r15, r17 = s2 * c4, r18 = s4 * r6, r19 = c4 * r1, r20 = c3 * r3 + c1 * s3;
+    const double r21 = s4 * r20, r45 = 0.015 * c2 + 0.105 * s2 + 0.1137 * r17 + 0.1137 * r18;
+    const double r49 = r45 - 0.01231 * (s5 * (s2 * s4 - c4 * r6)) + 0.01231 * (c5 * (c2 * s3));
+    const double r56 = 0.015 * r2 - 0.105 * r0 - 0.1137 * r14 + 0.1137 * r16;
+    const double r60 = r56 + 0.01231 * (s5 * (s4 * r0 + c4 * r15)) + 0.01231 * (c5 * (s3 * r2 + s1 * c3));
+    const double r67 = 0.015 * r3 - 0.105 * r1 - 0.1137 * r19 + 0.1137 * r21;
+    const double r71 = r67 + 0.01231 * (s5 * (s4 * r1 + c4 * r20)) + 0.01231 * (c5 * (s3 * r3 - c1 * c3));
+    reached[0] = 0.0 - r60;
+    reached[1] = r49 + 0.098;
+    reached[2] = r71 + 0.1;
+    reached[3] = r14 - r16;
+    reached[4] = r17 + r18;
+    reached[5] = r21 - r19;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -374,44 +354,27 @@ static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), r1 = 0.0 - s1;
-    const double r2 = c1 + (1.0 - c1), r3 = 0.1 * s1, r4 = 0.098 * r2, r5 = 0.1 * c1, r9 = 0.0 - r3 + r3;
-    const double r10 = 0.098 - r4 + r4, r11 = 0.1 - r5 + r5, r13 = 0.0 - s2, r14 = c2 + (1.0 - c2);
-    const double r15 = c1 * c2, r16 = r2 * s2, r17 = r1 * c2, r18 = c1 * r13, r19 = r2 * c2, r20 = r1 * r13;
-    const double r21 = s1 * r14, r22 = c1 * r14, r24 = 0.1 * r21, r28 = 0.1 * r22;
-    const double r44 = r9 - (0.098 * r18 + r24) + (0.105 * r15 + 0.113 * r18 + r24);
-    const double r45 = r10 - 0.098 * r19 + (0.105 * r16 + 0.113 * r19);
-    const double r46 = r11 - (0.098 * r20 + r28) + (0.105 * r17 + 0.113 * r20 + r28), r48 = c3 + (1.0 - c3);
-    const double r49 = 0.0 - s3, r50 = r15 * r48, r51 = r16 * r48, r52 = r17 * r48, r55 = r18 * c3 + r21 * s3;
-    const double r56 = r19 * c3, r59 = r20 * c3 + r22 * s3, r62 = r18 * r49 + r21 * c3, r63 = r19 * r49;
-    const double r66 = r20 * r49 + r22 * c3, r71 = 0.105 * r50 + 0.113 * r55 + 0.1 * r62;
-    const double r76 = 0.105 * r51 + 0.113 * r56 + 0.1 * r63, r81 = 0.105 * r52 + 0.113 * r59 + 0.1 * r66;
-    const double r85 = r44 - r71 + r71, r86 = r45 - r76 + r76, r87 = r46 - r81 + r81, r89 = 0.0 - s4;
-    const double r90 = c4 + (1.0 - c4), r93 = r50 * c4 + r55 * s4, r96 = r51 * c4 + r56 * s4;
-    const double r99 = r52 * c4 + r59 * s4, r102 = r50 * r89 + r55 * c4, r105 = r51 * r89 + r56 * c4;
-    const double r108 = r52 * r89 + r59 * c4, r109 = r62 * r90, r110 = r63 * r90, r111 = r66 * r90;
-    const double r113 = 0.113 * r102, r115 = 0.1 * r109, r118 = 0.113 * r105, r120 = 0.1 * r110;
-    const double r123 = 0.113 * r108, r125 = 0.1 * r111;
-    const double r139 = r85 - (0.105 * r93 + r113 + r115) + (0.16095 * r93 + r113 + r115);
-    const double r140 = r86 - (0.105 * r96 + r118 + r120) + (0.16095 * r96 + r118 + r120);
-    const double r141 = r87 - (0.105 * r99 + r123 + r125) + (0.16095 * r99 + r123 + r125);
-    const double r143 = c5 + (1.0 - c5), r144 = 0.0 - s5, r145 = r93 * r143, r146 = r96 * r143;
-    const double r147 = r99 * r143, r159 = r102 * r144 + r109 * c5, r162 = r105 * r144 + r110 * c5;
-    const double r165 = r108 * r144 + r111 * c5, r167 = 0.113 * (r102 * c5 + r109 * s5);
-    const double r172 = 0.113 * (r105 * c5 + r110 * s5), r177 = 0.113 * (r108 * c5 + r111 * s5);
-    const double r196 = r139 - (0.16095 * r145 + r167 + 0.1 * r159) + (0.2187 * r145 + r167 + 0.08769 * r159);
-    const double r197 = r140 - (0.16095 * r146 + r172 + 0.1 * r162) + (0.2187 * r146 + r172 + 0.08769 * r162);
-    const double r198 = r141 - (0.16095 * r147 + r177 + 0.1 * r165) + (0.2187 * r147 + r177 + 0.08769 * r165);
-    const double r203 = r197 - r10, r211 = r196 - r44, r212 = r197 - r45, r213 = r198 - r46, r223 = r196 - r85;
-    const double r224 = r197 - r86, r225 = r198 - r87, r235 = r196 - r139, r236 = r197 - r140;
-    const double r237 = r198 - r141;
+    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r6 = c2 * c3, r11 = c2 * s3, r14 = c4 * r0, r15 = c3 * r2 - s1 * s3;
+    const double r16 = s4 * r15, r17 = s2 * c4, r18 = s4 * r6, r19 = c4 * r1, r20 = c3 * r3 + c1 * s3;
+    const double r21 = s4 * r20, r29 = s3 * r2 + s1 * c3, r32 = s3 * r3 - c1 * c3, r42 = 0.1137 * r17;
+    const double r44 = 0.1137 * r18, r46 = 0.01231 * (s5 * (s2 * s4 - c4 * r6)), r48 = 0.01231 * (c5 * r11);
+    const double r49 = 0.015 * c2 + 0.105 * s2 + r42 + r44 - r46 + r48, r53 = 0.1137 * r14, r55 = 0.1137 * r16;
+    const double r57 = 0.01231 * (s5 * (s4 * r0 + c4 * r15)), r59 = 0.01231 * (c5 * r29);
+    const double r60 = 0.015 * r2 - 0.105 * r0 - r53 + r55 + r57 + r59, r64 = 0.1137 * r19, r66 = 0.1137 * r21;
+    const double r68 = 0.01231 * (s5 * (s4 * r1 + c4 * r20)), r70 = 0.01231 * (c5 * r32);
+    const double r71 = 0.015 * r3 - 0.105 * r1 - r64 + r66 + r68 + r70, r72 = r17 + r18, r73 = r14 - r16;
+    const double r90 = r64 - r66 - r68 - r70, r94 = r48 + (r42 + r44 - r46), r98 = r53 - r55 - r57 - r59;
+    const double r113 = 0.05775 * r19 - 0.05775 * r21 - r68 - r70, r115 = r19 - r21;
+    const double r120 = r48 + (0.05775 * r17 + 0.05775 * r18 - r46);
+    const double r126 = 0.05775 * r14 - 0.05775 * r16 - r57 - r59;
     const Jacobian result = { {
-        {r198 - 0.1, 0.0 - c1 * r203, r16 * r213 - r17 * r212, r63 * r225 - r66 * r224, r96 * r237 - r99 * r236},
-        {0.0, c1 * (r196 - r9) - s1 * (r198 - r11), r17 * r211 - r15 * r213, r66 * r223 - r62 * r225, r99 * r235 - r93 * r237},
-        {0.0 - r196, s1 * r203, r15 * r212 - r16 * r211, r62 * r224 - r63 * r223, r93 * r236 - r96 * r235},
-        {r147, 0.0 - c1 * r146, r16 * r147 - r17 * r146, r63 * r147 - r66 * r146, r96 * r147 - r99 * r146},
-        {0.0, c1 * r145 - s1 * r147, r17 * r145 - r15 * r147, r66 * r145 - r62 * r147, r99 * r145 - r93 * r147},
-        {0.0 - r145, s1 * r146, r15 * r146 - r16 * r145, r62 * r146 - r63 * r145, r93 * r146 - r96 * r145},
+        {r71, 0.0 - c1 * r49, r1 * r94 - s2 * r90, r11 * r90 + r32 * r94, r115 * r120 - r72 * r113},
+        {0.0, 0.0 - (c1 * r60 + s1 * r71), r0 * r90 - r1 * r98, r29 * r90 - r32 * r98, r113 * r73 - r115 * r126},
+        {r60, s1 * r49, r0 * r94 - s2 * r98, r29 * r94 + r11 * r98, r120 * r73 - r72 * r126},
+        {r21 - r19, 0.0 - c1 * r72, r1 * r72 - s2 * r115, r11 * r115 + r32 * r72, 0.0},
+        {0.0, c1 * r73 + s1 * r115, r0 * r115 - r1 * r73, r29 * r115 - r32 * r73, 0.0},
+        {r16 - r14, s1 * r72, r0 * r72 - s2 * r73, r29 * r72 + r11 * r73, 0.0},
     } };
     return result;
 }
@@ -1159,17 +1122,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 7 share. */
 typedef struct {
-    double r101;
-    double r102;
+    double r34;
+    double r36;
 } Shared7;
 
 /* Chart 1 of block 7: generic.
  */
 static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
-    const double r106 = (0.0 - (0.0 - -0.01231 * shared->r102)) / 0.0001515361;
-    const double r110 = (0.0 - (0.0 - -0.01231 * shared->r101)) / 0.0001515361;
-    const double r114 = sqrt(fmax(r110 * r110 + r106 * r106, 0.0)), c5 = r110 / r114, s5 = r106 / r114;
+    const double r38 = 0.01231 * shared->r36 / 0.0001515361, r40 = 0.01231 * shared->r34 / 0.0001515361;
+    const double r44 = sqrt(fmax(r40 * r40 + r38 * r38, 0.0)), c5 = 0.0 - r40 / r44, s5 = 0.0 - r38 / r44;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1183,36 +1145,32 @@ static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *sh
 /* Block 7: WristYaw. */
 static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r3 = p->py - 0.098, r4 = p->pz - 0.1, r15 = r4 * known->c1 + (0.0 - (0.0 - p->px)) * known->s1;
-    const double r20 = r15 + 0.1 - 0.1, r24 = 0.0 - (p->px * known->c1 + (0.0 - r4) * known->s1);
-    const double r28 = (r3 + (r3 - r3) * known->c1 + 0.098 - 0.098) * known->c2;
-    const double r41 = 0.0 - (r28 + r24 * known->s2 + 0.098 - 0.113);
-    const double r46 = (r20 + (r20 - r20) * known->c2 + 0.1 - 0.1) * known->c3, r54 = 0.0 - known->cr;
-    const double r57 = r54 * (0.0 - known->vx) + known->sr * known->ux;
-    const double r60 = r54 * (0.0 - known->vy) + known->sr * known->uy;
-    const double r63 = r54 * (0.0 - known->vz) + known->sr * known->uz;
-    const double r74 = r63 * known->c1 + (0.0 - (0.0 - r57)) * known->s1;
-    const double r79 = 0.0 - (r57 * known->c1 + (0.0 - r63) * known->s1);
-    const double r85 = (r60 + (r60 - r60) * known->c1) * known->c2 + r79 * known->s2;
-    const double r98 = (r74 + (r74 - r74) * known->c2) * known->c3 + (0.0 - r85) * known->s3;
-    const double r101 = 0.0 - (0.1 - (r46 + r41 * known->s3 + 0.1)), r102 = -0.01231 * (0.0 - r98);
-    const Shared7 own = { r101, r102 };
+    const double r1 = p->pz - 0.1, r8 = known->s2 * (p->px * known->c1 - known->s1 * r1);
+    const double r12 = known->c3 * (known->c1 * r1 + p->px * known->s1);
+    const double r13 = known->s3 * (known->c2 * (p->py - 0.098) - r8 - 0.015);
+    const double r20 = known->cr * known->vx + known->sr * known->ux;
+    const double r22 = known->cr * known->vz + known->sr * known->uz;
+    const double r27 = known->cr * known->vy + known->sr * known->uy;
+    const double r29 = known->s2 * (known->c1 * r20 - known->s1 * r22);
+    const double r32 = known->c3 * (known->c1 * r22 + known->s1 * r20), r34 = r12 - r13;
+    const double r36 = 0.01231 * (r32 - known->s3 * (known->c2 * r27 - r29));
+    const Shared7 own = { r34, r36 };
     const Shared7 *const shared = &own;
     chart_7_1(p, known, shared, answers);
 }
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r41;
-    double r42;
+    double r13;
+    double r14;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r44 = 0.0 - (0.0 - shared->r42), r46 = 0.0 - (0.0 - shared->r41);
-    const double r50 = sqrt(fmax(r46 * r46 + r44 * r44, 0.0)), c4 = r46 / r50, s4 = r44 / r50;
+    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14, r18 = sqrt(fmax(r17, 0.0));
+    const double c4 = shared->r13 / r18, s4 = shared->r14 / r18;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1224,22 +1182,19 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: ElbowRoll. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r9 = p->dx * known->c1 + (0.0 - p->dz) * known->s1;
-    const double r13 = p->dz * known->c1 + (0.0 - (0.0 - p->dx)) * known->s1;
-    const double r14 = p->dy + (p->dy - p->dy) * known->c1;
-    const double r21 = r9 * known->c2 + (0.0 - (0.0 - r14)) * known->s2;
-    const double r30 = 0.0 - (0.0 - (r13 + (r13 - r13) * known->c2));
-    const double r33 = (r14 * known->c2 + (0.0 - r9) * known->s2) * known->c3, r41 = 0.0 - (0.0 - r21);
-    const double r42 = 0.0 - (0.0 - (r33 + r30 * known->s3));
-    const Shared6 own = { r41, r42 };
+    const double r4 = p->dx * known->c1 - p->dz * known->s1;
+    const double r10 = known->c3 * (p->dy * known->c2 - known->s2 * r4);
+    const double r12 = known->s3 * (p->dz * known->c1 + p->dx * known->s1);
+    const double r13 = known->c2 * r4 + p->dy * known->s2, r14 = r10 + r12;
+    const Shared6 own = { r13, r14 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r28;
-    double r31;
+    double r7;
+    double r8;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
@@ -1247,16 +1202,15 @@ typedef struct {
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r32 = shared->r28 * shared->r28, r33 = shared->r31 * shared->r31, r34 = r32 + r33;
-    if (!is_away(r34, 610000.0)) {
+    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8, r11 = r9 + r10;
+    if (!is_away(r11, 610000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r32 - r33, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r9 - r10, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, known->f1 * (7.810249675906654 * known->fr));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r42 = (0.0 - (0.0 - shared->r28 * w3)) / r34;
-        const double r45 = (0.0 - shared->r31 * w3) / r34, r49 = sqrt(fmax(r45 * r45 + r42 * r42, 0.0));
-        const double c3 = r45 / r49, s3 = r42 / r49;
+        const double w3 = roots0.values[i0], r17 = w3 * shared->r7 / r11, r19 = w3 * shared->r8 / r11;
+        const double r23 = sqrt(fmax(r19 * r19 + r17 * r17, 0.0)), c3 = 0.0 - r19 / r23, s3 = 0.0 - r17 / r23;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1272,8 +1226,8 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
  */
 static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r34 = shared->r28 * shared->r28 + shared->r31 * shared->r31;
-    if (!is_near(r34, 6.100000000000001e-6)) {
+    const double r11 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
+    if (!is_near(r11, 6.100000000000001e-6)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1291,11 +1245,9 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: ElbowYaw. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r9 = p->dx * known->c1 + (0.0 - p->dz) * known->s1;
-    const double r13 = p->dz * known->c1 + (0.0 - (0.0 - p->dx)) * known->s1;
-    const double r22 = (p->dy + (p->dy - p->dy) * known->c1) * known->c2;
-    const double r28 = 0.0 - (r13 + (r13 - r13) * known->c2), r31 = 0.0 - (0.0 - (r22 + (0.0 - r9) * known->s2));
-    const Shared5 own = { r28, r31 };
+    const double r6 = known->s2 * (p->dx * known->c1 - p->dz * known->s1);
+    const double r7 = p->dz * known->c1 + p->dx * known->s1, r8 = p->dy * known->c2 - r6;
+    const Shared5 own = { r7, r8 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
@@ -1303,18 +1255,17 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r46;
-    double r47;
+    double r27;
+    double r28;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r51 = 0.0 - (-0.105 * shared->r46 - 0.015 * shared->r47), r52 = r51 / 0.011249999999999998;
-    const double r56 = 0.0 - 0.015 * shared->r46 - -0.105 * shared->r47;
-    const double r58 = (0.0 - r56) / 0.011249999999999998, r62 = sqrt(fmax(r58 * r58 + r52 * r52, 0.0));
-    const double c2 = r58 / r62, s2 = r52 / r62;
+    const double r32 = 0.015 * shared->r28 - (0.0 - 0.105 * shared->r27), r33 = r32 / 0.011249999999999998;
+    const double r37 = (0.015 * shared->r27 - 0.105 * shared->r28) / 0.011249999999999998;
+    const double r41 = sqrt(fmax(r37 * r37 + r33 * r33, 0.0)), c2 = r37 / r41, s2 = r33 / r41;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1326,23 +1277,23 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: ShoulderRoll. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r7 = 0.01231 * known->sr + 0.113 - 0.113, r8 = 0.01231 * known->cr + 0.08769 - 0.08769;
-    const double r13 = -0.1137 * p->dx + r7 * (0.0 - known->vx) + r8 * known->ux;
-    const double r18 = -0.1137 * p->dy + r7 * (0.0 - known->vy) + r8 * known->uy;
-    const double r23 = -0.1137 * p->dz + r7 * (0.0 - known->vz) + r8 * known->uz;
-    const double r36 = (p->px + r13) * known->c1 + (0.0 - (p->pz + r23 - 0.1)) * known->s1;
-    const double r46 = 0.0 - (0.098 - (p->py + r18)), r47 = 0.0 - (0.0 - (0.0 - r36));
-    const Shared4 own = { r46, r47 };
+    const double r9 = p->px - 0.1137 * p->dx - 0.01231 * (known->sr * known->vx);
+    const double r12 = known->c1 * (r9 + 0.01231 * (known->cr * known->ux));
+    const double r16 = p->pz - 0.1137 * p->dz - 0.01231 * (known->sr * known->vz);
+    const double r19 = r16 + 0.01231 * (known->cr * known->uz) - 0.1;
+    const double r24 = p->py - 0.1137 * p->dy - 0.01231 * (known->sr * known->vy);
+    const double r27 = r24 + 0.01231 * (known->cr * known->uy) - 0.098, r28 = known->s1 * r19 - r12;
+    const Shared4 own = { r27, r28 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r31;
-    double r34;
-    double r40;
-    double r41;
+    double r10;
+    double r16;
+    double r19;
+    double r20;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1350,18 +1301,17 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r42 = shared->r31 * shared->r31, r43 = shared->r34 * shared->r34, r44 = r42 + r43;
-    const double r47 = shared->r40 * shared->r40 + shared->r41 * shared->r41;
-    if (!is_away(r44, 10000.0 * r47)) {
+    const double r21 = shared->r10 * shared->r10, r22 = shared->r16 * shared->r16, r23 = r21 + r22;
+    const double r26 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
+    if (!is_away(r23, 10000.0 * r26)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r42 - r43, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->fr * sqrt(fmax(r47, 0.0)));
+    const double choice0_0[3] = {0.0 - r21 - r22, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, known->fr * sqrt(fmax(r26, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r56 = (0.0 - (0.0 - shared->r31 * w1)) / r44;
-        const double r59 = (0.0 - shared->r34 * w1) / r44, r63 = sqrt(fmax(r59 * r59 + r56 * r56, 0.0));
-        const double c1 = r59 / r63, s1 = r56 / r63;
+        const double w1 = roots0.values[i0], r33 = w1 * shared->r10 / r23, r35 = w1 * shared->r16 / r23;
+        const double r39 = sqrt(fmax(r35 * r35 + r33 * r33, 0.0)), c1 = r35 / r39, s1 = r33 / r39;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1378,9 +1328,9 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r44 = shared->r31 * shared->r31 + shared->r34 * shared->r34;
-    const double r47 = shared->r40 * shared->r40 + shared->r41 * shared->r41;
-    if (!is_near(r44, 1.0000000000000001e-7 * r47)) {
+    const double r23 = shared->r10 * shared->r10 + shared->r16 * shared->r16;
+    const double r26 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
+    if (!is_near(r23, 1.0000000000000001e-7 * r26)) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1400,12 +1350,12 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: ShoulderPitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r7 = 0.01231 * known->sr + 0.113 - 0.113, r8 = 0.01231 * known->cr + 0.08769 - 0.08769;
-    const double r13 = -0.1137 * p->dx + r7 * (0.0 - known->vx) + r8 * known->ux;
-    const double r23 = -0.1137 * p->dz + r7 * (0.0 - known->vz) + r8 * known->uz;
-    const double r31 = 0.0 - (p->pz + r23 - 0.1), r34 = 0.0 - (0.0 - (0.0 - (p->px + r13)));
-    const double r35 = p->magnitude + 2.63726, r40 = fabs(r35 + 0.1), r41 = fabs(r35);
-    const Shared3 own = { r31, r34, r40, r41 };
+    const double r7 = p->pz - 0.1137 * p->dz - 0.01231 * (known->sr * known->vz);
+    const double r10 = 0.1 - (r7 + 0.01231 * (known->cr * known->uz));
+    const double r14 = p->px - 0.1137 * p->dx - 0.01231 * (known->sr * known->vx);
+    const double r16 = r14 + 0.01231 * (known->cr * known->ux), r19 = fabs(p->magnitude + 2.73726);
+    const double r20 = fabs(p->magnitude + 2.63726);
+    const Shared3 own = { r10, r16, r19, r20 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1413,12 +1363,13 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r73;
-    double r74;
-    double r75;
-    double r111;
-    double r112;
-    double r113;
+    double r26;
+    double r35;
+    double r52;
+    double r53;
+    double r67;
+    double r68;
+    double r69;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1426,19 +1377,18 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r114 = shared->r74 * shared->r74, r115 = shared->r75 * shared->r75, r116 = r114 + r115;
-    const double r119 = shared->r111 * shared->r111 + shared->r112 * shared->r112;
-    if (!is_away(r116, 10000.0 * r119)) {
+    const double r70 = shared->r26 * shared->r26, r71 = shared->r35 * shared->r35, r72 = r70 + r71;
+    const double r75 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
+    if (!is_away(r72, 10000.0 * r75)) {
         return;
     }
     const double fr = 1.0;
-    const double choice0_0[3] = {shared->r73 * shared->r73 - r114 - r115, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r119, 0.0)));
+    const double choice0_0[3] = {shared->r52 * shared->r52 - r70 - r71, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r75, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double wr = roots0.values[i0], r128 = 0.0 - (shared->r75 * shared->r73 - shared->r74 * wr);
-        const double r129 = r128 / r116, r133 = 0.0 - (shared->r75 * wr + shared->r74 * shared->r73);
-        const double r134 = r133 / r116, r138 = sqrt(fmax(r134 * r134 + r129 * r129, 0.0)), cr = r134 / r138;
-        const double sr = r129 / r138;
+        const double wr = roots0.values[i0], r84 = wr * shared->r26 - (0.0 - shared->r35 * shared->r52);
+        const double r85 = r84 / r72, r89 = (shared->r26 * shared->r52 - wr * shared->r35) / r72;
+        const double r93 = sqrt(fmax(r89 * r89 + r85 * r85, 0.0)), cr = r89 / r93, sr = r85 / r93;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1455,9 +1405,9 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r116 = shared->r74 * shared->r74 + shared->r75 * shared->r75;
-    const double r119 = shared->r111 * shared->r111 + shared->r112 * shared->r112;
-    if (!(is_near(r116, 1.0000000000000001e-7 * r119) && is_near(shared->r73, 0.01 * shared->r113))) {
+    const double r72 = shared->r26 * shared->r26 + shared->r35 * shared->r35;
+    const double r75 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
+    if (!(is_near(r72, 1.0000000000000001e-7 * r75) && is_near(shared->r53, 0.01 * shared->r69))) {
         return;
     }
     const double fr = 1000000.0;
@@ -1477,25 +1427,22 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: turn about the ray. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r7 = 0.01231 * (0.0 - known->vy), r8 = 0.01231 * known->uy, r10 = 0.01231 * (0.0 - known->vz);
-    const double r11 = 0.01231 * known->uz, r13 = p->py + -0.1137 * p->dy, r14 = p->pz + -0.1137 * p->dz;
-    const double r24 = p->px * (p->px + -0.1137 * p->dx) + p->py * r13;
-    const double r26 = p->px * (0.01231 * (0.0 - known->vx)) + p->py * r7, r27 = r24 + p->pz * r14;
-    const double r28 = p->px * (0.01231 * known->ux) + p->py * r8 + p->pz * r11, r29 = r26 + p->pz * r10;
-    const double r37 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r67 = r27 + r27 - r37 + 0.0130792261 + (0.098 * (0.098 - r13) + 0.1 * (0.1 - r14));
-    const double r68 = r28 + r28 + (0.098 * (0.0 - r8) + 0.1 * (0.0 - r11));
-    const double r69 = r29 + r29 + (0.098 * (0.0 - r7) + 0.1 * (0.0 - r10));
-    const double r73 = 0.01125 - (r67 - (0.098 * r13 + 0.1 * r14)), r74 = 0.0 - (r68 - (0.098 * r8 + 0.1 * r11));
-    const double r75 = 0.0 - (r69 - (0.098 * r7 + 0.1 * r10)), r76 = p->magnitude + 1.16248;
-    const double r77 = p->magnitude * r76, r78 = 1.06109 * p->magnitude, r79 = 0.41369 * p->magnitude;
-    const double r83 = r77 + r77 + r77, r84 = r78 + r78 + r78, r85 = r79 + r79 + r79;
-    const double r89 = p->magnitude * p->magnitude;
-    const double r104 = r83 + r83 + (r89 + r89 + r89) + 0.8839873427 + (0.098 * (r76 + 0.098) + 0.1 * (r76 + 0.1));
-    const double r108 = r84 + r84 + 0.7343316644 + 0.21009582 + 0.21009582;
-    const double r109 = r85 + r85 + 0.16410764 + 0.08191062 + 0.08191062, r111 = fabs(r108), r112 = fabs(r109);
-    const double r113 = fabs(r104 + (0.098 * r76 + 0.1 * r76) + 0.095546);
-    const Shared2 own = { r73, r74, r75, r111, r112, r113 };
+    const double r20 = 0.02462 * (p->px * known->ux) + 0.02462 * (p->py * known->uy);
+    const double r24 = r20 + 0.02462 * (p->pz * known->uz) - 0.00241276 * known->uy;
+    const double r26 = 0.002462 * known->uz - r24;
+    const double r29 = 0.02462 * (p->px * known->vx) + 0.02462 * (p->py * known->vy);
+    const double r33 = r29 + 0.02462 * (p->pz * known->vz) - 0.00241276 * known->vy;
+    const double r35 = r33 - 0.002462 * known->vz;
+    const double r38 = 2.0 * (p->px * (p->px - 0.1137 * p->dx)) + 2.0 * (p->py * (p->py - 0.1137 * p->dy));
+    const double r40 = r38 + 2.0 * (p->pz * (p->pz - 0.1137 * p->dz));
+    const double r43 = r40 - p->px * p->px - p->py * p->py - p->pz * p->pz;
+    const double r49 = r43 - 0.196 * p->py + 0.0222852 * p->dy - 0.2 * p->pz;
+    const double r52 = r49 + 0.02274 * p->dz + 0.0214332261, r53 = 0.0 - r52;
+    const double r61 = 6.0 * (p->magnitude * (p->magnitude + 1.16248));
+    const double r65 = r61 + 3.0 * (p->magnitude * p->magnitude) + 0.396 * p->magnitude;
+    const double r67 = fabs(6.36654 * p->magnitude + 1.1545233044);
+    const double r68 = fabs(2.48214 * p->magnitude + 0.32792888), r69 = fabs(r65 + 1.4594794227);
+    const Shared2 own = { r26, r35, r52, r53, r67, r68, r69 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -1505,9 +1452,8 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
  */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r3 = sqrt(fmax(p->dy * p->dy + p->dz * p->dz, 0.0)), r4 = p->dz / r3, r6 = 0.0 - p->dy / r3;
-    const double ux = 0.0, uy = r4, uz = r6, vx = p->dy * r6 - p->dz * r4, vy = 0.0 - p->dx * r6;
-    const double vz = p->dx * r4;
+    const double r3 = sqrt(fmax(p->dy * p->dy + p->dz * p->dz, 0.0)), r4 = p->dz / r3, r5 = p->dy / r3, ux = 0.0;
+    const double uy = r4, uz = 0.0 - r5, vx = 0.0 - p->dy * r5 - p->dz * r4, vy = p->dx * r5, vz = p->dx * r4;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
@@ -1530,9 +1476,9 @@ static double claim_1_1(const Parameters *p)
  */
 static void chart_1_2(const Parameters *p, Answers *answers)
 {
-    const double r3 = sqrt(fmax(p->dz * p->dz + p->dx * p->dx, 0.0)), r4 = p->dx / r3, r6 = 0.0 - p->dz / r3;
-    const double ux = r6, uy = 0.0, uz = r4, vx = p->dy * r4, vy = p->dz * r6 - p->dx * r4;
-    const double vz = 0.0 - p->dy * r6;
+    const double r3 = sqrt(fmax(p->dz * p->dz + p->dx * p->dx, 0.0)), r4 = p->dx / r3, r5 = p->dz / r3;
+    const double ux = 0.0 - r5, uy = 0.0, uz = r4, vx = p->dy * r4, vy = 0.0 - p->dz * r5 - p->dx * r4;
+    const double vz = p->dy * r5;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
@@ -1555,9 +1501,8 @@ static double claim_1_2(const Parameters *p)
  */
 static void chart_1_3(const Parameters *p, Answers *answers)
 {
-    const double r3 = sqrt(fmax(p->dx * p->dx + p->dy * p->dy, 0.0)), r4 = p->dy / r3, r6 = 0.0 - p->dx / r3;
-    const double ux = r4, uy = r6, uz = 0.0, vx = 0.0 - p->dz * r6, vy = p->dz * r4;
-    const double vz = p->dx * r6 - p->dy * r4;
+    const double r3 = sqrt(fmax(p->dx * p->dx + p->dy * p->dy, 0.0)), r4 = p->dy / r3, r5 = p->dx / r3, ux = r4;
+    const double uy = 0.0 - r5, uz = 0.0, vx = p->dz * r5, vy = p->dz * r4, vz = 0.0 - p->dx * r5 - p->dy * r4;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;

@@ -408,12 +408,12 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r3 = f64::max(p.dy * p.dy + p.dz * p.dz, 0.0).sqrt();
     let r4 = p.dz / r3;
-    let r6 = 0.0 - p.dy / r3;
+    let r5 = p.dy / r3;
     let ux = 0.0;
     let uy = r4;
-    let uz = r6;
-    let vx = p.dy * r6 - p.dz * r4;
-    let vy = 0.0 - p.dx * r6;
+    let uz = 0.0 - r5;
+    let vx = 0.0 - p.dy * r5 - p.dz * r4;
+    let vy = p.dx * r5;
     let vz = p.dx * r4;
     let next = Known { branch: 0, last: 1, ux, uy, uz, vx, vy, vz, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
@@ -428,13 +428,13 @@ fn claim_1_1(p: &Parameters) -> f64 {
 fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
     let r3 = f64::max(p.dz * p.dz + p.dx * p.dx, 0.0).sqrt();
     let r4 = p.dx / r3;
-    let r6 = 0.0 - p.dz / r3;
-    let ux = r6;
+    let r5 = p.dz / r3;
+    let ux = 0.0 - r5;
     let uy = 0.0;
     let uz = r4;
     let vx = p.dy * r4;
-    let vy = p.dz * r6 - p.dx * r4;
-    let vz = 0.0 - p.dy * r6;
+    let vy = 0.0 - p.dz * r5 - p.dx * r4;
+    let vz = p.dy * r5;
     let next = Known { branch: 0, last: 1, ux, uy, uz, vx, vy, vz, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
@@ -448,13 +448,13 @@ fn claim_1_2(p: &Parameters) -> f64 {
 fn chart_1_3(p: &Parameters, answers: &mut Answers<'_>) {
     let r3 = f64::max(p.dx * p.dx + p.dy * p.dy, 0.0).sqrt();
     let r4 = p.dy / r3;
-    let r6 = 0.0 - p.dx / r3;
+    let r5 = p.dx / r3;
     let ux = r4;
-    let uy = r6;
+    let uy = 0.0 - r5;
     let uz = 0.0;
-    let vx = 0.0 - p.dz * r6;
+    let vx = p.dz * r5;
     let vy = p.dz * r4;
-    let vz = p.dx * r6 - p.dy * r4;
+    let vz = 0.0 - p.dx * r5 - p.dy * r4;
     let next = Known { branch: 0, last: 1, ux, uy, uz, vx, vy, vz, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
@@ -466,76 +466,62 @@ fn claim_1_3(p: &Parameters) -> f64 {
 
 /// Block 2: turn about the ray.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r7 = 0.01231 * (0.0 - known.vy);
-    let r8 = 0.01231 * known.uy;
-    let r10 = 0.01231 * (0.0 - known.vz);
-    let r11 = 0.01231 * known.uz;
-    let r13 = p.py + -0.1137 * p.dy;
-    let r14 = p.pz + -0.1137 * p.dz;
-    let r26 = p.px * (0.01231 * (0.0 - known.vx)) + p.py * r7;
-    let r27 = p.px * (p.px + -0.1137 * p.dx) + p.py * r13 + p.pz * r14;
-    let r28 = p.px * (0.01231 * known.ux) + p.py * r8 + p.pz * r11;
-    let r29 = r26 + p.pz * r10;
-    let r38 = r27 + r27 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r67 = r38 + 0.0130792261 + (0.098 * (0.098 - r13) + 0.1 * (0.1 - r14));
-    let r68 = r28 + r28 + (0.098 * (0.0 - r8) + 0.1 * (0.0 - r11));
-    let r69 = r29 + r29 + (0.098 * (0.0 - r7) + 0.1 * (0.0 - r10));
-    let r73 = 0.01125 - (r67 - (0.098 * r13 + 0.1 * r14));
-    let r74 = 0.0 - (r68 - (0.098 * r8 + 0.1 * r11));
-    let r75 = 0.0 - (r69 - (0.098 * r7 + 0.1 * r10));
-    let r76 = p.magnitude + 1.16248;
-    let r77 = p.magnitude * r76;
-    let r78 = 1.06109 * p.magnitude;
-    let r79 = 0.41369 * p.magnitude;
-    let r83 = r77 + r77 + r77;
-    let r84 = r78 + r78 + r78;
-    let r85 = r79 + r79 + r79;
-    let r89 = p.magnitude * p.magnitude;
-    let r104 = r83 + r83 + (r89 + r89 + r89) + 0.8839873427 + (0.098 * (r76 + 0.098) + 0.1 * (r76 + 0.1));
-    let r108 = r84 + r84 + 0.7343316644 + 0.21009582 + 0.21009582;
-    let r109 = r85 + r85 + 0.16410764 + 0.08191062 + 0.08191062;
-    let r111 = f64::abs(r108);
-    let r112 = f64::abs(r109);
-    let r113 = f64::abs(r104 + (0.098 * r76 + 0.1 * r76) + 0.095546);
-    let shared = &Shared2 { r73, r74, r75, r111, r112, r113 };
+    let r20 = 0.02462 * (p.px * known.ux) + 0.02462 * (p.py * known.uy);
+    let r24 = r20 + 0.02462 * (p.pz * known.uz) - 0.00241276 * known.uy;
+    let r26 = 0.002462 * known.uz - r24;
+    let r29 = 0.02462 * (p.px * known.vx) + 0.02462 * (p.py * known.vy);
+    let r33 = r29 + 0.02462 * (p.pz * known.vz) - 0.00241276 * known.vy;
+    let r35 = r33 - 0.002462 * known.vz;
+    let r38 = 2.0 * (p.px * (p.px - 0.1137 * p.dx)) + 2.0 * (p.py * (p.py - 0.1137 * p.dy));
+    let r41 = r38 + 2.0 * (p.pz * (p.pz - 0.1137 * p.dz)) - p.px * p.px;
+    let r45 = r41 - p.py * p.py - p.pz * p.pz - 0.196 * p.py;
+    let r51 = r45 + 0.0222852 * p.dy - 0.2 * p.pz + 0.02274 * p.dz;
+    let r52 = r51 + 0.0214332261;
+    let r53 = 0.0 - r52;
+    let r61 = 6.0 * (p.magnitude * (p.magnitude + 1.16248));
+    let r65 = r61 + 3.0 * (p.magnitude * p.magnitude) + 0.396 * p.magnitude;
+    let r67 = f64::abs(6.36654 * p.magnitude + 1.1545233044);
+    let r68 = f64::abs(2.48214 * p.magnitude + 0.32792888);
+    let r69 = f64::abs(r65 + 1.4594794227);
+    let shared = &Shared2 { r26, r35, r52, r53, r67, r68, r69 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r73: f64,
-    r74: f64,
-    r75: f64,
-    r111: f64,
-    r112: f64,
-    r113: f64,
+    r26: f64,
+    r35: f64,
+    r52: f64,
+    r53: f64,
+    r67: f64,
+    r68: f64,
+    r69: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r114 = shared.r74 * shared.r74;
-    let r115 = shared.r75 * shared.r75;
-    let r116 = r114 + r115;
-    let r119 = shared.r111 * shared.r111 + shared.r112 * shared.r112;
-    if !is_away(r116, 10000.0 * r119) {
+    let r70 = shared.r26 * shared.r26;
+    let r71 = shared.r35 * shared.r35;
+    let r72 = r70 + r71;
+    let r75 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
+    if !is_away(r72, 10000.0 * r75) {
         return;
     }
     let fr = 1.0;
     let roots0 = real_roots(&[
-        shared.r73 * shared.r73 - r114 - r115,
+        shared.r52 * shared.r52 - r70 - r71,
         0.0,
         1.0,
-    ], f64::max(r119, 0.0).sqrt());
+    ], f64::max(r75, 0.0).sqrt());
     for (i0, &wr) in roots0.as_slice().iter().enumerate() {
-        let r128 = 0.0 - (shared.r75 * shared.r73 - shared.r74 * wr);
-        let r129 = r128 / r116;
-        let r133 = 0.0 - (shared.r75 * wr + shared.r74 * shared.r73);
-        let r134 = r133 / r116;
-        let r138 = f64::max(r134 * r134 + r129 * r129, 0.0).sqrt();
-        let cr = r134 / r138;
-        let sr = r129 / r138;
+        let r84 = wr * shared.r26 - (0.0 - shared.r35 * shared.r52);
+        let r85 = r84 / r72;
+        let r89 = (shared.r26 * shared.r52 - wr * shared.r35) / r72;
+        let r93 = f64::max(r89 * r89 + r85 * r85, 0.0).sqrt();
+        let cr = r89 / r93;
+        let sr = r85 / r93;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, cr, sr, fr, ..*known };
         block_3(p, &next, answers);
     }
@@ -545,9 +531,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: ShoulderPitch.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r116 = shared.r74 * shared.r74 + shared.r75 * shared.r75;
-    let r119 = shared.r111 * shared.r111 + shared.r112 * shared.r112;
-    if !(is_near(r116, 1.0000000000000001e-7 * r119) && is_near(shared.r73, 0.01 * shared.r113)) {
+    let r72 = shared.r26 * shared.r26 + shared.r35 * shared.r35;
+    let r75 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
+    if !(is_near(r72, 1.0000000000000001e-7 * r75) && is_near(shared.r53, 0.01 * shared.r69)) {
         return;
     }
     let fr = 1000000.0;
@@ -559,46 +545,43 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: ShoulderPitch.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r7 = 0.01231 * known.sr + 0.113 - 0.113;
-    let r8 = 0.01231 * known.cr + 0.08769 - 0.08769;
-    let r13 = -0.1137 * p.dx + r7 * (0.0 - known.vx) + r8 * known.ux;
-    let r23 = -0.1137 * p.dz + r7 * (0.0 - known.vz) + r8 * known.uz;
-    let r31 = 0.0 - (p.pz + r23 - 0.1);
-    let r34 = 0.0 - (0.0 - (0.0 - (p.px + r13)));
-    let r35 = p.magnitude + 2.63726;
-    let r40 = f64::abs(r35 + 0.1);
-    let r41 = f64::abs(r35);
-    let shared = &Shared3 { r31, r34, r40, r41 };
+    let r7 = p.pz - 0.1137 * p.dz - 0.01231 * (known.sr * known.vz);
+    let r10 = 0.1 - (r7 + 0.01231 * (known.cr * known.uz));
+    let r14 = p.px - 0.1137 * p.dx - 0.01231 * (known.sr * known.vx);
+    let r16 = r14 + 0.01231 * (known.cr * known.ux);
+    let r19 = f64::abs(p.magnitude + 2.73726);
+    let r20 = f64::abs(p.magnitude + 2.63726);
+    let shared = &Shared3 { r10, r16, r19, r20 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r31: f64,
-    r34: f64,
-    r40: f64,
-    r41: f64,
+    r10: f64,
+    r16: f64,
+    r19: f64,
+    r20: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r42 = shared.r31 * shared.r31;
-    let r43 = shared.r34 * shared.r34;
-    let r44 = r42 + r43;
-    let r47 = shared.r40 * shared.r40 + shared.r41 * shared.r41;
-    if !is_away(r44, 10000.0 * r47) {
+    let r21 = shared.r10 * shared.r10;
+    let r22 = shared.r16 * shared.r16;
+    let r23 = r21 + r22;
+    let r26 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
+    if !is_away(r23, 10000.0 * r26) {
         return;
     }
     let f1 = 1.0;
-    let roots0 = real_roots(&[0.0 - r42 - r43, 0.0, 1.0], known.fr * f64::max(r47, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r21 - r22, 0.0, 1.0], known.fr * f64::max(r26, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r56 = (0.0 - (0.0 - shared.r31 * w1)) / r44;
-        let r59 = (0.0 - shared.r34 * w1) / r44;
-        let r63 = f64::max(r59 * r59 + r56 * r56, 0.0).sqrt();
-        let c1 = r59 / r63;
-        let s1 = r56 / r63;
+        let r33 = w1 * shared.r10 / r23;
+        let r35 = w1 * shared.r16 / r23;
+        let r39 = f64::max(r35 * r35 + r33 * r33, 0.0).sqrt();
+        let c1 = r35 / r39;
+        let s1 = r33 / r39;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c1, s1, f1, ..*known };
         block_4(p, &next, answers);
     }
@@ -608,9 +591,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderPitch.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r44 = shared.r31 * shared.r31 + shared.r34 * shared.r34;
-    let r47 = shared.r40 * shared.r40 + shared.r41 * shared.r41;
-    if !is_near(r44, 1.0000000000000001e-7 * r47) {
+    let r23 = shared.r10 * shared.r10 + shared.r16 * shared.r16;
+    let r26 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
+    if !is_near(r23, 1.0000000000000001e-7 * r26) {
         return;
     }
     let f1 = 1000000.0;
@@ -622,75 +605,67 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: ShoulderRoll.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r7 = 0.01231 * known.sr + 0.113 - 0.113;
-    let r8 = 0.01231 * known.cr + 0.08769 - 0.08769;
-    let r13 = -0.1137 * p.dx + r7 * (0.0 - known.vx) + r8 * known.ux;
-    let r18 = -0.1137 * p.dy + r7 * (0.0 - known.vy) + r8 * known.uy;
-    let r23 = -0.1137 * p.dz + r7 * (0.0 - known.vz) + r8 * known.uz;
-    let r36 = (p.px + r13) * known.c1 + (0.0 - (p.pz + r23 - 0.1)) * known.s1;
-    let r46 = 0.0 - (0.098 - (p.py + r18));
-    let r47 = 0.0 - (0.0 - (0.0 - r36));
-    let shared = &Shared4 { r46, r47 };
+    let r9 = p.px - 0.1137 * p.dx - 0.01231 * (known.sr * known.vx);
+    let r12 = known.c1 * (r9 + 0.01231 * (known.cr * known.ux));
+    let r16 = p.pz - 0.1137 * p.dz - 0.01231 * (known.sr * known.vz);
+    let r20 = known.s1 * (r16 + 0.01231 * (known.cr * known.uz) - 0.1);
+    let r24 = p.py - 0.1137 * p.dy - 0.01231 * (known.sr * known.vy);
+    let r27 = r24 + 0.01231 * (known.cr * known.uy) - 0.098;
+    let r28 = r20 - r12;
+    let shared = &Shared4 { r27, r28 };
     chart_4_1(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r46: f64,
-    r47: f64,
+    r27: f64,
+    r28: f64,
 }
 
 /// Chart 1 of block 4: generic.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r51 = 0.0 - (-0.105 * shared.r46 - 0.015 * shared.r47);
-    let r52 = r51 / 0.011249999999999998;
-    let r56 = 0.0 - 0.015 * shared.r46 - -0.105 * shared.r47;
-    let r58 = (0.0 - r56) / 0.011249999999999998;
-    let r62 = f64::max(r58 * r58 + r52 * r52, 0.0).sqrt();
-    let c2 = r58 / r62;
-    let s2 = r52 / r62;
+    let r32 = 0.015 * shared.r28 - (0.0 - 0.105 * shared.r27);
+    let r33 = r32 / 0.011249999999999998;
+    let r37 = (0.015 * shared.r27 - 0.105 * shared.r28) / 0.011249999999999998;
+    let r41 = f64::max(r37 * r37 + r33 * r33, 0.0).sqrt();
+    let c2 = r37 / r41;
+    let s2 = r33 / r41;
     let next = Known { branch: known.branch, last: known.last, c2, s2, ..*known };
     block_5(p, &next, answers);
 }
 
 /// Block 5: ElbowYaw.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r13 = p.dz * known.c1 + (0.0 - (0.0 - p.dx)) * known.s1;
-    let r18 = 0.0 - (p.dx * known.c1 + (0.0 - p.dz) * known.s1);
-    let r24 = (p.dy + (p.dy - p.dy) * known.c1) * known.c2 + r18 * known.s2;
-    let r28 = 0.0 - (r13 + (r13 - r13) * known.c2);
-    let r31 = 0.0 - (0.0 - r24);
-    let shared = &Shared5 { r28, r31 };
+    let r6 = known.s2 * (p.dx * known.c1 - p.dz * known.s1);
+    let r7 = p.dz * known.c1 + p.dx * known.s1;
+    let r8 = p.dy * known.c2 - r6;
+    let shared = &Shared5 { r7, r8 };
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r28: f64,
-    r31: f64,
+    r7: f64,
+    r8: f64,
 }
 
 /// Chart 1 of block 5: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r32 = shared.r28 * shared.r28;
-    let r33 = shared.r31 * shared.r31;
-    let r34 = r32 + r33;
-    if !is_away(r34, 610000.0) {
+    let r9 = shared.r7 * shared.r7;
+    let r10 = shared.r8 * shared.r8;
+    let r11 = r9 + r10;
+    if !is_away(r11, 610000.0) {
         return;
     }
-    let roots0 = real_roots(&[
-        0.0 - r32 - r33,
-        0.0,
-        1.0,
-    ], known.f1 * (7.810249675906654 * known.fr));
+    let roots0 = real_roots(&[0.0 - r9 - r10, 0.0, 1.0], known.f1 * (7.810249675906654 * known.fr));
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r42 = (0.0 - (0.0 - shared.r28 * w3)) / r34;
-        let r45 = (0.0 - shared.r31 * w3) / r34;
-        let r49 = f64::max(r45 * r45 + r42 * r42, 0.0).sqrt();
-        let c3 = r45 / r49;
-        let s3 = r42 / r49;
+        let r17 = w3 * shared.r7 / r11;
+        let r19 = w3 * shared.r8 / r11;
+        let r23 = f64::max(r19 * r19 + r17 * r17, 0.0).sqrt();
+        let c3 = 0.0 - r19 / r23;
+        let s3 = 0.0 - r17 / r23;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c3, s3, ..*known };
         block_6(p, &next, answers);
     }
@@ -700,8 +675,8 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ElbowYaw.
 fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r34 = shared.r28 * shared.r28 + shared.r31 * shared.r31;
-    if !is_near(r34, 6.100000000000001e-6) {
+    let r11 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
+    if !is_near(r11, 6.100000000000001e-6) {
         return;
     }
     for [c3, s3] in SAMPLES_1 {
@@ -712,72 +687,58 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 
 /// Block 6: ElbowRoll.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r9 = p.dx * known.c1 + (0.0 - p.dz) * known.s1;
-    let r13 = p.dz * known.c1 + (0.0 - (0.0 - p.dx)) * known.s1;
-    let r14 = p.dy + (p.dy - p.dy) * known.c1;
-    let r21 = r9 * known.c2 + (0.0 - (0.0 - r14)) * known.s2;
-    let r33 = (r14 * known.c2 + (0.0 - r9) * known.s2) * known.c3;
-    let r34 = (0.0 - (0.0 - (r13 + (r13 - r13) * known.c2))) * known.s3;
-    let r41 = 0.0 - (0.0 - r21);
-    let r42 = 0.0 - (0.0 - (r33 + r34));
-    let shared = &Shared6 { r41, r42 };
+    let r4 = p.dx * known.c1 - p.dz * known.s1;
+    let r12 = known.s3 * (p.dz * known.c1 + p.dx * known.s1);
+    let r13 = known.c2 * r4 + p.dy * known.s2;
+    let r14 = known.c3 * (p.dy * known.c2 - known.s2 * r4) + r12;
+    let shared = &Shared6 { r13, r14 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r41: f64,
-    r42: f64,
+    r13: f64,
+    r14: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r44 = 0.0 - (0.0 - shared.r42);
-    let r46 = 0.0 - (0.0 - shared.r41);
-    let r50 = f64::max(r46 * r46 + r44 * r44, 0.0).sqrt();
-    let c4 = r46 / r50;
-    let s4 = r44 / r50;
+    let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
+    let r18 = f64::max(r17, 0.0).sqrt();
+    let c4 = shared.r13 / r18;
+    let s4 = shared.r14 / r18;
     let next = Known { branch: known.branch, last: known.last, c4, s4, ..*known };
     block_7(p, &next, answers);
 }
 
 /// Block 7: WristYaw.
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = p.py - 0.098;
-    let r4 = p.pz - 0.1;
-    let r15 = r4 * known.c1 + (0.0 - (0.0 - p.px)) * known.s1;
-    let r20 = r15 + 0.1 - 0.1;
-    let r24 = 0.0 - (p.px * known.c1 + (0.0 - r4) * known.s1);
-    let r28 = (r3 + (r3 - r3) * known.c1 + 0.098 - 0.098) * known.c2;
-    let r46 = (r20 + (r20 - r20) * known.c2 + 0.1 - 0.1) * known.c3;
-    let r47 = (0.0 - (r28 + r24 * known.s2 + 0.098 - 0.113)) * known.s3;
-    let r54 = 0.0 - known.cr;
-    let r57 = r54 * (0.0 - known.vx) + known.sr * known.ux;
-    let r60 = r54 * (0.0 - known.vy) + known.sr * known.uy;
-    let r63 = r54 * (0.0 - known.vz) + known.sr * known.uz;
-    let r74 = r63 * known.c1 + (0.0 - (0.0 - r57)) * known.s1;
-    let r79 = 0.0 - (r57 * known.c1 + (0.0 - r63) * known.s1);
-    let r85 = (r60 + (r60 - r60) * known.c1) * known.c2 + r79 * known.s2;
-    let r98 = (r74 + (r74 - r74) * known.c2) * known.c3 + (0.0 - r85) * known.s3;
-    let r101 = 0.0 - (0.1 - (r46 + r47 + 0.1));
-    let r102 = -0.01231 * (0.0 - r98);
-    let shared = &Shared7 { r101, r102 };
+    let r1 = p.pz - 0.1;
+    let r9 = known.c2 * (p.py - 0.098) - known.s2 * (p.px * known.c1 - known.s1 * r1);
+    let r20 = known.cr * known.vx + known.sr * known.ux;
+    let r22 = known.cr * known.vz + known.sr * known.uz;
+    let r28 = known.c2 * (known.cr * known.vy + known.sr * known.uy);
+    let r30 = r28 - known.s2 * (known.c1 * r20 - known.s1 * r22);
+    let r34 = known.c3 * (known.c1 * r1 + p.px * known.s1) - known.s3 * (r9 - 0.015);
+    let r35 = known.c3 * (known.c1 * r22 + known.s1 * r20) - known.s3 * r30;
+    let r36 = 0.01231 * r35;
+    let shared = &Shared7 { r34, r36 };
     chart_7_1(p, known, shared, answers);
 }
 
 /// What the charts of block 7 share.
 struct Shared7 {
-    r101: f64,
-    r102: f64,
+    r34: f64,
+    r36: f64,
 }
 
 /// Chart 1 of block 7: generic.
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r106 = (0.0 - (0.0 - -0.01231 * shared.r102)) / 0.0001515361;
-    let r110 = (0.0 - (0.0 - -0.01231 * shared.r101)) / 0.0001515361;
-    let r114 = f64::max(r110 * r110 + r106 * r106, 0.0).sqrt();
-    let c5 = r110 / r114;
-    let s5 = r106 / r114;
+    let r38 = 0.01231 * shared.r36 / 0.0001515361;
+    let r40 = 0.01231 * shared.r34 / 0.0001515361;
+    let r44 = f64::max(r40 * r40 + r38 * r38, 0.0).sqrt();
+    let c5 = 0.0 - r40 / r44;
+    let s5 = 0.0 - r38 / r44;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -814,84 +775,32 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s4 = q[3].sin();
     let c5 = q[4].cos();
     let s5 = q[4].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.1 * s1;
-    let r4 = 0.098 * r2;
-    let r5 = 0.1 * c1;
-    let r13 = 0.0 - s2;
-    let r14 = c2 + (1.0 - c2);
-    let r15 = c1 * c2;
-    let r16 = r2 * s2;
-    let r17 = r1 * c2;
-    let r18 = c1 * r13;
-    let r19 = r2 * c2;
-    let r20 = r1 * r13;
-    let r21 = s1 * r14;
-    let r22 = c1 * r14;
-    let r24 = 0.1 * r21;
-    let r28 = 0.1 * r22;
-    let r44 = 0.0 - r3 + r3 - (0.098 * r18 + r24) + (0.105 * r15 + 0.113 * r18 + r24);
-    let r45 = 0.098 - r4 + r4 - 0.098 * r19 + (0.105 * r16 + 0.113 * r19);
-    let r46 = 0.1 - r5 + r5 - (0.098 * r20 + r28) + (0.105 * r17 + 0.113 * r20 + r28);
-    let r48 = c3 + (1.0 - c3);
-    let r49 = 0.0 - s3;
-    let r50 = r15 * r48;
-    let r51 = r16 * r48;
-    let r52 = r17 * r48;
-    let r55 = r18 * c3 + r21 * s3;
-    let r56 = r19 * c3;
-    let r59 = r20 * c3 + r22 * s3;
-    let r62 = r18 * r49 + r21 * c3;
-    let r63 = r19 * r49;
-    let r66 = r20 * r49 + r22 * c3;
-    let r71 = 0.105 * r50 + 0.113 * r55 + 0.1 * r62;
-    let r76 = 0.105 * r51 + 0.113 * r56 + 0.1 * r63;
-    let r81 = 0.105 * r52 + 0.113 * r59 + 0.1 * r66;
-    let r89 = 0.0 - s4;
-    let r90 = c4 + (1.0 - c4);
-    let r93 = r50 * c4 + r55 * s4;
-    let r96 = r51 * c4 + r56 * s4;
-    let r99 = r52 * c4 + r59 * s4;
-    let r102 = r50 * r89 + r55 * c4;
-    let r105 = r51 * r89 + r56 * c4;
-    let r108 = r52 * r89 + r59 * c4;
-    let r109 = r62 * r90;
-    let r110 = r63 * r90;
-    let r111 = r66 * r90;
-    let r113 = 0.113 * r102;
-    let r115 = 0.1 * r109;
-    let r118 = 0.113 * r105;
-    let r120 = 0.1 * r110;
-    let r123 = 0.113 * r108;
-    let r125 = 0.1 * r111;
-    let r127 = r44 - r71 + r71 - (0.105 * r93 + r113 + r115);
-    let r128 = r45 - r76 + r76 - (0.105 * r96 + r118 + r120);
-    let r129 = r46 - r81 + r81 - (0.105 * r99 + r123 + r125);
-    let r143 = c5 + (1.0 - c5);
-    let r144 = 0.0 - s5;
-    let r145 = r93 * r143;
-    let r146 = r96 * r143;
-    let r147 = r99 * r143;
-    let r159 = r102 * r144 + r109 * c5;
-    let r162 = r105 * r144 + r110 * c5;
-    let r165 = r108 * r144 + r111 * c5;
-    let r167 = 0.113 * (r102 * c5 + r109 * s5);
-    let r172 = 0.113 * (r105 * c5 + r110 * s5);
-    let r177 = 0.113 * (r108 * c5 + r111 * s5);
-    let r181 = r127 + (0.16095 * r93 + r113 + r115) - (0.16095 * r145 + r167 + 0.1 * r159);
-    let r182 = r128 + (0.16095 * r96 + r118 + r120) - (0.16095 * r146 + r172 + 0.1 * r162);
-    let r183 = r129 + (0.16095 * r99 + r123 + r125) - (0.16095 * r147 + r177 + 0.1 * r165);
-    let r196 = r181 + (0.2187 * r145 + r167 + 0.08769 * r159);
-    let r197 = r182 + (0.2187 * r146 + r172 + 0.08769 * r162);
-    let r198 = r183 + (0.2187 * r147 + r177 + 0.08769 * r165);
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r6 = c2 * c3;
+    let r14 = c4 * r0;
+    let r15 = c3 * r2 - s1 * s3;
+    let r16 = s4 * r15;
+    let r17 = s2 * c4;
+    let r18 = s4 * r6;
+    let r19 = c4 * r1;
+    let r20 = c3 * r3 + c1 * s3;
+    let r21 = s4 * r20;
+    let r45 = 0.015 * c2 + 0.105 * s2 + 0.1137 * r17 + 0.1137 * r18;
+    let r49 = r45 - 0.01231 * (s5 * (s2 * s4 - c4 * r6)) + 0.01231 * (c5 * (c2 * s3));
+    let r56 = 0.015 * r2 - 0.105 * r0 - 0.1137 * r14 + 0.1137 * r16;
+    let r60 = r56 + 0.01231 * (s5 * (s4 * r0 + c4 * r15)) + 0.01231 * (c5 * (s3 * r2 + s1 * c3));
+    let r67 = 0.015 * r3 - 0.105 * r1 - 0.1137 * r19 + 0.1137 * r21;
+    let r71 = r67 + 0.01231 * (s5 * (s4 * r1 + c4 * r20)) + 0.01231 * (c5 * (s3 * r3 - c1 * c3));
     [
-        r196,
-        r197,
-        r198,
-        r145,
-        r146,
-        r147,
+        0.0 - r60,
+        r49 + 0.098,
+        r71 + 0.1,
+        r14 - r16,
+        r17 + r18,
+        r21 - r19,
     ]
 }
 
@@ -935,97 +844,53 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s4 = q[3].sin();
     let c5 = q[4].cos();
     let s5 = q[4].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.1 * s1;
-    let r4 = 0.098 * r2;
-    let r5 = 0.1 * c1;
-    let r9 = 0.0 - r3 + r3;
-    let r10 = 0.098 - r4 + r4;
-    let r11 = 0.1 - r5 + r5;
-    let r13 = 0.0 - s2;
-    let r14 = c2 + (1.0 - c2);
-    let r15 = c1 * c2;
-    let r16 = r2 * s2;
-    let r17 = r1 * c2;
-    let r18 = c1 * r13;
-    let r19 = r2 * c2;
-    let r20 = r1 * r13;
-    let r21 = s1 * r14;
-    let r22 = c1 * r14;
-    let r24 = 0.1 * r21;
-    let r28 = 0.1 * r22;
-    let r44 = r9 - (0.098 * r18 + r24) + (0.105 * r15 + 0.113 * r18 + r24);
-    let r45 = r10 - 0.098 * r19 + (0.105 * r16 + 0.113 * r19);
-    let r46 = r11 - (0.098 * r20 + r28) + (0.105 * r17 + 0.113 * r20 + r28);
-    let r48 = c3 + (1.0 - c3);
-    let r49 = 0.0 - s3;
-    let r50 = r15 * r48;
-    let r51 = r16 * r48;
-    let r52 = r17 * r48;
-    let r55 = r18 * c3 + r21 * s3;
-    let r56 = r19 * c3;
-    let r59 = r20 * c3 + r22 * s3;
-    let r62 = r18 * r49 + r21 * c3;
-    let r63 = r19 * r49;
-    let r66 = r20 * r49 + r22 * c3;
-    let r71 = 0.105 * r50 + 0.113 * r55 + 0.1 * r62;
-    let r76 = 0.105 * r51 + 0.113 * r56 + 0.1 * r63;
-    let r81 = 0.105 * r52 + 0.113 * r59 + 0.1 * r66;
-    let r85 = r44 - r71 + r71;
-    let r86 = r45 - r76 + r76;
-    let r87 = r46 - r81 + r81;
-    let r89 = 0.0 - s4;
-    let r90 = c4 + (1.0 - c4);
-    let r93 = r50 * c4 + r55 * s4;
-    let r96 = r51 * c4 + r56 * s4;
-    let r99 = r52 * c4 + r59 * s4;
-    let r102 = r50 * r89 + r55 * c4;
-    let r105 = r51 * r89 + r56 * c4;
-    let r108 = r52 * r89 + r59 * c4;
-    let r109 = r62 * r90;
-    let r110 = r63 * r90;
-    let r111 = r66 * r90;
-    let r113 = 0.113 * r102;
-    let r115 = 0.1 * r109;
-    let r118 = 0.113 * r105;
-    let r120 = 0.1 * r110;
-    let r123 = 0.113 * r108;
-    let r125 = 0.1 * r111;
-    let r139 = r85 - (0.105 * r93 + r113 + r115) + (0.16095 * r93 + r113 + r115);
-    let r140 = r86 - (0.105 * r96 + r118 + r120) + (0.16095 * r96 + r118 + r120);
-    let r141 = r87 - (0.105 * r99 + r123 + r125) + (0.16095 * r99 + r123 + r125);
-    let r143 = c5 + (1.0 - c5);
-    let r144 = 0.0 - s5;
-    let r145 = r93 * r143;
-    let r146 = r96 * r143;
-    let r147 = r99 * r143;
-    let r159 = r102 * r144 + r109 * c5;
-    let r162 = r105 * r144 + r110 * c5;
-    let r165 = r108 * r144 + r111 * c5;
-    let r167 = 0.113 * (r102 * c5 + r109 * s5);
-    let r172 = 0.113 * (r105 * c5 + r110 * s5);
-    let r177 = 0.113 * (r108 * c5 + r111 * s5);
-    let r196 = r139 - (0.16095 * r145 + r167 + 0.1 * r159) + (0.2187 * r145 + r167 + 0.08769 * r159);
-    let r197 = r140 - (0.16095 * r146 + r172 + 0.1 * r162) + (0.2187 * r146 + r172 + 0.08769 * r162);
-    let r198 = r141 - (0.16095 * r147 + r177 + 0.1 * r165) + (0.2187 * r147 + r177 + 0.08769 * r165);
-    let r203 = r197 - r10;
-    let r211 = r196 - r44;
-    let r212 = r197 - r45;
-    let r213 = r198 - r46;
-    let r223 = r196 - r85;
-    let r224 = r197 - r86;
-    let r225 = r198 - r87;
-    let r235 = r196 - r139;
-    let r236 = r197 - r140;
-    let r237 = r198 - r141;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r6 = c2 * c3;
+    let r11 = c2 * s3;
+    let r14 = c4 * r0;
+    let r15 = c3 * r2 - s1 * s3;
+    let r16 = s4 * r15;
+    let r17 = s2 * c4;
+    let r18 = s4 * r6;
+    let r19 = c4 * r1;
+    let r20 = c3 * r3 + c1 * s3;
+    let r21 = s4 * r20;
+    let r29 = s3 * r2 + s1 * c3;
+    let r32 = s3 * r3 - c1 * c3;
+    let r42 = 0.1137 * r17;
+    let r44 = 0.1137 * r18;
+    let r46 = 0.01231 * (s5 * (s2 * s4 - c4 * r6));
+    let r48 = 0.01231 * (c5 * r11);
+    let r49 = 0.015 * c2 + 0.105 * s2 + r42 + r44 - r46 + r48;
+    let r53 = 0.1137 * r14;
+    let r55 = 0.1137 * r16;
+    let r57 = 0.01231 * (s5 * (s4 * r0 + c4 * r15));
+    let r59 = 0.01231 * (c5 * r29);
+    let r60 = 0.015 * r2 - 0.105 * r0 - r53 + r55 + r57 + r59;
+    let r64 = 0.1137 * r19;
+    let r66 = 0.1137 * r21;
+    let r68 = 0.01231 * (s5 * (s4 * r1 + c4 * r20));
+    let r70 = 0.01231 * (c5 * r32);
+    let r71 = 0.015 * r3 - 0.105 * r1 - r64 + r66 + r68 + r70;
+    let r72 = r17 + r18;
+    let r73 = r14 - r16;
+    let r90 = r64 - r66 - r68 - r70;
+    let r94 = r48 + (r42 + r44 - r46);
+    let r98 = r53 - r55 - r57 - r59;
+    let r113 = 0.05775 * r19 - 0.05775 * r21 - r68 - r70;
+    let r115 = r19 - r21;
+    let r120 = r48 + (0.05775 * r17 + 0.05775 * r18 - r46);
+    let r126 = 0.05775 * r14 - 0.05775 * r16 - r57 - r59;
     [
-        [r198 - 0.1, 0.0 - c1 * r203, r16 * r213 - r17 * r212, r63 * r225 - r66 * r224, r96 * r237 - r99 * r236],
-        [0.0, c1 * (r196 - r9) - s1 * (r198 - r11), r17 * r211 - r15 * r213, r66 * r223 - r62 * r225, r99 * r235 - r93 * r237],
-        [0.0 - r196, s1 * r203, r15 * r212 - r16 * r211, r62 * r224 - r63 * r223, r93 * r236 - r96 * r235],
-        [r147, 0.0 - c1 * r146, r16 * r147 - r17 * r146, r63 * r147 - r66 * r146, r96 * r147 - r99 * r146],
-        [0.0, c1 * r145 - s1 * r147, r17 * r145 - r15 * r147, r66 * r145 - r62 * r147, r99 * r145 - r93 * r147],
-        [0.0 - r145, s1 * r146, r15 * r146 - r16 * r145, r62 * r146 - r63 * r145, r93 * r146 - r96 * r145],
+        [r71, 0.0 - c1 * r49, r1 * r94 - s2 * r90, r11 * r90 + r32 * r94, r115 * r120 - r72 * r113],
+        [0.0, 0.0 - (c1 * r60 + s1 * r71), r0 * r90 - r1 * r98, r29 * r90 - r32 * r98, r113 * r73 - r115 * r126],
+        [r60, s1 * r49, r0 * r94 - s2 * r98, r29 * r94 + r11 * r98, r120 * r73 - r72 * r126],
+        [r21 - r19, 0.0 - c1 * r72, r1 * r72 - s2 * r115, r11 * r115 + r32 * r72, 0.0],
+        [0.0, c1 * r73 + s1 * r115, r0 * r115 - r1 * r73, r29 * r115 - r32 * r73, 0.0],
+        [r16 - r14, s1 * r72, r0 * r72 - s2 * r73, r29 * r72 + r11 * r73, 0.0],
     ]
 }
 

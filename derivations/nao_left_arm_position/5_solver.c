@@ -291,30 +291,15 @@ static Parameters parameters(const double *target)
 static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3_ = cos(q[2]);
-    const double s3_ = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), r1 = 0.0 - s1, r2 = c1 + (1.0 - c1);
-    const double r3 = 0.1 * s1, r4 = 0.098 * r2, r5 = 0.1 * c1, r13 = 0.0 - s2, r14 = c2 + (1.0 - c2);
-    const double r15 = c1 * c2, r16 = r2 * s2, r17 = r1 * c2, r18 = c1 * r13, r19 = r2 * c2, r20 = r1 * r13;
-    const double r21 = s1 * r14, r22 = c1 * r14, r24 = 0.1 * r21, r28 = 0.1 * r22;
-    const double r44 = 0.0 - r3 + r3 - (0.098 * r18 + r24) + (0.105 * r15 + 0.113 * r18 + r24);
-    const double r45 = 0.098 - r4 + r4 - 0.098 * r19 + (0.105 * r16 + 0.113 * r19);
-    const double r46 = 0.1 - r5 + r5 - (0.098 * r20 + r28) + (0.105 * r17 + 0.113 * r20 + r28);
-    const double r48 = c3_ + (1.0 - c3_), r49 = 0.0 - s3_, r50 = r15 * r48, r51 = r16 * r48, r52 = r17 * r48;
-    const double r55 = r18 * c3_ + r21 * s3_, r56 = r19 * c3_, r59 = r20 * c3_ + r22 * s3_;
-    const double r62 = r18 * r49 + r21 * c3_, r63 = r19 * r49, r66 = r20 * r49 + r22 * c3_;
-    const double r71 = 0.105 * r50 + 0.113 * r55 + 0.1 * r62, r76 = 0.105 * r51 + 0.113 * r56 + 0.1 * r63;
-    const double r81 = 0.105 * r52 + 0.113 * r59 + 0.1 * r66, r89 = 0.0 - s4, r90 = c4 + (1.0 - c4);
-    const double r93 = r50 * c4 + r55 * s4, r96 = r51 * c4 + r56 * s4, r99 = r52 * c4 + r59 * s4;
-    const double r109 = r62 * r90, r110 = r63 * r90, r111 = r66 * r90, r113 = 0.113 * (r50 * r89 + r55 * c4);
-    const double r118 = 0.113 * (r51 * r89 + r56 * c4), r123 = 0.113 * (r52 * r89 + r59 * c4);
-    const double r127 = r44 - r71 + r71 - (0.105 * r93 + r113 + 0.1 * r109);
-    const double r128 = r45 - r76 + r76 - (0.105 * r96 + r118 + 0.1 * r110);
-    const double r129 = r46 - r81 + r81 - (0.105 * r99 + r123 + 0.1 * r111);
-    const double r142 = r127 + (0.2187 * r93 + r113 + 0.08769 * r109);
-    const double r143 = r128 + (0.2187 * r96 + r118 + 0.08769 * r110);
-    const double r144 = r129 + (0.2187 * r99 + r123 + 0.08769 * r111);
-    reached[0] = r142;
-    reached[1] = r143;
-    reached[2] = r144;
+    const double s3_ = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
+    const double r3 = s1 * s2, r28 = 0.015 * c2 + 0.105 * s2 + 0.1137 * (s2 * c4) + 0.1137 * (s4 * (c2 * c3_));
+    const double r37 = 0.015 * r2 - 0.105 * r0 - 0.1137 * (c4 * r0) + 0.1137 * (s4 * (c3_ * r2 - s1 * s3_));
+    const double r41 = r37 + 0.01231 * (s3_ * r2) + 0.01231 * (s1 * c3_);
+    const double r48 = 0.015 * r3 - 0.105 * r1 - 0.1137 * (c4 * r1) + 0.1137 * (s4 * (c3_ * r3 + c1 * s3_));
+    const double r52 = r48 + 0.01231 * (s3_ * r3) - 0.01231 * (c1 * c3_);
+    reached[0] = 0.0 - r41;
+    reached[1] = r28 + 0.01231 * (c2 * s3_) + 0.098;
+    reached[2] = r52 + 0.1;
     reached[3] = c3_;
     reached[4] = s3_;
 }
@@ -357,33 +342,20 @@ static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3_ = cos(q[2]);
-    const double s3_ = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), r1 = 0.0 - s1, r2 = c1 + (1.0 - c1);
-    const double r3 = 0.1 * s1, r4 = 0.098 * r2, r5 = 0.1 * c1, r9 = 0.0 - r3 + r3, r10 = 0.098 - r4 + r4;
-    const double r11 = 0.1 - r5 + r5, r13 = 0.0 - s2, r14 = c2 + (1.0 - c2), r15 = c1 * c2, r16 = r2 * s2;
-    const double r17 = r1 * c2, r18 = c1 * r13, r19 = r2 * c2, r20 = r1 * r13, r21 = s1 * r14, r22 = c1 * r14;
-    const double r24 = 0.1 * r21, r28 = 0.1 * r22;
-    const double r44 = r9 - (0.098 * r18 + r24) + (0.105 * r15 + 0.113 * r18 + r24);
-    const double r45 = r10 - 0.098 * r19 + (0.105 * r16 + 0.113 * r19);
-    const double r46 = r11 - (0.098 * r20 + r28) + (0.105 * r17 + 0.113 * r20 + r28), r48 = c3_ + (1.0 - c3_);
-    const double r49 = 0.0 - s3_, r50 = r15 * r48, r51 = r16 * r48, r52 = r17 * r48, r55 = r18 * c3_ + r21 * s3_;
-    const double r56 = r19 * c3_, r59 = r20 * c3_ + r22 * s3_, r62 = r18 * r49 + r21 * c3_, r63 = r19 * r49;
-    const double r66 = r20 * r49 + r22 * c3_, r71 = 0.105 * r50 + 0.113 * r55 + 0.1 * r62;
-    const double r76 = 0.105 * r51 + 0.113 * r56 + 0.1 * r63, r81 = 0.105 * r52 + 0.113 * r59 + 0.1 * r66;
-    const double r85 = r44 - r71 + r71, r86 = r45 - r76 + r76, r87 = r46 - r81 + r81, r89 = 0.0 - s4;
-    const double r90 = c4 + (1.0 - c4), r93 = r50 * c4 + r55 * s4, r96 = r51 * c4 + r56 * s4;
-    const double r99 = r52 * c4 + r59 * s4, r109 = r62 * r90, r110 = r63 * r90, r111 = r66 * r90;
-    const double r113 = 0.113 * (r50 * r89 + r55 * c4), r118 = 0.113 * (r51 * r89 + r56 * c4);
-    const double r123 = 0.113 * (r52 * r89 + r59 * c4);
-    const double r142 = r85 - (0.105 * r93 + r113 + 0.1 * r109) + (0.2187 * r93 + r113 + 0.08769 * r109);
-    const double r143 = r86 - (0.105 * r96 + r118 + 0.1 * r110) + (0.2187 * r96 + r118 + 0.08769 * r110);
-    const double r144 = r87 - (0.105 * r99 + r123 + 0.1 * r111) + (0.2187 * r99 + r123 + 0.08769 * r111);
-    const double r149 = r143 - r10, r157 = r142 - r44, r158 = r143 - r45, r159 = r144 - r46, r169 = r142 - r85;
-    const double r170 = r143 - r86, r171 = r144 - r87;
+    const double s3_ = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
+    const double r3 = s1 * s2, r9 = s3_ * r2, r10 = s1 * c3_, r11 = c2 * s3_, r12 = s3_ * r3, r13 = c1 * c3_;
+    const double r25 = 0.1137 * (s2 * c4), r27 = 0.1137 * (s4 * (c2 * c3_)), r29 = 0.01231 * r11;
+    const double r30 = 0.015 * c2 + 0.105 * s2 + r25 + r27 + r29, r34 = 0.1137 * (c4 * r0);
+    const double r36 = 0.1137 * (s4 * (c3_ * r2 - s1 * s3_)), r38 = 0.01231 * r9, r40 = 0.01231 * r10;
+    const double r41 = 0.015 * r2 - 0.105 * r0 - r34 + r36 + r38 + r40, r45 = 0.1137 * (c4 * r1);
+    const double r47 = 0.1137 * (s4 * (c3_ * r3 + c1 * s3_)), r49 = 0.01231 * r12, r51 = 0.01231 * r13;
+    const double r52 = 0.015 * r3 - 0.105 * r1 - r45 + r47 + r49 - r51, r67 = r51 + (r45 - r47 - r49);
+    const double r70 = r29 + (r25 + r27), r74 = r34 - r36 - r38 - r40, r80 = r12 - r13, r83 = r9 + r10;
     const Jacobian result = { {
-        {r144 - 0.1, 0.0 - c1 * r149, r16 * r159 - r17 * r158, r63 * r171 - r66 * r170},
-        {0.0, c1 * (r142 - r9) - s1 * (r144 - r11), r17 * r157 - r15 * r159, r66 * r169 - r62 * r171},
-        {0.0 - r142, s1 * r149, r15 * r158 - r16 * r157, r62 * r170 - r63 * r169},
-        {0.0, 0.0, r49, 0.0},
+        {r52, 0.0 - c1 * r30, r1 * r70 - s2 * r67, r11 * r67 + r70 * r80},
+        {0.0, 0.0 - (c1 * r41 + s1 * r52), r0 * r67 - r1 * r74, r67 * r83 - r74 * r80},
+        {r41, s1 * r30, r0 * r70 - s2 * r74, r70 * r83 + r11 * r74},
+        {0.0, 0.0, 0.0 - s3_, 0.0},
         {0.0, 0.0, c3_, 0.0},
     } };
     return result;
@@ -1101,12 +1073,12 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r18;
-    double r24;
-    double r44;
-    double r45;
-    double r56;
-    double r57;
+    double r7;
+    double r9;
+    double r10;
+    double r11;
+    double r15;
+    double r16;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1114,13 +1086,13 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r60 = shared->r18 * shared->r18 + shared->r24 * shared->r24;
-    if (!is_away(r60, 87456.27862900001)) {
+    const double r19 = shared->r7 * shared->r7 + shared->r9 * shared->r9;
+    if (!is_away(r19, 87456.27862900001)) {
         return;
     }
-    const double r63 = shared->r24 * shared->r44 - shared->r18 * shared->r45, r65 = (0.0 - r63) / r60;
-    const double r69 = 0.0 - shared->r18 * shared->r44 - shared->r24 * shared->r45, r71 = (0.0 - r69) / r60;
-    const double r75 = sqrt(fmax(r71 * r71 + r65 * r65, 0.0)), c2 = r71 / r75, s2 = r65 / r75;
+    const double r23 = shared->r7 * shared->r11 - (0.0 - shared->r9 * shared->r10), r24 = r23 / r19;
+    const double r27 = shared->r7 * shared->r10 - shared->r9 * shared->r11, r28 = r27 / r19;
+    const double r32 = sqrt(fmax(r28 * r28 + r24 * r24, 0.0)), c2 = r28 / r32, s2 = r24 / r32;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(c2, s2),
@@ -1136,8 +1108,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r60 = shared->r18 * shared->r18 + shared->r24 * shared->r24;
-    if (!(is_near(r60, 8.745627862900002e-7) && is_near(shared->r45, 0.01 * shared->r57) && is_near(shared->r44, 0.01 * shared->r56))) {
+    const double r19 = shared->r7 * shared->r7 + shared->r9 * shared->r9;
+    if (!(is_near(r19, 8.745627862900002e-7) && is_near(shared->r11, 0.01 * shared->r16) && is_near(shared->r10, 0.01 * shared->r15))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1156,13 +1128,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: ShoulderRoll. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r4 = 0.1137 * known->c4 + 0.105 - 0.105, r8 = (0.1137 * known->s4 + 0.113 - 0.113) * known->c3_;
-    const double r18 = r8 + 0.01231 * known->s3_ + 0.113 - 0.098;
-    const double r24 = 0.0 - (r4 + (r4 - r4) * known->c3_ + 0.105);
-    const double r34 = p->px * known->c1 + (0.0 - (p->pz - 0.1)) * known->s1, r44 = 0.0 - (0.098 - p->py);
-    const double r45 = 0.0 - (0.0 - (0.0 - r34)), r56 = fabs(0.0 - (p->magnitude + 0.098));
-    const double r57 = fabs(0.0 - (p->magnitude + (p->magnitude + 0.1)));
-    const Shared4 own = { r18, r24, r44, r45, r56, r57 };
+    const double r6 = 0.1137 * (known->c3_ * known->s4) + 0.01231 * known->s3_, r7 = r6 + 0.015;
+    const double r9 = 0.1137 * known->c4 + 0.105, r10 = p->py - 0.098;
+    const double r11 = known->s1 * (p->pz - 0.1) - p->px * known->c1, r15 = fabs(p->magnitude + 0.098);
+    const double r16 = fabs(2.0 * p->magnitude + 0.1);
+    const Shared4 own = { r7, r9, r10, r11, r15, r16 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1170,11 +1140,9 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r22;
-    double r25;
-    double r26;
-    double r31;
-    double r32;
+    double r1;
+    double r4;
+    double r6;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1182,18 +1150,17 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r33 = shared->r22 * shared->r22, r34 = shared->r26 * shared->r26, r35 = r33 + r34;
-    const double r38 = shared->r31 * shared->r31 + shared->r32 * shared->r32;
-    if (!is_away(r35, 10000.0 * r38)) {
+    const double r7 = shared->r1 * shared->r1, r8 = p->px * p->px, r9 = r7 + r8;
+    const double r12 = shared->r6 * shared->r6 + p->magnitude * p->magnitude;
+    if (!is_away(r9, 10000.0 * r12)) {
         return;
     }
-    const double choice0_0[3] = {shared->r25 * shared->r25 - r33 - r34, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->f4 * sqrt(fmax(r38, 0.0)));
+    const double choice0_0[3] = {shared->r4 * shared->r4 - r7 - r8, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, known->f4 * sqrt(fmax(r12, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r48 = 0.0 - (shared->r26 * shared->r25 - shared->r22 * w1);
-        const double r49 = r48 / r35, r53 = 0.0 - (shared->r26 * w1 + shared->r22 * shared->r25);
-        const double r54 = r53 / r35, r58 = sqrt(fmax(r54 * r54 + r49 * r49, 0.0)), c1 = r54 / r58;
-        const double s1 = r49 / r58;
+        const double w1 = roots0.values[i0], r23 = (w1 * shared->r1 - (0.0 - p->px * shared->r4)) / r9;
+        const double r27 = (p->px * w1 - shared->r1 * shared->r4) / r9;
+        const double r31 = sqrt(fmax(r27 * r27 + r23 * r23, 0.0)), c1 = r27 / r31, s1 = r23 / r31;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1209,9 +1176,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r35 = shared->r22 * shared->r22 + shared->r26 * shared->r26;
-    const double r38 = shared->r31 * shared->r31 + shared->r32 * shared->r32;
-    if (!(is_near(r35, 1.0000000000000001e-7 * r38) && is_near(shared->r25, 0.0173877))) {
+    const double r12 = shared->r6 * shared->r6 + p->magnitude * p->magnitude;
+    if (!(is_near(shared->r1 * shared->r1 + p->px * p->px, 1.0000000000000001e-7 * r12) && is_near(shared->r4, 0.0173877))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1229,10 +1195,9 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: ShoulderPitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r12 = (0.1137 * known->s4 + 0.113 - 0.113) * known->s3_, r22 = 0.0 - (p->pz - 0.1);
-    const double r25 = -0.01231 * known->c3_ + r12 + 0.1 - 0.1, r26 = 0.0 - (0.0 - (0.0 - p->px));
-    const double r31 = fabs(p->magnitude + 0.1), r32 = fabs(p->magnitude);
-    const Shared3 own = { r22, r25, r26, r31, r32 };
+    const double r1 = 0.1 - p->pz, r4 = 0.1137 * (known->s3_ * known->s4) - 0.01231 * known->c3_;
+    const double r6 = fabs(p->magnitude + 0.1);
+    const Shared3 own = { r1, r4, r6 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1240,8 +1205,8 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r34;
-    double r53;
+    double r3;
+    double r12;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1249,17 +1214,17 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r54 = shared->r34 * shared->r34, r55 = r54 + 0.0005701111289999999;
-    if (!is_away(r55, 20000.0)) {
+    const double r13 = shared->r3 * shared->r3, r14 = r13 + 0.0005701111289999999;
+    if (!is_away(r14, 20000.0)) {
         return;
     }
-    const double f4 = 1.0, r57 = shared->r53 * shared->r53 - 0.0005701111289999999;
-    const double choice0_0[3] = {r57 - r54, 0.0, 1.0};
+    const double f4 = 1.0, r16 = shared->r12 * shared->r12 - 0.0005701111289999999;
+    const double choice0_0[3] = {r16 - r13, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r62 = 0.0 - (shared->r34 * shared->r53 - 0.023877 * w4);
-        const double r63 = r62 / r55, r67 = 0.0 - (shared->r34 * w4 + 0.023877 * shared->r53), r68 = r67 / r55;
-        const double r72 = sqrt(fmax(r68 * r68 + r63 * r63, 0.0)), c4 = r68 / r72, s4 = r63 / r72;
+        const double w4 = roots0.values[i0], r21 = (0.023877 * w4 - shared->r3 * shared->r12) / r14;
+        const double r25 = (w4 * shared->r3 + 0.023877 * shared->r12) / r14;
+        const double r29 = sqrt(fmax(r25 * r25 + r21 * r21, 0.0)), c4 = 0.0 - r25 / r29, s4 = r21 / r29;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1276,8 +1241,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r55 = shared->r34 * shared->r34 + 0.0005701111289999999;
-    if (!(is_near(r55, 2.0000000000000002e-7) && is_near(shared->r53, 0.01))) {
+    const double r14 = shared->r3 * shared->r3 + 0.0005701111289999999;
+    if (!(is_near(r14, 2.0000000000000002e-7) && is_near(shared->r12, 0.01))) {
         return;
     }
     const double f4 = 1000000.0;
@@ -1297,16 +1262,9 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: ElbowRoll. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.1137 * known->c3_, r3 = 0.1137 * known->s3_, r4 = 0.01231 * known->s3_ + 0.113;
-    const double r5 = -0.01231 * known->c3_ + 0.1, r8 = 0.1 * r5, r9 = 0.1 * r3;
-    const double r11 = 0.113 * r4 + 0.011025 + r8, r12 = 0.113 * r0 + r9;
-    const double r31 = r11 + r11 - 0.033794 + 0.0130792261 + (0.098 * (0.098 - r4) + 0.1 * (0.1 - r5));
-    const double r32 = r12 + r12 + (0.098 * (0.0 - r0) + 0.1 * (0.0 - r3)), r34 = r32 - (0.098 * r0 + r9);
-    const double r39 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r47 = 0.098 * (0.098 - p->py) + 0.1 * (0.1 - p->pz);
-    const double r52 = r39 + r39 - r39 + r47 - (0.098 * p->py + 0.1 * p->pz);
-    const double r53 = r31 - (0.098 * r4 + r8) - r52;
-    const Shared2 own = { r34, r53 };
+    const double r3 = 0.003411 * known->c3_, r6 = 0.0003693 * known->s3_ - p->px * p->px - p->py * p->py;
+    const double r11 = r6 - p->pz * p->pz + 0.196 * p->py + 0.2 * p->pz, r12 = r11 + 0.0047252261;
+    const Shared2 own = { r3, r12 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);

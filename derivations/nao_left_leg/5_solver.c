@@ -317,48 +317,34 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = 0.7071067811865475 * s1, r1 = 1.0 - c1, r4 = c1 + 0.5 * r1, r5 = -0.5 * r1;
-    const double r8 = 0.05 * r0 + -0.085 * r0, r11 = 0.05 * r4 + -0.085 * r5, r14 = 0.05 * r5 + -0.085 * r4;
-    const double r22 = c2 + (1.0 - c2), r23 = 0.0 - s2, r24 = c1 * r22, r25 = (0.0 - r0) * r22, r26 = r0 * c2;
-    const double r28 = r26 + r0 * s2, r29 = r4 * c2, r31 = r29 + r5 * s2, r32 = r5 * c2, r34 = r32 + r4 * s2;
-    const double r36 = r0 * r23 + r26, r38 = r4 * r23 + r32, r40 = r5 * r23 + r29;
-    const double r43 = 0.05 * r28 + -0.085 * r36, r46 = 0.05 * r31 + -0.085 * r38;
-    const double r49 = 0.05 * r34 + -0.085 * r40, r57 = 0.0 - s3, r58 = c3 + (1.0 - c3);
-    const double r61 = r24 * c3 + r36 * r57, r62 = r25 * c3, r64 = r62 + r38 * r57, r66 = r62 + r40 * r57;
-    const double r67 = r28 * r58, r68 = r31 * r58, r69 = r34 * r58, r72 = r24 * s3 + r36 * c3, r73 = r25 * s3;
-    const double r75 = r73 + r38 * c3, r77 = r73 + r40 * c3, r78 = 0.05 * r67, r81 = 0.05 * r68;
-    const double r84 = 0.05 * r69, r87 = 0.0 - r8 + r8 - r43 + r43 - (r78 + -0.085 * r72);
-    const double r88 = 0.05 - r11 + r11 - r46 + r46 - (r81 + -0.085 * r75);
-    const double r89 = -0.085 - r14 + r14 - r49 + r49 - (r84 + -0.085 * r77), r100 = 0.0 - s4;
-    const double r101 = c4 + (1.0 - c4), r104 = r61 * c4 + r72 * r100, r107 = r64 * c4 + r75 * r100;
-    const double r110 = r66 * c4 + r77 * r100, r111 = r67 * r101, r112 = r68 * r101, r113 = r69 * r101;
-    const double r116 = r61 * s4 + r72 * c4, r119 = r64 * s4 + r75 * c4, r122 = r66 * s4 + r77 * c4;
-    const double r123 = 0.05 * r111, r126 = 0.05 * r112, r129 = 0.05 * r113;
-    const double r132 = r87 + (r78 + -0.185 * r72) - (r123 + -0.185 * r116);
-    const double r133 = r88 + (r81 + -0.185 * r75) - (r126 + -0.185 * r119);
-    const double r134 = r89 + (r84 + -0.185 * r77) - (r129 + -0.185 * r122), r145 = 0.0 - s5;
-    const double r146 = c5 + (1.0 - c5), r156 = r111 * r146, r157 = r112 * r146, r158 = r113 * r146;
-    const double r161 = r104 * s5 + r116 * c5, r164 = r107 * s5 + r119 * c5, r167 = r110 * s5 + r122 * c5;
-    const double r170 = 0.05 * r156 + -0.2879 * r161, r173 = 0.05 * r157 + -0.2879 * r164;
-    const double r176 = 0.05 * r158 + -0.2879 * r167, r184 = c6 + (1.0 - c6), r185 = 0.0 - s6;
-    const double r191 = r156 * c6 + r161 * s6, r194 = r157 * c6 + r164 * s6, r197 = r158 * c6 + r167 * s6;
-    const double r200 = r156 * r185 + r161 * c6, r203 = r157 * r185 + r164 * c6, r206 = r158 * r185 + r167 * c6;
-    const double r207 = 0.05 * r191, r210 = 0.05 * r194, r213 = 0.05 * r197;
-    const double r216 = r132 + (r123 + -0.2879 * r116) - r170 + r170 - (r207 + -0.2879 * r200);
-    const double r217 = r133 + (r126 + -0.2879 * r119) - r173 + r173 - (r210 + -0.2879 * r203);
-    const double r218 = r134 + (r129 + -0.2879 * r122) - r176 + r176 - (r213 + -0.2879 * r206);
-    reached[0] = r216 + (r207 + -0.33309 * r200);
-    reached[1] = r217 + (r210 + -0.33309 * r203);
-    reached[2] = r218 + (r213 + -0.33309 * r206);
-    reached[3] = (r104 * c5 + r116 * r145) * r184;
-    reached[4] = (r107 * c5 + r119 * r145) * r184;
-    reached[5] = (r110 * c5 + r122 * r145) * r184;
-    reached[6] = r191;
-    reached[7] = r194;
-    reached[8] = r197;
-    reached[9] = r200;
-    reached[10] = r203;
-    reached[11] = r206;
+    const double r0 = s1 * c2, r1 = s1 * s2, r2 = c1 + 1.0, r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4;
+    const double r6 = c2 * r4, r7 = s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = c1 * s3;
+    const double r17 = c3 * r9, r18 = s1 * s3, r19 = c3 * r12, r20 = c3 * r14;
+    const double r22 = c1 * c3 + 0.7071067811865475 * (s3 * r9), r25 = r16 - 0.7071067811865475 * r17;
+    const double r27 = 0.7071067811865475 * (s1 * c3), r29 = r27 - 0.5 * (s3 * r12);
+    const double r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19, r36 = r27 - 0.5 * (s3 * r14);
+    const double r39 = r31 + 0.5 * r20, r41 = s4 * r22, r42 = c4 * r25, r43 = s4 * r29, r44 = c4 * r33;
+    const double r45 = s4 * r36, r46 = c4 * r39, r47 = c4 * r22 - s4 * r25, r49 = r41 + r42;
+    const double r51 = c4 * r29 - s4 * r33, r53 = r43 + r44, r55 = c4 * r36 - s4 * r39, r57 = r45 + r46;
+    const double r65 = r0 + r1, r67 = s5 * r47 + c5 * r49, r69 = r3 + r5, r71 = s5 * r51 + c5 * r53;
+    const double r73 = r6 + r7, r75 = s5 * r55 + c5 * r57, r77 = s6 * r65, r78 = c6 * r67, r79 = s6 * r69;
+    const double r80 = c6 * r71, r81 = s6 * r73, r82 = c6 * r75, r83 = 0.07071067811865475 * r18;
+    const double r89 = r83 + 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
+    const double r99 = r83 + 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
+    const double r108 = 0.1 * r16 - 0.07071067811865475 * r17 + 0.1029 * r41;
+    const double r112 = r108 + 0.1029 * r42 - 0.03195415544182008 * r77;
+    reached[0] = 0.0 - (r112 + 0.04519 * r78);
+    reached[1] = r99 + 0.022595 * r79 + 0.04519 * r80 + 0.05;
+    reached[2] = r89 + 0.022595 * r81 + 0.04519 * r82 - 0.085;
+    reached[3] = c5 * r47 - s5 * r49;
+    reached[4] = s5 * r53 - c5 * r51;
+    reached[5] = s5 * r57 - c5 * r55;
+    reached[6] = s6 * r67 + 0.7071067811865475 * (c6 * r65);
+    reached[7] = 0.5 * (c6 * r69) - s6 * r71;
+    reached[8] = 0.5 * (c6 * r73) - s6 * r75;
+    reached[9] = r78 - 0.7071067811865475 * r77;
+    reached[10] = 0.0 - (r80 + 0.5 * r79);
+    reached[11] = 0.0 - (r82 + 0.5 * r81);
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -414,61 +400,80 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = 0.7071067811865475 * s1, r1 = 1.0 - c1, r2 = 0.0 - r0, r4 = c1 + 0.5 * r1, r5 = -0.5 * r1;
-    const double r8 = 0.05 * r0 + -0.085 * r0, r11 = 0.05 * r4 + -0.085 * r5, r14 = 0.05 * r5 + -0.085 * r4;
-    const double r18 = 0.0 - r8 + r8, r19 = 0.05 - r11 + r11, r20 = -0.085 - r14 + r14, r22 = c2 + (1.0 - c2);
-    const double r23 = 0.0 - s2, r24 = c1 * r22, r25 = r2 * r22, r26 = r0 * c2, r28 = r26 + r0 * s2;
-    const double r29 = r4 * c2, r31 = r29 + r5 * s2, r32 = r5 * c2, r34 = r32 + r4 * s2, r36 = r0 * r23 + r26;
-    const double r38 = r4 * r23 + r32, r40 = r5 * r23 + r29, r43 = 0.05 * r28 + -0.085 * r36;
-    const double r46 = 0.05 * r31 + -0.085 * r38, r49 = 0.05 * r34 + -0.085 * r40, r53 = r18 - r43 + r43;
-    const double r54 = r19 - r46 + r46, r55 = r20 - r49 + r49, r57 = 0.0 - s3, r58 = c3 + (1.0 - c3);
-    const double r61 = r24 * c3 + r36 * r57, r62 = r25 * c3, r64 = r62 + r38 * r57, r66 = r62 + r40 * r57;
-    const double r67 = r28 * r58, r68 = r31 * r58, r69 = r34 * r58, r72 = r24 * s3 + r36 * c3, r73 = r25 * s3;
-    const double r75 = r73 + r38 * c3, r77 = r73 + r40 * c3, r78 = 0.05 * r67, r81 = 0.05 * r68;
-    const double r84 = 0.05 * r69, r96 = r53 - (r78 + -0.085 * r72) + (r78 + -0.185 * r72);
-    const double r97 = r54 - (r81 + -0.085 * r75) + (r81 + -0.185 * r75);
-    const double r98 = r55 - (r84 + -0.085 * r77) + (r84 + -0.185 * r77), r100 = 0.0 - s4;
-    const double r101 = c4 + (1.0 - c4), r104 = r61 * c4 + r72 * r100, r107 = r64 * c4 + r75 * r100;
-    const double r110 = r66 * c4 + r77 * r100, r111 = r67 * r101, r112 = r68 * r101, r113 = r69 * r101;
-    const double r116 = r61 * s4 + r72 * c4, r119 = r64 * s4 + r75 * c4, r122 = r66 * s4 + r77 * c4;
-    const double r123 = 0.05 * r111, r126 = 0.05 * r112, r129 = 0.05 * r113;
-    const double r141 = r96 - (r123 + -0.185 * r116) + (r123 + -0.2879 * r116);
-    const double r142 = r97 - (r126 + -0.185 * r119) + (r126 + -0.2879 * r119);
-    const double r143 = r98 - (r129 + -0.185 * r122) + (r129 + -0.2879 * r122), r145 = 0.0 - s5;
-    const double r146 = c5 + (1.0 - c5), r149 = r104 * c5 + r116 * r145, r152 = r107 * c5 + r119 * r145;
-    const double r155 = r110 * c5 + r122 * r145, r156 = r111 * r146, r157 = r112 * r146, r158 = r113 * r146;
-    const double r161 = r104 * s5 + r116 * c5, r164 = r107 * s5 + r119 * c5, r167 = r110 * s5 + r122 * c5;
-    const double r170 = 0.05 * r156 + -0.2879 * r161, r173 = 0.05 * r157 + -0.2879 * r164;
-    const double r176 = 0.05 * r158 + -0.2879 * r167, r180 = r141 - r170 + r170, r181 = r142 - r173 + r173;
-    const double r182 = r143 - r176 + r176, r184 = c6 + (1.0 - c6), r185 = 0.0 - s6, r186 = r149 * r184;
-    const double r187 = r152 * r184, r188 = r155 * r184, r191 = r156 * c6 + r161 * s6;
-    const double r194 = r157 * c6 + r164 * s6, r197 = r158 * c6 + r167 * s6, r200 = r156 * r185 + r161 * c6;
-    const double r203 = r157 * r185 + r164 * c6, r206 = r158 * r185 + r167 * c6, r207 = 0.05 * r191;
-    const double r210 = 0.05 * r194, r213 = 0.05 * r197;
-    const double r225 = r180 - (r207 + -0.2879 * r200) + (r207 + -0.33309 * r200);
-    const double r226 = r181 - (r210 + -0.2879 * r203) + (r210 + -0.33309 * r203);
-    const double r227 = r182 - (r213 + -0.2879 * r206) + (r213 + -0.33309 * r206);
-    const double r232 = 0.7071067811865475 * (r227 + 0.085) - -0.7071067811865475 * (r226 - 0.05);
-    const double r237 = r226 - r19, r238 = r227 - r20, r242 = r2 * (r225 - r18), r247 = r225 - r53;
-    const double r248 = r226 - r54, r249 = r227 - r55, r259 = r225 - r96, r260 = r226 - r97, r261 = r227 - r98;
-    const double r271 = r225 - r141, r272 = r226 - r142, r273 = r227 - r143, r283 = r225 - r180;
-    const double r284 = r226 - r181, r285 = r227 - r182;
-    const double r300 = 0.7071067811865475 * r188 - -0.7071067811865475 * r187, r307 = r2 * r186;
-    const double r353 = 0.7071067811865475 * r197 - -0.7071067811865475 * r194, r360 = r2 * r191;
-    const double r406 = 0.7071067811865475 * r206 - -0.7071067811865475 * r203, r413 = r2 * r200;
+    const double r0 = s1 * c2, r1 = s1 * s2, r2 = c1 + 1.0, r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4;
+    const double r6 = c2 * r4, r7 = s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = c1 * s3;
+    const double r17 = c3 * r9, r18 = s1 * s3, r19 = c3 * r12, r20 = c3 * r14;
+    const double r22 = c1 * c3 + 0.7071067811865475 * (s3 * r9), r25 = r16 - 0.7071067811865475 * r17;
+    const double r27 = 0.7071067811865475 * (s1 * c3), r29 = r27 - 0.5 * (s3 * r12);
+    const double r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19, r36 = r27 - 0.5 * (s3 * r14);
+    const double r39 = r31 + 0.5 * r20, r41 = s4 * r22, r42 = c4 * r25, r43 = s4 * r29, r44 = c4 * r33;
+    const double r45 = s4 * r36, r46 = c4 * r39, r47 = c4 * r22 - s4 * r25, r49 = r41 + r42;
+    const double r51 = c4 * r29 - s4 * r33, r52 = c5 * r51, r53 = r43 + r44, r54 = s5 * r53;
+    const double r55 = c4 * r36 - s4 * r39, r57 = r45 + r46, r65 = r0 + r1, r66 = c6 * r65;
+    const double r67 = s5 * r47 + c5 * r49, r68 = s6 * r67, r69 = r3 + r5, r70 = c6 * r69;
+    const double r71 = s5 * r51 + c5 * r53, r72 = s6 * r71, r73 = r6 + r7, r74 = c6 * r73;
+    const double r75 = s5 * r55 + c5 * r57, r76 = s6 * r75, r77 = s6 * r65, r78 = c6 * r67, r79 = s6 * r69;
+    const double r80 = c6 * r71, r81 = s6 * r73, r82 = c6 * r75, r83 = 0.07071067811865475 * r18;
+    const double r86 = 0.1029 * r45, r88 = 0.1029 * r46, r90 = 0.022595 * r81, r92 = 0.04519 * r82;
+    const double r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92, r96 = 0.1029 * r43, r98 = 0.1029 * r44;
+    const double r100 = 0.022595 * r79, r102 = 0.04519 * r80, r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102;
+    const double r107 = 0.1029 * r41, r109 = 0.1029 * r42;
+    const double r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109, r111 = 0.03195415544182008 * r77;
+    const double r113 = 0.04519 * r78, r114 = r110 - r111 + r113, r115 = c5 * r47 - s5 * r49;
+    const double r128 = 0.5 * r74 - r76, r130 = 0.5 * r70 - r72, r132 = r68 + 0.7071067811865475 * r66;
+    const double r137 = r82 + 0.5 * r81, r139 = r80 + 0.5 * r79, r160 = r92 + (r90 + (r86 + r88));
+    const double r164 = r102 + (r100 + (r96 + r98)), r168 = r113 + (r107 + r109 - r111), r173 = r90 + r92;
+    const double r175 = r100 + r102, r177 = r111 - r113, r182 = r52 - r54, r184 = c5 * r55 - s5 * r57;
+    const double r192 = 0.09999999999999998 * r18 + 0.035355339059327376 * r20;
+    const double r196 = r192 + 0.07276128778409574 * r45 + 0.07276128778409574 * r46;
+    const double r200 = r196 + 0.01597707772091004 * r81 + 0.03195415544182008 * r82;
+    const double r204 = r200 + 0.035355339059327376 * r19 + 0.07276128778409574 * r43;
+    const double r208 = r204 + 0.07276128778409574 * r44 + 0.01597707772091004 * r79;
+    const double r213 = 0.0 - 0.7071067811865475 * (s1 * r93 - s1 * r103);
+    const double r223 = 0.07071067811865475 * r16 - 0.04999999999999999 * r17;
+    const double r227 = r223 + 0.07276128778409574 * r41 + 0.07276128778409574 * r42;
+    const double r231 = r227 - 0.022594999999999997 * r77 + 0.03195415544182008 * r78;
+    const double r232 = 0.7071067811865475 * (s1 * r114);
+    const double r236 = 0.5 * (r73 * r114) + 0.7071067811865475 * (r65 * r93);
+    const double r240 = 0.5 * (r73 * r168) + 0.7071067811865475 * (r65 * r160);
+    const double r244 = 0.5 * (r73 * r177) - 0.7071067811865475 * (r65 * r173);
+    const double r250 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
+    const double r253 = 0.7071067811865475 * (r65 * r164) + 0.5 * (r69 * r168);
+    const double r256 = 0.7071067811865475 * (r65 * r175) - 0.5 * (r69 * r177);
+    const double r272 = 0.0 - 0.7071067811865475 * (r52 + r184 - r54);
+    const double r277 = 0.0 - 0.5 * (r69 * r184 - r73 * r182), r279 = 0.0 - 0.7071067811865475 * r115;
+    const double r280 = 0.7071067811865475 * (s1 * r115);
+    const double r284 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r184);
+    const double r288 = 0.7071067811865475 * (r65 * r182) + 0.5 * (r69 * r115), r289 = 0.0 - r288;
+    const double r309 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
+    const double r313 = r309 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
+    const double r316 = 0.0 - 0.7071067811865475 * (s1 * r128 - s1 * r130);
+    const double r318 = 0.5 * (r69 * r128 - r73 * r130);
+    const double r322 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68, r323 = 0.0 - r322;
+    const double r324 = 0.7071067811865475 * (s1 * r132);
+    const double r329 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
+    const double r335 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
+    const double r339 = 0.7071067811865475 * r77 - r78;
+    const double r357 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
+    const double r361 = r357 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
+    const double r367 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
+    const double r371 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
+    const double r372 = 0.7071067811865475 * (s1 * r339);
+    const double r376 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r339);
+    const double r382 = 0.5 * (r69 * r339) - 0.7071067811865475 * (r65 * r139);
     const Jacobian result = { {
-        {r232, r2 * r238 - r2 * r237, r31 * r249 - r34 * r248, r68 * r261 - r69 * r260, r112 * r273 - r113 * r272, r152 * r285 - r155 * r284},
-        {-0.7071067811865475 * r225, r242 - c1 * r238, r34 * r247 - r28 * r249, r69 * r259 - r67 * r261, r113 * r271 - r111 * r273, r155 * r283 - r149 * r285},
-        {0.0 - 0.7071067811865475 * r225, c1 * r237 - r242, r28 * r248 - r31 * r247, r67 * r260 - r68 * r259, r111 * r272 - r112 * r271, r149 * r284 - r152 * r283},
-        {r300, r2 * r188 - r2 * r187, r31 * r188 - r34 * r187, r68 * r188 - r69 * r187, r112 * r188 - r113 * r187, r152 * r188 - r155 * r187},
-        {-0.7071067811865475 * r186, r307 - c1 * r188, r34 * r186 - r28 * r188, r69 * r186 - r67 * r188, r113 * r186 - r111 * r188, r155 * r186 - r149 * r188},
-        {0.0 - 0.7071067811865475 * r186, c1 * r187 - r307, r28 * r187 - r31 * r186, r67 * r187 - r68 * r186, r111 * r187 - r112 * r186, r149 * r187 - r152 * r186},
-        {r353, r2 * r197 - r2 * r194, r31 * r197 - r34 * r194, r68 * r197 - r69 * r194, r112 * r197 - r113 * r194, r152 * r197 - r155 * r194},
-        {-0.7071067811865475 * r191, r360 - c1 * r197, r34 * r191 - r28 * r197, r69 * r191 - r67 * r197, r113 * r191 - r111 * r197, r155 * r191 - r149 * r197},
-        {0.0 - 0.7071067811865475 * r191, c1 * r194 - r360, r28 * r194 - r31 * r191, r67 * r194 - r68 * r191, r111 * r194 - r112 * r191, r149 * r194 - r152 * r191},
-        {r406, r2 * r206 - r2 * r203, r31 * r206 - r34 * r203, r68 * r206 - r69 * r203, r112 * r206 - r113 * r203, r152 * r206 - r155 * r203},
-        {-0.7071067811865475 * r200, r413 - c1 * r206, r34 * r200 - r28 * r206, r69 * r200 - r67 * r206, r113 * r200 - r111 * r206, r155 * r200 - r149 * r206},
-        {0.0 - 0.7071067811865475 * r200, c1 * r203 - r413, r28 * r203 - r31 * r200, r67 * r203 - r68 * r200, r111 * r203 - r112 * r200, r149 * r203 - r152 * r200},
+        {r208 + 0.03195415544182008 * r80, r213, 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r160 - r73 * r164), 0.5 * (r69 * r173 - r73 * r175), r175 * r184 - r173 * r182},
+        {r231, r232 - c1 * r93, 0.0 - r236, 0.0 - r240, r244, 0.0 - (r177 * r184 + r173 * r115)},
+        {r231, c1 * r103 - r232, r250, r253, r256, r175 * r115 + r177 * r182},
+        {r272, 0.7071067811865475 * (s1 * r184 - s1 * r182), r277, r277, r277, 0.0},
+        {r279, c1 * r184 - r280, r284, r284, r284, 0.0},
+        {r279, r280 - c1 * r182, r289, r289, r289, 0.0},
+        {r313, r316, r318, r318, r318, r184 * r130 - r182 * r128},
+        {r323, 0.0 - (c1 * r128 + r324), r329, r329, r329, 0.0 - (r184 * r132 + r115 * r128)},
+        {r323, c1 * r130 + r324, r335, r335, r335, r115 * r130 + r182 * r132},
+        {0.0 - r361, 0.7071067811865475 * (s1 * r137 - s1 * r139), r367, r367, r367, r182 * r137 - r184 * r139},
+        {r371, c1 * r137 + r372, r376, r376, r376, r184 * r339 + r115 * r137},
+        {r371, 0.0 - (c1 * r139 + r372), r382, r382, r382, 0.0 - (r115 * r139 + r182 * r339)},
     } };
     return result;
 }
@@ -1202,17 +1207,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r115;
-    double r116;
+    double r59;
+    double r62;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r137 = (0.0 - 0.1 * shared->r115) / 0.010000000000000002;
-    const double r141 = (0.0 - (-0.0 - 0.1 * shared->r116)) / 0.010000000000000002;
-    const double r145 = sqrt(fmax(r141 * r141 + r137 * r137, 0.0)), c3 = r141 / r145, s3 = r137 / r145;
+    const double r64 = 0.1 * shared->r59 / 0.010000000000000002, r66 = 0.1 * shared->r62 / 0.010000000000000002;
+    const double r70 = sqrt(fmax(r66 * r66 + r64 * r64, 0.0)), c3 = r66 / r70, s3 = 0.0 - r64 / r70;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1227,39 +1231,36 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: HipPitch. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->s1, r1 = -0.1029 * known->s5;
-    const double r4 = 0.1029 * known->c5 - 0.2879 + 0.2879, r11 = r1 + (r1 - r1) * known->c6;
-    const double r14 = (0.0 - (0.0 - r4)) * known->s6 + 0.05 - 0.05, r15 = r4 * known->c6 - 0.2879 + 0.33309;
-    const double r20 = r11 * p->r11_ + r14 * p->r12_ + r15 * p->r13_;
-    const double r25 = r11 * p->r21_ + r14 * p->r22_ + r15 * p->r23_;
-    const double r30 = r11 * p->r31_ + r14 * p->r32_ + r15 * p->r33_;
-    const double r43 = p->pz + r30 + 0.085 - (0.0 - (p->py + r25 - 0.05));
-    const double r59 = 0.0 - ((p->px + r20) * known->c1 + (0.0 - r43) * r0), r60 = 0.0 - known->c4;
-    const double r61 = 0.0 - known->s4, r67 = r60 * known->c5 + (0.0 - r61) * known->s5;
-    const double r70 = r61 * known->c5 + (0.0 - (0.0 - r60)) * known->s5, r75 = (0.0 - (0.0 - r70)) * known->s6;
-    const double r76 = r70 * known->c6, r77 = r67 + (r67 - r67) * known->c6;
-    const double r82 = r77 * p->r11_ + r75 * p->r12_ + r76 * p->r13_;
-    const double r87 = r77 * p->r21_ + r75 * p->r22_ + r76 * p->r23_;
-    const double r92 = r77 * p->r31_ + r75 * p->r32_ + r76 * p->r33_;
-    const double r106 = r82 * known->c1 + (0.0 - (r92 - (0.0 - r87))) * r0, r115 = 0.0 - r59;
-    const double r116 = 0.1 * (0.0 - r106);
-    const Shared6 own = { r115, r116 };
+    const double r0 = known->c5 * known->s6, r5 = 0.1029 * (known->c5 * known->c6) + 0.04519;
+    const double r16 = p->px - 0.1029 * (p->r11_ * known->s5) + 0.1029 * (p->r12_ * r0);
+    const double r22 = p->pz - 0.1029 * (p->r31_ * known->s5) + 0.1029 * (p->r32_ * r0);
+    const double r26 = p->py + (p->r33_ * r5 + r22) - 0.1029 * (p->r21_ * known->s5);
+    const double r29 = p->r23_ * r5 + (r26 + 0.1029 * (p->r22_ * r0));
+    const double r36 = known->s4 * known->c5 + known->c4 * known->s5, r37 = known->s6 * r36;
+    const double r38 = known->c6 * r36, r39 = known->c4 * known->c5 - known->s4 * known->s5;
+    const double r50 = p->r13_ * r38 + (p->r11_ * r39 + p->r12_ * r37);
+    const double r53 = p->r33_ * r38 + (p->r31_ * r39 + p->r32_ * r37);
+    const double r56 = p->r23_ * r38 + (p->r22_ * r37 + (p->r21_ * r39 + r53));
+    const double r58 = 0.7071067811865475 * (known->s1 * (r29 + 0.035));
+    const double r59 = known->c1 * (p->r13_ * r5 + r16) - r58;
+    const double r62 = 0.1 * (known->c1 * r50) - 0.07071067811865475 * (known->s1 * r56);
+    const Shared6 own = { r59, r62 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r35;
-    double r36;
+    double r26;
+    double r29;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r38 = 0.0 - (0.0 - shared->r35), r41 = 0.0 - (-0.0 - (0.0 - shared->r36));
-    const double r45 = sqrt(fmax(r41 * r41 + r38 * r38, 0.0)), c2 = r41 / r45, s2 = r38 / r45;
+    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r33 = sqrt(fmax(r32, 0.0));
+    const double c2 = shared->r29 / r33, s2 = shared->r26 / r33;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1271,21 +1272,20 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: HipRoll. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - known->s6, r7 = known->c6 * p->r22_ + r1 * p->r23_;
-    const double r10 = known->c6 * p->r32_ + r1 * p->r33_, r13 = 0.5 * r7 + -0.5 * r10, r14 = 0.0 - r13;
-    const double r21 = 0.0 - (0.0 - (known->c6 * p->r12_ + r1 * p->r13_));
-    const double r26 = r21 * (0.7071067811865475 * known->s1);
-    const double r32 = 0.0 - (r14 + ((r10 - r14) * known->c1 + r26));
-    const double r34 = 0.0 - (0.0 - (r13 + ((r7 - r13) * known->c1 + r26))), r35 = 0.0 - r32, r36 = 0.0 - r34;
-    const Shared5 own = { r35, r36 };
+    const double r2 = p->r22_ * known->c6, r3 = p->r23_ * known->s6, r4 = p->r32_ * known->c6;
+    const double r5 = p->r33_ * known->s6, r14 = known->s1 * (p->r12_ * known->c6 - p->r13_ * known->s6);
+    const double r22 = 0.5 * r2 - 0.5 * r3 - 0.5 * r4 + 0.5 * r5;
+    const double r24 = r22 - 0.5 * (known->c1 * (r2 + (r4 - r5) - r3)), r25 = 0.7071067811865475 * r14;
+    const double r26 = r25 - r24, r28 = r22 + 0.5 * (known->c1 * (r4 + (r2 - r3) - r5)), r29 = r25 + r28;
+    const Shared5 own = { r26, r29 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r18;
-    double r22;
+    double r6;
+    double r10;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1293,16 +1293,15 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r23 = shared->r18 * shared->r18, r24 = shared->r22 * shared->r22, r25 = r23 + r24;
-    if (!is_away(r25, 119999.99999999999)) {
+    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10, r13 = r11 + r12;
+    if (!is_away(r13, 119999.99999999999)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r23 - r24, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r11 - r12, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, known->f5 * (3.4641016151377544 * known->f6));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r33 = (0.0 - (0.0 - shared->r18 * w1)) / r25;
-        const double r36 = (0.0 - shared->r22 * w1) / r25, r40 = sqrt(fmax(r36 * r36 + r33 * r33, 0.0));
-        const double c1 = r36 / r40, s1 = r33 / r40;
+        const double w1 = roots0.values[i0], r19 = w1 * shared->r6 / r13, r21 = w1 * shared->r10 / r13;
+        const double r25 = sqrt(fmax(r21 * r21 + r19 * r19, 0.0)), c1 = 0.0 - r21 / r25, s1 = r19 / r25;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1318,8 +1317,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r25 = shared->r18 * shared->r18 + shared->r22 * shared->r22;
-    if (!is_near(r25, 1.2e-6)) {
+    const double r13 = shared->r6 * shared->r6 + shared->r10 * shared->r10;
+    if (!is_near(r13, 1.2e-6)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1337,11 +1336,10 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYawPitch. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - known->s6;
-    const double r17 = known->c6 * p->r32_ + r0 * p->r33_ - (0.0 - (known->c6 * p->r22_ + r0 * p->r23_));
-    const double r18 = 0.0 - (known->c6 * p->r12_ + r0 * p->r13_);
-    const double r22 = 0.7071067811865475 * (0.0 - (0.0 - r17));
-    const Shared4 own = { r18, r22 };
+    const double r6 = p->r13_ * known->s6 - p->r12_ * known->c6;
+    const double r8 = p->r22_ * known->c6 + (p->r32_ * known->c6 - p->r33_ * known->s6);
+    const double r10 = 0.7071067811865475 * (r8 - p->r23_ * known->s6);
+    const Shared4 own = { r6, r10 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1349,13 +1347,14 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r88;
-    double r135;
-    double r136;
-    double r137;
-    double r183;
-    double r184;
-    double r185;
+    double r41;
+    double r50;
+    double r67;
+    double r68;
+    double r69;
+    double r83;
+    double r84;
+    double r85;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1363,16 +1362,14 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r188 = shared->r88 * shared->r88 + shared->r135 * shared->r135;
-    const double r191 = shared->r183 * shared->r183 + shared->r184 * shared->r184;
-    if (!is_away(r188, 10000.0 * r191)) {
+    const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
+    const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
+    if (!is_away(r88, 10000.0 * r91)) {
         return;
     }
-    const double f5 = 1.0, r195 = shared->r135 * shared->r136 - shared->r88 * shared->r137;
-    const double r197 = (0.0 - r195) / r188;
-    const double r201 = 0.0 - shared->r88 * shared->r136 - shared->r135 * shared->r137;
-    const double r203 = (0.0 - r201) / r188, r207 = sqrt(fmax(r203 * r203 + r197 * r197, 0.0)), c5 = r203 / r207;
-    const double s5 = r197 / r207;
+    const double f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67), r97 = r96 / r88;
+    const double r100 = shared->r50 * shared->r68 - shared->r41 * shared->r67, r101 = r100 / r88;
+    const double r105 = sqrt(fmax(r101 * r101 + r97 * r97, 0.0)), c5 = r101 / r105, s5 = r97 / r105;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1388,9 +1385,9 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r188 = shared->r88 * shared->r88 + shared->r135 * shared->r135;
-    const double r191 = shared->r183 * shared->r183 + shared->r184 * shared->r184;
-    if (!(is_near(r188, 1.0000000000000001e-7 * r191) && is_near(shared->r137, 0.00055566) && is_near(shared->r136, 0.01 * shared->r185))) {
+    const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
+    const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
+    if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
         return;
     }
     const double f5 = 1000000.0;
@@ -1410,29 +1407,23 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnklePitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.1029 * known->s6, r1 = 0.1029 * known->c6, r2 = 0.05 * r0, r4 = r2 + -0.2879 * r1;
-    const double r11 = -0.1029 * p->r21_, r15 = r0 * p->r22_ + r1 * p->r23_, r16 = -0.1029 * p->r31_;
-    const double r20 = r0 * p->r32_ + r1 * p->r33_, r22 = p->py + 0.04519 * p->r23_;
-    const double r23 = p->pz + 0.04519 * p->r33_, r25 = r2 + -0.33309 * r1;
-    const double r37 = p->px * (p->px + 0.04519 * p->r13_) + p->py * r22;
-    const double r38 = p->px * (r0 * p->r12_ + r1 * p->r13_) + p->py * r15, r40 = r37 + p->pz * r23;
-    const double r41 = r38 + p->pz * r20, r42 = p->px * (-0.1029 * p->r11_) + p->py * r11 + p->pz * r16;
-    const double r50 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r69 = 0.05 * (0.05 - r22) + -0.085 * (-0.085 - r23);
-    const double r82 = r4 + r4 - (r25 + r25) + (r41 + r41) + (0.05 * (0.0 - r15) + -0.085 * (0.0 - r20));
-    const double r83 = r42 + r42 + (0.05 * (0.0 - r11) + -0.085 * (0.0 - r16));
-    const double r84 = r40 + r40 - r50 + 0.0126305461 + r69 - (0.05 * r22 + -0.085 * r23);
-    const double r88 = 0.0 - (r82 - (0.05 * r15 + -0.085 * r20));
-    const double r135 = 0.0 - (0.0 - (r83 - (0.05 * r11 + -0.085 * r16))), r136 = 0.0 - (0.01 - r84);
-    const double r137 = -0.2058 * (-0.085 * known->s4 - -0.185 * known->s4), r138 = p->magnitude + 2.27259;
-    const double r139 = p->magnitude * r138, r140 = 1.3458 * p->magnitude, r141 = 1.4187 * p->magnitude;
-    const double r145 = r139 + r139 + r139, r146 = r140 + r140 + r140, r147 = r141 + r141 + r141;
-    const double r151 = p->magnitude * p->magnitude, r155 = r145 + r145 + (r151 + r151 + r151) + 2.4510423541;
-    const double r161 = 0.05 * (r138 + 0.05) + 0.085 * (r138 + 0.085);
-    const double r169 = r146 + r146 + 1.554899982 + 0.181683 + 0.181683;
-    const double r171 = r155 + r161 + (0.05 * r138 + 0.085 * r138) + 0.0829, r183 = fabs(r169);
-    const double r184 = fabs(0.0 - (r147 + r147 + 0.1915245 + 0.1915245)), r185 = fabs(0.0 - r171);
-    const Shared3 own = { r88, r135, r136, r137, r183, r184, r185 };
+    const double r2 = p->r22_ * known->s6, r3 = p->r23_ * known->c6, r4 = p->r32_ * known->s6;
+    const double r5 = p->r33_ * known->c6, r10 = p->px * (p->r12_ * known->s6 + p->r13_ * known->c6);
+    const double r31 = 0.009300102 * known->c6 + 0.2058 * r10 + 0.2058 * (p->py * (r2 + r3));
+    const double r35 = r31 + 0.2058 * (p->pz * (r4 + r5)) - 0.01029 * r2;
+    const double r41 = r35 - 0.01029 * r3 + 0.017493 * r4 + 0.017493 * r5;
+    const double r44 = 0.2058 * (p->px * p->r11_) + 0.2058 * (p->py * p->r21_);
+    const double r48 = r44 + 0.2058 * (p->pz * p->r31_) - 0.01029 * p->r21_, r50 = r48 + 0.017493 * p->r31_;
+    const double r53 = 2.0 * (p->px * (p->px + 0.04519 * p->r13_)) + 2.0 * (p->py * (p->py + 0.04519 * p->r23_));
+    const double r55 = r53 + 2.0 * (p->pz * (p->pz + 0.04519 * p->r33_));
+    const double r58 = r55 - p->px * p->px - p->py * p->py - p->pz * p->pz;
+    const double r64 = r58 - 0.1 * p->py - 0.004519 * p->r23_ + 0.17 * p->pz;
+    const double r67 = r64 + 0.0076823 * p->r33_ + 0.0123555461, r68 = 0.02058 * known->s4, r69 = 0.0 - r68;
+    const double r77 = 6.0 * (p->magnitude * (p->magnitude + 2.27259));
+    const double r81 = r77 + 3.0 * (p->magnitude * p->magnitude) + 0.27 * p->magnitude;
+    const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
+    const double r85 = fabs(r81 + 3.1572666541);
+    const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1440,10 +1431,10 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
+    double r11;
+    double r18;
     double r22;
     double r23;
-    double r30;
-    double r31;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1451,18 +1442,17 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r32 = shared->r22 * shared->r22, r33 = shared->r23 * shared->r23, r34 = r32 + r33;
-    const double r37 = shared->r30 * shared->r30 + shared->r31 * shared->r31;
-    if (!is_away(r34, 10000.0 * r37)) {
+    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18, r26 = r24 + r25;
+    const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
+    if (!is_away(r26, 10000.0 * r29)) {
         return;
     }
     const double f6 = 1.0;
-    const double choice0_0[3] = {0.0 - r32 - r33, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r37, 0.0)));
+    const double choice0_0[3] = {0.0 - r24 - r25, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r29, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w6 = roots0.values[i0], r45 = (0.0 - (0.0 - shared->r22 * w6)) / r34;
-        const double r48 = (0.0 - shared->r23 * w6) / r34, r52 = sqrt(fmax(r48 * r48 + r45 * r45, 0.0));
-        const double c6 = r48 / r52, s6 = r45 / r52;
+        const double w6 = roots0.values[i0], r35 = w6 * shared->r11 / r26, r37 = w6 * shared->r18 / r26;
+        const double r41 = sqrt(fmax(r37 * r37 + r35 * r35, 0.0)), c6 = 0.0 - r37 / r41, s6 = r35 / r41;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1479,9 +1469,9 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r34 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    const double r37 = shared->r30 * shared->r30 + shared->r31 * shared->r31;
-    if (!is_near(r34, 1.0000000000000001e-7 * r37)) {
+    const double r26 = shared->r11 * shared->r11 + shared->r18 * shared->r18;
+    const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
+    if (!is_near(r26, 1.0000000000000001e-7 * r29)) {
         return;
     }
     const double f6 = 1000000.0;
@@ -1501,14 +1491,12 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: AnkleRoll. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - p->r23_, r2 = 0.0 - p->r33_;
-    const double r11 = p->px * p->r12_ + p->py * p->r22_ + p->pz * p->r32_;
-    const double r12 = p->px * (0.0 - p->r13_) + p->py * r1 + p->pz * r2;
-    const double r22 = 0.0 - (0.05 * p->r22_ + -0.085 * p->r32_ - r11);
-    const double r23 = 0.0 - (0.05 * r1 + -0.085 * r2 - (r12 - 0.04519));
-    const double r25 = p->magnitude + p->magnitude + p->magnitude, r30 = fabs(r25 + 0.1 + 0.135);
-    const double r31 = fabs(r25 + 0.62099 + 0.135);
-    const Shared2 own = { r22, r23, r30, r31 };
+    const double r9 = 0.05 * p->r22_ - 0.085 * p->r32_ - p->px * p->r12_;
+    const double r11 = p->pz * p->r32_ - (r9 - p->py * p->r22_);
+    const double r15 = 0.05 * p->r23_ - 0.085 * p->r33_ - p->px * p->r13_;
+    const double r18 = r15 - p->py * p->r23_ - p->pz * p->r33_ - 0.04519, r19 = 3.0 * p->magnitude;
+    const double r22 = fabs(r19 + 0.235), r23 = fabs(r19 + 0.75599);
+    const Shared2 own = { r11, r18, r22, r23 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -1516,20 +1504,20 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r30;
+    double r28;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r32 = shared->r30 * shared->r30 - 0.00042353640000000005;
-    const double choice0_0[3] = {r32, 0.0, 1.0};
+    const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
+    const double choice0_0[3] = {r30, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r36 = (0.0 - (0.0 - 0.02058 * w4)) / 0.00042353640000000005;
-        const double r39 = (0.0 - 0.02058 * shared->r30) / 0.00042353640000000005;
-        const double r43 = sqrt(fmax(r39 * r39 + r36 * r36, 0.0)), c4 = r39 / r43, s4 = r36 / r43;
+        const double w4 = roots0.values[i0], r32 = 0.02058 * w4 / 0.00042353640000000005;
+        const double r34 = 0.02058 * shared->r28 / 0.00042353640000000005;
+        const double r38 = sqrt(fmax(r34 * r34 + r32 * r32, 0.0)), c4 = 0.0 - r34 / r38, s4 = r32 / r38;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1542,12 +1530,12 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: KneePitch. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r4 = p->py + 0.04519 * p->r23_, r5 = p->pz + 0.04519 * p->r33_;
-    const double r9 = p->px * (p->px + 0.04519 * p->r13_) + p->py * r4, r10 = r9 + p->pz * r5;
-    const double r16 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r28 = r10 + r10 - r16 + 0.0020421361 + (0.05 * (0.05 - r4) + -0.085 * (-0.085 - r5));
-    const double r30 = 0.02058841 - (r28 - (0.05 * r4 + -0.085 * r5));
-    const Shared1 own = { r30 };
+    const double r14 = 2.0 * (p->px * (p->px + 0.04519 * p->r13_)) + 2.0 * (p->py * (p->py + 0.04519 * p->r23_));
+    const double r16 = r14 + 2.0 * (p->pz * (p->pz + 0.04519 * p->r33_));
+    const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
+    const double r25 = r19 - 0.1 * p->py - 0.004519 * p->r23_ + 0.17 * p->pz;
+    const double r28 = 0.0088212739 - (r25 + 0.0076823 * p->r33_);
+    const Shared1 own = { r28 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

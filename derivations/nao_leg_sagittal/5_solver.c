@@ -272,7 +272,7 @@ static Equations equations(const Parameters *p, const double *q)
     const Equations result = {
         {
             s3 * r1 + (102.9 * (c3 * s4) - p->px),
-            c3 * r1 - (102.9 * (s4 * s3) + p->pz),
+            c3 * r1 - (p->pz + 102.9 * (s4 * s3)),
         },
         {
             fabs(p->px) + 305.8,
@@ -290,11 +290,11 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
-    const double c4 = cos(q[1]), c3 = cos(q[0]), s4 = sin(q[1]), s3 = sin(q[0]), r4 = 102.9 * (c3 * s4);
-    const double r9 = 102.9 * (s4 * s3);
+    const double c4 = cos(q[1]), c3 = cos(q[0]), s4 = sin(q[1]), s3 = sin(q[0]), r0 = 102.9 * c4;
+    const double r4 = 102.9 * (c3 * s4), r9 = 102.9 * (s4 * s3);
     const Jacobian result = { {
-        {c3 * (102.9 * c4 + 100.0) - r9, 102.9 * (c4 * c3) - r9},
-        {s3 * (-102.9 * c4 - 100.0) - r4, -102.9 * (c4 * s3) - r4},
+        {c3 * (r0 + 100.0) - r9, 102.9 * (c4 * c3) - r9},
+        {s3 * (0.0 - r0 - 100.0) - r4, 0.0 - 102.9 * (c4 * s3) - r4},
     } };
     return result;
 }
@@ -841,7 +841,7 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     const Roots roots0 = real_roots(choice0_0, 3, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double s4 = roots0.values[i0], r17 = 100.0 * r0 + 100.0 * r1, r18 = r17 - 58841.0;
-        const double r24 = 20000.0 * r0 + r6, r25 = (p->px * r18 - 2058000.0 * (p->pz * s4)) / r24, s3 = r25;
+        const double r24 = r6 + 20000.0 * r0, r25 = (p->px * r18 - 2058000.0 * (p->pz * s4)) / r24, s3 = r25;
         const double r30 = (p->pz * r18 + 2058000.0 * (p->px * s4)) / r24, c3 = r30;
         const double c4 = (r17 - 2058841.0) / 2058000.0;
         const double q[JOINTS] = {angle(c3, s3), angle(c4, s4)};

@@ -290,7 +290,7 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     for (i0, &s4) in roots0.as_slice().iter().enumerate() {
         let r17 = 100.0 * r0 + 100.0 * r1;
         let r18 = r17 - 58841.0;
-        let r24 = 20000.0 * r0 + r6;
+        let r24 = r6 + 20000.0 * r0;
         let s3 = (p.px * r18 - 2058000.0 * (p.pz * s4)) / r24;
         let c3 = (p.pz * r18 + 2058000.0 * (p.px * s4)) / r24;
         let c4 = (r17 - 2058841.0) / 2058000.0;
@@ -314,7 +314,7 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
     Equations {
         value: [
             s3 * r1 + (102.9 * (c3 * s4) - p.px),
-            c3 * r1 - (102.9 * (s4 * s3) + p.pz),
+            c3 * r1 - (p.pz + 102.9 * (s4 * s3)),
         ],
         size: [
             f64::abs(p.px) + 305.8,
@@ -329,11 +329,12 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let c3 = q[0].cos();
     let s4 = q[1].sin();
     let s3 = q[0].sin();
+    let r0 = 102.9 * c4;
     let r4 = 102.9 * (c3 * s4);
     let r9 = 102.9 * (s4 * s3);
     [
-        [c3 * (102.9 * c4 + 100.0) - r9, 102.9 * (c4 * c3) - r9],
-        [s3 * (-102.9 * c4 - 100.0) - r4, -102.9 * (c4 * s3) - r4],
+        [c3 * (r0 + 100.0) - r9, 102.9 * (c4 * c3) - r9],
+        [s3 * (0.0 - r0 - 100.0) - r4, 0.0 - 102.9 * (c4 * s3) - r4],
     ]
 }
 

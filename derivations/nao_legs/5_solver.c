@@ -335,93 +335,66 @@ static void tip(const double *q, double *reached)
     const double left_c5 = cos(q[4]), left_s5 = sin(q[4]), left_c6 = cos(q[5]), left_s6 = sin(q[5]);
     const double right_c2 = cos(q[6]), right_s2 = sin(q[6]), right_c3 = cos(q[7]), right_s3 = sin(q[7]);
     const double right_c4 = cos(q[8]), right_s4 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
-    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = 0.7071067811865475 * left_s1;
-    const double r1 = 1.0 - left_c1, r2 = 0.0 - r0, r3 = 0.5 * r1, r4 = left_c1 + r3, r5 = -0.5 * r1;
-    const double r7 = -0.085 * r0, r8 = 0.05 * r0 + r7, r11 = 0.05 * r4 + -0.085 * r5, r13 = -0.085 * r4;
-    const double r14 = 0.05 * r5 + r13, r22 = left_c2 + (1.0 - left_c2), r23 = 0.0 - left_s2;
-    const double r24 = left_c1 * r22, r25 = r2 * r22, r26 = r0 * left_c2, r28 = r26 + r0 * left_s2;
-    const double r29 = r4 * left_c2, r31 = r29 + r5 * left_s2, r32 = r5 * left_c2, r34 = r32 + r4 * left_s2;
-    const double r36 = r0 * r23 + r26, r38 = r4 * r23 + r32, r40 = r5 * r23 + r29;
-    const double r43 = 0.05 * r28 + -0.085 * r36, r46 = 0.05 * r31 + -0.085 * r38;
-    const double r49 = 0.05 * r34 + -0.085 * r40, r57 = 0.0 - left_s3, r58 = left_c3 + (1.0 - left_c3);
-    const double r61 = r24 * left_c3 + r36 * r57, r62 = r25 * left_c3, r64 = r62 + r38 * r57;
-    const double r66 = r62 + r40 * r57, r67 = r28 * r58, r68 = r31 * r58, r69 = r34 * r58;
-    const double r72 = r24 * left_s3 + r36 * left_c3, r73 = r25 * left_s3, r75 = r73 + r38 * left_c3;
-    const double r77 = r73 + r40 * left_c3, r78 = 0.05 * r67, r81 = 0.05 * r68, r84 = 0.05 * r69;
-    const double r87 = 0.0 - r8 + r8 - r43 + r43 - (r78 + -0.085 * r72);
-    const double r88 = 0.05 - r11 + r11 - r46 + r46 - (r81 + -0.085 * r75);
-    const double r89 = -0.085 - r14 + r14 - r49 + r49 - (r84 + -0.085 * r77), r100 = 0.0 - left_s4;
-    const double r101 = left_c4 + (1.0 - left_c4), r104 = r61 * left_c4 + r72 * r100;
-    const double r107 = r64 * left_c4 + r75 * r100, r110 = r66 * left_c4 + r77 * r100, r111 = r67 * r101;
-    const double r112 = r68 * r101, r113 = r69 * r101, r116 = r61 * left_s4 + r72 * left_c4;
-    const double r119 = r64 * left_s4 + r75 * left_c4, r122 = r66 * left_s4 + r77 * left_c4, r123 = 0.05 * r111;
-    const double r126 = 0.05 * r112, r129 = 0.05 * r113;
-    const double r132 = r87 + (r78 + -0.185 * r72) - (r123 + -0.185 * r116);
-    const double r133 = r88 + (r81 + -0.185 * r75) - (r126 + -0.185 * r119);
-    const double r134 = r89 + (r84 + -0.185 * r77) - (r129 + -0.185 * r122), r145 = 0.0 - left_s5;
-    const double r146 = left_c5 + (1.0 - left_c5), r156 = r111 * r146, r157 = r112 * r146, r158 = r113 * r146;
-    const double r161 = r104 * left_s5 + r116 * left_c5, r164 = r107 * left_s5 + r119 * left_c5;
-    const double r167 = r110 * left_s5 + r122 * left_c5, r170 = 0.05 * r156 + -0.2879 * r161;
-    const double r173 = 0.05 * r157 + -0.2879 * r164, r176 = 0.05 * r158 + -0.2879 * r167;
-    const double r184 = left_c6 + (1.0 - left_c6), r185 = 0.0 - left_s6, r191 = r156 * left_c6 + r161 * left_s6;
-    const double r194 = r157 * left_c6 + r164 * left_s6, r197 = r158 * left_c6 + r167 * left_s6;
-    const double r200 = r156 * r185 + r161 * left_c6, r203 = r157 * r185 + r164 * left_c6;
-    const double r206 = r158 * r185 + r167 * left_c6, r207 = 0.05 * r191, r210 = 0.05 * r194, r213 = 0.05 * r197;
-    const double r216 = r132 + (r123 + -0.2879 * r116) - r170 + r170 - (r207 + -0.2879 * r200);
-    const double r217 = r133 + (r126 + -0.2879 * r119) - r173 + r173 - (r210 + -0.2879 * r203);
-    const double r218 = r134 + (r129 + -0.2879 * r122) - r176 + r176 - (r213 + -0.2879 * r206);
-    const double r458 = -0.05 * r2 + r7, r461 = -0.05 * r4 + -0.085 * r3, r463 = -0.05 * r3 + r13;
-    const double r471 = right_c2 + (1.0 - right_c2), r472 = 0.0 - right_s2, r473 = left_c1 * r471;
-    const double r474 = r0 * r471, r475 = r2 * r471, r478 = r2 * right_c2 + r0 * right_s2, r479 = r4 * right_c2;
-    const double r481 = r479 + r3 * right_s2, r482 = r3 * right_c2, r484 = r482 + r4 * right_s2;
-    const double r487 = r2 * r472 + r0 * right_c2, r489 = r4 * r472 + r482, r491 = r3 * r472 + r479;
-    const double r494 = -0.05 * r478 + -0.085 * r487, r497 = -0.05 * r481 + -0.085 * r489;
-    const double r500 = -0.05 * r484 + -0.085 * r491, r508 = 0.0 - right_s3, r509 = right_c3 + (1.0 - right_c3);
-    const double r512 = r473 * right_c3 + r487 * r508, r515 = r474 * right_c3 + r489 * r508;
-    const double r518 = r475 * right_c3 + r491 * r508, r519 = r478 * r509, r520 = r481 * r509;
-    const double r521 = r484 * r509, r524 = r473 * right_s3 + r487 * right_c3;
-    const double r527 = r474 * right_s3 + r489 * right_c3, r530 = r475 * right_s3 + r491 * right_c3;
-    const double r531 = -0.05 * r519, r534 = -0.05 * r520, r537 = -0.05 * r521;
-    const double r540 = 0.0 - r458 + r458 - r494 + r494 - (r531 + -0.085 * r524);
-    const double r541 = -0.05 - r461 + r461 - r497 + r497 - (r534 + -0.085 * r527);
-    const double r542 = -0.085 - r463 + r463 - r500 + r500 - (r537 + -0.085 * r530), r553 = 0.0 - right_s4;
-    const double r554 = right_c4 + (1.0 - right_c4), r564 = r519 * r554, r565 = r520 * r554, r566 = r521 * r554;
-    const double r569 = r512 * right_s4 + r524 * right_c4, r572 = r515 * right_s4 + r527 * right_c4;
-    const double r575 = r518 * right_s4 + r530 * right_c4, r576 = -0.05 * r564, r579 = -0.05 * r565;
-    const double r582 = -0.05 * r566, r585 = r540 + (r531 + -0.185 * r524) - (r576 + -0.185 * r569);
-    const double r586 = r541 + (r534 + -0.185 * r527) - (r579 + -0.185 * r572);
-    const double r587 = r542 + (r537 + -0.185 * r530) - (r582 + -0.185 * r575);
-    const double r599 = right_c5 + (1.0 - right_c5), r609 = r564 * r599, r610 = r565 * r599, r611 = r566 * r599;
-    const double r614 = (r512 * right_c4 + r524 * r553) * right_s5 + r569 * right_c5;
-    const double r617 = (r515 * right_c4 + r527 * r553) * right_s5 + r572 * right_c5;
-    const double r620 = (r518 * right_c4 + r530 * r553) * right_s5 + r575 * right_c5;
-    const double r623 = -0.05 * r609 + -0.2879 * r614, r626 = -0.05 * r610 + -0.2879 * r617;
-    const double r629 = -0.05 * r611 + -0.2879 * r620, r638 = 0.0 - right_s6;
-    const double r653 = r609 * r638 + r614 * right_c6, r656 = r610 * r638 + r617 * right_c6;
-    const double r659 = r611 * r638 + r620 * right_c6, r660 = -0.05 * (r609 * right_c6 + r614 * right_s6);
-    const double r663 = -0.05 * (r610 * right_c6 + r617 * right_s6);
-    const double r666 = -0.05 * (r611 * right_c6 + r620 * right_s6);
-    const double r669 = r585 + (r576 + -0.2879 * r569) - r623 + r623 - (r660 + -0.2879 * r653);
-    const double r670 = r586 + (r579 + -0.2879 * r572) - r626 + r626 - (r663 + -0.2879 * r656);
-    const double r671 = r587 + (r582 + -0.2879 * r575) - r629 + r629 - (r666 + -0.2879 * r659);
-    reached[0] = r216 + (r207 + -0.33309 * r200);
-    reached[1] = r217 + (r210 + -0.33309 * r203);
-    reached[2] = r218 + (r213 + -0.33309 * r206);
-    reached[3] = (r104 * left_c5 + r116 * r145) * r184;
-    reached[4] = (r107 * left_c5 + r119 * r145) * r184;
-    reached[5] = (r110 * left_c5 + r122 * r145) * r184;
-    reached[6] = r191;
-    reached[7] = r194;
-    reached[8] = r197;
-    reached[9] = r200;
-    reached[10] = r203;
-    reached[11] = r206;
-    reached[12] = r669 + (r660 + -0.33309 * r653);
-    reached[13] = r670 + (r663 + -0.33309 * r656);
-    reached[14] = r671 + (r666 + -0.33309 * r659);
-    reached[15] = r653;
-    reached[16] = r656;
-    reached[17] = r659;
+    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
+    const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4, r6 = left_c2 * r4;
+    const double r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = left_c1 * left_s3;
+    const double r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12, r20 = left_c3 * r14;
+    const double r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    const double r25 = r16 - 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    const double r29 = r27 - 0.5 * (left_s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19;
+    const double r36 = r27 - 0.5 * (left_s3 * r14), r39 = r31 + 0.5 * r20, r41 = left_s4 * r22;
+    const double r42 = left_c4 * r25, r43 = left_s4 * r29, r44 = left_c4 * r33, r45 = left_s4 * r36;
+    const double r46 = left_c4 * r39, r47 = left_c4 * r22 - left_s4 * r25, r49 = r41 + r42;
+    const double r51 = left_c4 * r29 - left_s4 * r33, r53 = r43 + r44, r55 = left_c4 * r36 - left_s4 * r39;
+    const double r57 = r45 + r46, r65 = r0 + r1, r67 = left_s5 * r47 + left_c5 * r49, r69 = r3 + r5;
+    const double r71 = left_s5 * r51 + left_c5 * r53, r73 = r6 + r7, r75 = left_s5 * r55 + left_c5 * r57;
+    const double r77 = left_s6 * r65, r78 = left_c6 * r67, r79 = left_s6 * r69, r80 = left_c6 * r71;
+    const double r81 = left_s6 * r73, r82 = left_c6 * r75, r83 = 0.07071067811865475 * r18;
+    const double r89 = r83 + 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
+    const double r99 = r83 + 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
+    const double r108 = 0.1 * r16 - 0.07071067811865475 * r17 + 0.1029 * r41;
+    const double r112 = r108 + 0.1029 * r42 - 0.03195415544182008 * r77;
+    const double r132 = left_s6 * r67 + 0.7071067811865475 * (left_c6 * r65), r147 = left_s1 * right_c2;
+    const double r148 = left_s1 * right_s2, r149 = right_c2 * r2, r150 = right_s2 * r4, r151 = right_c2 * r4;
+    const double r152 = right_s2 * r2, r154 = r147 + r148, r157 = r151 + r152, r159 = r149 + r150;
+    const double r161 = left_c1 * right_s3, r162 = right_c3 * r154, r163 = left_s1 * right_s3;
+    const double r164 = right_c3 * r157, r165 = right_c3 * r159;
+    const double r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
+    const double r170 = r161 + 0.7071067811865475 * r162, r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    const double r174 = r172 + 0.5 * (right_s3 * r157), r176 = 0.7071067811865475 * r163;
+    const double r178 = r176 - 0.5 * r164, r181 = r172 + 0.5 * (right_s3 * r159), r184 = r176 - 0.5 * r165;
+    const double r186 = right_s4 * r167, r187 = right_c4 * r170, r188 = right_s4 * r174, r189 = right_c4 * r178;
+    const double r190 = right_s4 * r181, r191 = right_c4 * r184;
+    const double r198 = right_s5 * (right_c4 * r167 - right_s4 * r170);
+    const double r200 = right_s5 * (right_c4 * r174 - right_s4 * r178);
+    const double r202 = right_s5 * (right_c4 * r181 - right_s4 * r184), r210 = right_s6 * (r147 - r148);
+    const double r211 = right_c6 * (r198 + right_c5 * (r186 + r187)), r212 = right_s6 * (r149 - r150);
+    const double r213 = right_c6 * (r200 + right_c5 * (r188 + r189)), r214 = right_s6 * (r151 - r152);
+    const double r215 = right_c6 * (r202 + right_c5 * (r190 + r191)), r216 = 0.07071067811865475 * r163;
+    const double r222 = r216 - 0.05 * r165 + 0.1029 * r190 + 0.1029 * r191;
+    const double r232 = r216 - 0.05 * r164 + 0.1029 * r188 + 0.1029 * r189;
+    const double r241 = 0.1 * r161 + 0.07071067811865475 * r162 + 0.1029 * r186;
+    const double r245 = r241 + 0.1029 * r187 + 0.03195415544182008 * r210;
+    const double r250 = r232 - 0.022595 * r212 + 0.04519 * r213 + 0.05;
+    const double r253 = r222 - 0.022595 * r214 + 0.04519 * r215 - 0.085;
+    reached[0] = 0.0 - (r112 + 0.04519 * r78);
+    reached[1] = r99 + 0.022595 * r79 + 0.04519 * r80 + 0.05;
+    reached[2] = r89 + 0.022595 * r81 + 0.04519 * r82 - 0.085;
+    reached[3] = left_c5 * r47 - left_s5 * r49;
+    reached[4] = left_s5 * r53 - left_c5 * r51;
+    reached[5] = left_s5 * r57 - left_c5 * r55;
+    reached[6] = r132;
+    reached[7] = 0.5 * (left_c6 * r69) - left_s6 * r71;
+    reached[8] = 0.5 * (left_c6 * r73) - left_s6 * r75;
+    reached[9] = r78 - 0.7071067811865475 * r77;
+    reached[10] = 0.0 - (r80 + 0.5 * r79);
+    reached[11] = 0.0 - (r82 + 0.5 * r81);
+    reached[12] = 0.0 - (r245 + 0.04519 * r211);
+    reached[13] = 0.0 - r250;
+    reached[14] = r253;
+    reached[15] = r211 + 0.7071067811865475 * r210;
+    reached[16] = r213 - 0.5 * r212;
+    reached[17] = 0.5 * r214 - r215;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -492,118 +465,142 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     const double left_c5 = cos(q[4]), left_s5 = sin(q[4]), left_c6 = cos(q[5]), left_s6 = sin(q[5]);
     const double right_c2 = cos(q[6]), right_s2 = sin(q[6]), right_c3 = cos(q[7]), right_s3 = sin(q[7]);
     const double right_c4 = cos(q[8]), right_s4 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
-    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = 0.7071067811865475 * left_s1;
-    const double r1 = 1.0 - left_c1, r2 = 0.0 - r0, r3 = 0.5 * r1, r4 = left_c1 + r3, r5 = -0.5 * r1;
-    const double r7 = -0.085 * r0, r8 = 0.05 * r0 + r7, r11 = 0.05 * r4 + -0.085 * r5, r13 = -0.085 * r4;
-    const double r14 = 0.05 * r5 + r13, r18 = 0.0 - r8 + r8, r19 = 0.05 - r11 + r11, r20 = -0.085 - r14 + r14;
-    const double r22 = left_c2 + (1.0 - left_c2), r23 = 0.0 - left_s2, r24 = left_c1 * r22, r25 = r2 * r22;
-    const double r26 = r0 * left_c2, r28 = r26 + r0 * left_s2, r29 = r4 * left_c2, r31 = r29 + r5 * left_s2;
-    const double r32 = r5 * left_c2, r34 = r32 + r4 * left_s2, r36 = r0 * r23 + r26, r38 = r4 * r23 + r32;
-    const double r40 = r5 * r23 + r29, r43 = 0.05 * r28 + -0.085 * r36, r46 = 0.05 * r31 + -0.085 * r38;
-    const double r49 = 0.05 * r34 + -0.085 * r40, r53 = r18 - r43 + r43, r54 = r19 - r46 + r46;
-    const double r55 = r20 - r49 + r49, r57 = 0.0 - left_s3, r58 = left_c3 + (1.0 - left_c3);
-    const double r61 = r24 * left_c3 + r36 * r57, r62 = r25 * left_c3, r64 = r62 + r38 * r57;
-    const double r66 = r62 + r40 * r57, r67 = r28 * r58, r68 = r31 * r58, r69 = r34 * r58;
-    const double r72 = r24 * left_s3 + r36 * left_c3, r73 = r25 * left_s3, r75 = r73 + r38 * left_c3;
-    const double r77 = r73 + r40 * left_c3, r78 = 0.05 * r67, r81 = 0.05 * r68, r84 = 0.05 * r69;
-    const double r96 = r53 - (r78 + -0.085 * r72) + (r78 + -0.185 * r72);
-    const double r97 = r54 - (r81 + -0.085 * r75) + (r81 + -0.185 * r75);
-    const double r98 = r55 - (r84 + -0.085 * r77) + (r84 + -0.185 * r77), r100 = 0.0 - left_s4;
-    const double r101 = left_c4 + (1.0 - left_c4), r104 = r61 * left_c4 + r72 * r100;
-    const double r107 = r64 * left_c4 + r75 * r100, r110 = r66 * left_c4 + r77 * r100, r111 = r67 * r101;
-    const double r112 = r68 * r101, r113 = r69 * r101, r116 = r61 * left_s4 + r72 * left_c4;
-    const double r119 = r64 * left_s4 + r75 * left_c4, r122 = r66 * left_s4 + r77 * left_c4, r123 = 0.05 * r111;
-    const double r126 = 0.05 * r112, r129 = 0.05 * r113;
-    const double r141 = r96 - (r123 + -0.185 * r116) + (r123 + -0.2879 * r116);
-    const double r142 = r97 - (r126 + -0.185 * r119) + (r126 + -0.2879 * r119);
-    const double r143 = r98 - (r129 + -0.185 * r122) + (r129 + -0.2879 * r122), r145 = 0.0 - left_s5;
-    const double r146 = left_c5 + (1.0 - left_c5), r149 = r104 * left_c5 + r116 * r145;
-    const double r152 = r107 * left_c5 + r119 * r145, r155 = r110 * left_c5 + r122 * r145, r156 = r111 * r146;
-    const double r157 = r112 * r146, r158 = r113 * r146, r161 = r104 * left_s5 + r116 * left_c5;
-    const double r164 = r107 * left_s5 + r119 * left_c5, r167 = r110 * left_s5 + r122 * left_c5;
-    const double r170 = 0.05 * r156 + -0.2879 * r161, r173 = 0.05 * r157 + -0.2879 * r164;
-    const double r176 = 0.05 * r158 + -0.2879 * r167, r180 = r141 - r170 + r170, r181 = r142 - r173 + r173;
-    const double r182 = r143 - r176 + r176, r184 = left_c6 + (1.0 - left_c6), r185 = 0.0 - left_s6;
-    const double r186 = r149 * r184, r187 = r152 * r184, r188 = r155 * r184;
-    const double r191 = r156 * left_c6 + r161 * left_s6, r194 = r157 * left_c6 + r164 * left_s6;
-    const double r197 = r158 * left_c6 + r167 * left_s6, r200 = r156 * r185 + r161 * left_c6;
-    const double r203 = r157 * r185 + r164 * left_c6, r206 = r158 * r185 + r167 * left_c6, r207 = 0.05 * r191;
-    const double r210 = 0.05 * r194, r213 = 0.05 * r197;
-    const double r225 = r180 - (r207 + -0.2879 * r200) + (r207 + -0.33309 * r200);
-    const double r226 = r181 - (r210 + -0.2879 * r203) + (r210 + -0.33309 * r203);
-    const double r227 = r182 - (r213 + -0.2879 * r206) + (r213 + -0.33309 * r206);
-    const double r232 = 0.7071067811865475 * (r227 + 0.085) - -0.7071067811865475 * (r226 - 0.05);
-    const double r237 = r226 - r19, r238 = r227 - r20, r242 = r2 * (r225 - r18), r247 = r225 - r53;
-    const double r248 = r226 - r54, r249 = r227 - r55, r259 = r225 - r96, r260 = r226 - r97, r261 = r227 - r98;
-    const double r271 = r225 - r141, r272 = r226 - r142, r273 = r227 - r143, r283 = r225 - r180;
-    const double r284 = r226 - r181, r285 = r227 - r182;
-    const double r300 = 0.7071067811865475 * r188 - -0.7071067811865475 * r187, r307 = r2 * r186;
-    const double r353 = 0.7071067811865475 * r197 - -0.7071067811865475 * r194, r360 = r2 * r191;
-    const double r406 = 0.7071067811865475 * r206 - -0.7071067811865475 * r203, r413 = r2 * r200;
-    const double r458 = -0.05 * r2 + r7, r461 = -0.05 * r4 + -0.085 * r3, r463 = -0.05 * r3 + r13;
-    const double r467 = 0.0 - r458 + r458, r468 = -0.05 - r461 + r461, r469 = -0.085 - r463 + r463;
-    const double r471 = right_c2 + (1.0 - right_c2), r472 = 0.0 - right_s2, r473 = left_c1 * r471;
-    const double r474 = r0 * r471, r475 = r2 * r471, r478 = r2 * right_c2 + r0 * right_s2, r479 = r4 * right_c2;
-    const double r481 = r479 + r3 * right_s2, r482 = r3 * right_c2, r484 = r482 + r4 * right_s2;
-    const double r487 = r2 * r472 + r0 * right_c2, r489 = r4 * r472 + r482, r491 = r3 * r472 + r479;
-    const double r494 = -0.05 * r478 + -0.085 * r487, r497 = -0.05 * r481 + -0.085 * r489;
-    const double r500 = -0.05 * r484 + -0.085 * r491, r504 = r467 - r494 + r494, r505 = r468 - r497 + r497;
-    const double r506 = r469 - r500 + r500, r508 = 0.0 - right_s3, r509 = right_c3 + (1.0 - right_c3);
-    const double r512 = r473 * right_c3 + r487 * r508, r515 = r474 * right_c3 + r489 * r508;
-    const double r518 = r475 * right_c3 + r491 * r508, r519 = r478 * r509, r520 = r481 * r509;
-    const double r521 = r484 * r509, r524 = r473 * right_s3 + r487 * right_c3;
-    const double r527 = r474 * right_s3 + r489 * right_c3, r530 = r475 * right_s3 + r491 * right_c3;
-    const double r531 = -0.05 * r519, r534 = -0.05 * r520, r537 = -0.05 * r521;
-    const double r549 = r504 - (r531 + -0.085 * r524) + (r531 + -0.185 * r524);
-    const double r550 = r505 - (r534 + -0.085 * r527) + (r534 + -0.185 * r527);
-    const double r551 = r506 - (r537 + -0.085 * r530) + (r537 + -0.185 * r530), r553 = 0.0 - right_s4;
-    const double r554 = right_c4 + (1.0 - right_c4), r557 = r512 * right_c4 + r524 * r553;
-    const double r560 = r515 * right_c4 + r527 * r553, r563 = r518 * right_c4 + r530 * r553, r564 = r519 * r554;
-    const double r565 = r520 * r554, r566 = r521 * r554, r569 = r512 * right_s4 + r524 * right_c4;
-    const double r572 = r515 * right_s4 + r527 * right_c4, r575 = r518 * right_s4 + r530 * right_c4;
-    const double r576 = -0.05 * r564, r579 = -0.05 * r565, r582 = -0.05 * r566;
-    const double r594 = r549 - (r576 + -0.185 * r569) + (r576 + -0.2879 * r569);
-    const double r595 = r550 - (r579 + -0.185 * r572) + (r579 + -0.2879 * r572);
-    const double r596 = r551 - (r582 + -0.185 * r575) + (r582 + -0.2879 * r575), r598 = 0.0 - right_s5;
-    const double r599 = right_c5 + (1.0 - right_c5), r602 = r557 * right_c5 + r569 * r598;
-    const double r605 = r560 * right_c5 + r572 * r598, r608 = r563 * right_c5 + r575 * r598, r609 = r564 * r599;
-    const double r610 = r565 * r599, r611 = r566 * r599, r614 = r557 * right_s5 + r569 * right_c5;
-    const double r617 = r560 * right_s5 + r572 * right_c5, r620 = r563 * right_s5 + r575 * right_c5;
-    const double r623 = -0.05 * r609 + -0.2879 * r614, r626 = -0.05 * r610 + -0.2879 * r617;
-    const double r629 = -0.05 * r611 + -0.2879 * r620, r633 = r594 - r623 + r623, r634 = r595 - r626 + r626;
-    const double r635 = r596 - r629 + r629, r638 = 0.0 - right_s6, r653 = r609 * r638 + r614 * right_c6;
-    const double r656 = r610 * r638 + r617 * right_c6, r659 = r611 * r638 + r620 * right_c6;
-    const double r660 = -0.05 * (r609 * right_c6 + r614 * right_s6);
-    const double r663 = -0.05 * (r610 * right_c6 + r617 * right_s6);
-    const double r666 = -0.05 * (r611 * right_c6 + r620 * right_s6);
-    const double r678 = r633 - (r660 + -0.2879 * r653) + (r660 + -0.33309 * r653);
-    const double r679 = r634 - (r663 + -0.2879 * r656) + (r663 + -0.33309 * r656);
-    const double r680 = r635 - (r666 + -0.2879 * r659) + (r666 + -0.33309 * r659);
-    const double r685 = 0.7071067811865475 * (r680 + 0.085) - 0.7071067811865475 * (r679 + 0.05);
-    const double r686 = 0.7071067811865475 * r678, r688 = r678 - r467, r689 = r679 - r468, r690 = r680 - r469;
-    const double r700 = r678 - r504, r701 = r679 - r505, r702 = r680 - r506, r712 = r678 - r549;
-    const double r713 = r679 - r550, r714 = r680 - r551, r724 = r678 - r594, r725 = r679 - r595;
-    const double r726 = r680 - r596, r736 = r678 - r633, r737 = r679 - r634, r738 = r680 - r635;
-    const double r753 = 0.7071067811865475 * r659 - 0.7071067811865475 * r656, r754 = 0.7071067811865475 * r653;
+    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
+    const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4, r6 = left_c2 * r4;
+    const double r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = left_c1 * left_s3;
+    const double r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12, r20 = left_c3 * r14;
+    const double r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    const double r25 = r16 - 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    const double r29 = r27 - 0.5 * (left_s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19;
+    const double r36 = r27 - 0.5 * (left_s3 * r14), r39 = r31 + 0.5 * r20, r41 = left_s4 * r22;
+    const double r42 = left_c4 * r25, r43 = left_s4 * r29, r44 = left_c4 * r33, r45 = left_s4 * r36;
+    const double r46 = left_c4 * r39, r47 = left_c4 * r22 - left_s4 * r25, r49 = r41 + r42;
+    const double r51 = left_c4 * r29 - left_s4 * r33, r52 = left_c5 * r51, r53 = r43 + r44, r54 = left_s5 * r53;
+    const double r55 = left_c4 * r36 - left_s4 * r39, r57 = r45 + r46, r65 = r0 + r1, r66 = left_c6 * r65;
+    const double r67 = left_s5 * r47 + left_c5 * r49, r68 = left_s6 * r67, r69 = r3 + r5, r70 = left_c6 * r69;
+    const double r71 = left_s5 * r51 + left_c5 * r53, r72 = left_s6 * r71, r73 = r6 + r7, r74 = left_c6 * r73;
+    const double r75 = left_s5 * r55 + left_c5 * r57, r76 = left_s6 * r75, r77 = left_s6 * r65;
+    const double r78 = left_c6 * r67, r79 = left_s6 * r69, r80 = left_c6 * r71, r81 = left_s6 * r73;
+    const double r82 = left_c6 * r75, r83 = 0.07071067811865475 * r18, r86 = 0.1029 * r45, r88 = 0.1029 * r46;
+    const double r90 = 0.022595 * r81, r92 = 0.04519 * r82, r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92;
+    const double r96 = 0.1029 * r43, r98 = 0.1029 * r44, r100 = 0.022595 * r79, r102 = 0.04519 * r80;
+    const double r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102, r107 = 0.1029 * r41, r109 = 0.1029 * r42;
+    const double r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109, r111 = 0.03195415544182008 * r77;
+    const double r113 = 0.04519 * r78, r114 = r110 - r111 + r113, r115 = left_c5 * r47 - left_s5 * r49;
+    const double r128 = 0.5 * r74 - r76, r130 = 0.5 * r70 - r72, r132 = r68 + 0.7071067811865475 * r66;
+    const double r137 = r82 + 0.5 * r81, r139 = r80 + 0.5 * r79, r147 = left_s1 * right_c2;
+    const double r148 = left_s1 * right_s2, r149 = right_c2 * r2, r150 = right_s2 * r4, r151 = right_c2 * r4;
+    const double r152 = right_s2 * r2, r154 = r147 + r148, r157 = r151 + r152, r159 = r149 + r150;
+    const double r161 = left_c1 * right_s3, r162 = right_c3 * r154, r163 = left_s1 * right_s3;
+    const double r164 = right_c3 * r157, r165 = right_c3 * r159;
+    const double r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
+    const double r170 = r161 + 0.7071067811865475 * r162, r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    const double r174 = r172 + 0.5 * (right_s3 * r157), r176 = 0.7071067811865475 * r163;
+    const double r178 = r176 - 0.5 * r164, r181 = r172 + 0.5 * (right_s3 * r159), r184 = r176 - 0.5 * r165;
+    const double r186 = right_s4 * r167, r187 = right_c4 * r170, r188 = right_s4 * r174, r189 = right_c4 * r178;
+    const double r190 = right_s4 * r181, r191 = right_c4 * r184, r192 = right_c4 * r167 - right_s4 * r170;
+    const double r193 = r186 + r187, r194 = right_c4 * r174 - right_s4 * r178, r195 = r188 + r189;
+    const double r196 = right_c4 * r181 - right_s4 * r184, r197 = r190 + r191, r204 = r147 - r148;
+    const double r206 = r149 - r150, r208 = r151 - r152, r210 = right_s6 * r204;
+    const double r211 = right_c6 * (right_s5 * r192 + right_c5 * r193), r212 = right_s6 * r206;
+    const double r213 = right_c6 * (right_s5 * r194 + right_c5 * r195), r214 = right_s6 * r208;
+    const double r215 = right_c6 * (right_s5 * r196 + right_c5 * r197), r216 = 0.07071067811865475 * r163;
+    const double r219 = 0.1029 * r190, r221 = 0.1029 * r191, r223 = 0.022595 * r214, r225 = 0.04519 * r215;
+    const double r226 = r216 - 0.05 * r165 + r219 + r221 - r223 + r225, r229 = 0.1029 * r188;
+    const double r231 = 0.1029 * r189, r233 = 0.022595 * r212, r235 = 0.04519 * r213;
+    const double r236 = r216 - 0.05 * r164 + r229 + r231 - r233 + r235, r240 = 0.1029 * r186;
+    const double r241 = 0.1 * r161 + 0.07071067811865475 * r162 + r240, r242 = 0.1029 * r187;
+    const double r244 = 0.03195415544182008 * r210, r246 = 0.04519 * r211, r247 = r241 + r242 + r244 + r246;
+    const double r256 = 0.5 * r214 - r215, r259 = r211 + 0.7071067811865475 * r210;
+    const double r277 = r92 + (r90 + (r86 + r88)), r281 = r102 + (r100 + (r96 + r98));
+    const double r285 = r113 + (r107 + r109 - r111), r290 = r90 + r92, r292 = r100 + r102, r294 = r111 - r113;
+    const double r299 = r52 - r54, r301 = left_c5 * r55 - left_s5 * r57;
+    const double r309 = 0.09999999999999998 * r18 + 0.035355339059327376 * r20;
+    const double r313 = r309 + 0.07276128778409574 * r45 + 0.07276128778409574 * r46;
+    const double r317 = r313 + 0.01597707772091004 * r81 + 0.03195415544182008 * r82;
+    const double r321 = r317 + 0.035355339059327376 * r19 + 0.07276128778409574 * r43;
+    const double r325 = r321 + 0.07276128778409574 * r44 + 0.01597707772091004 * r79;
+    const double r329 = 0.7071067811865475 * (left_s1 * r93 - left_s1 * r103);
+    const double r340 = 0.07071067811865475 * r16 - 0.04999999999999999 * r17;
+    const double r344 = r340 + 0.07276128778409574 * r41 + 0.07276128778409574 * r42;
+    const double r348 = r344 - 0.022594999999999997 * r77 + 0.03195415544182008 * r78;
+    const double r349 = 0.7071067811865475 * (left_s1 * r114);
+    const double r353 = 0.5 * (r73 * r114) + 0.7071067811865475 * (r65 * r93);
+    const double r357 = 0.5 * (r73 * r285) + 0.7071067811865475 * (r65 * r277);
+    const double r361 = 0.5 * (r73 * r294) - 0.7071067811865475 * (r65 * r290);
+    const double r367 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
+    const double r370 = 0.7071067811865475 * (r65 * r281) + 0.5 * (r69 * r285);
+    const double r373 = 0.7071067811865475 * (r65 * r292) - 0.5 * (r69 * r294);
+    const double r389 = 0.0 - 0.7071067811865475 * (r52 + r301 - r54);
+    const double r391 = 0.7071067811865475 * (left_s1 * r301 - left_s1 * r299);
+    const double r394 = 0.0 - 0.5 * (r69 * r301 - r73 * r299), r396 = 0.0 - 0.7071067811865475 * r115;
+    const double r397 = 0.7071067811865475 * (left_s1 * r115);
+    const double r401 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r301);
+    const double r405 = 0.7071067811865475 * (r65 * r299) + 0.5 * (r69 * r115), r406 = 0.0 - r405;
+    const double r426 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
+    const double r430 = r426 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
+    const double r432 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
+    const double r435 = 0.5 * (r69 * r128 - r73 * r130);
+    const double r439 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68, r440 = 0.0 - r439;
+    const double r441 = 0.7071067811865475 * (left_s1 * r132);
+    const double r446 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
+    const double r452 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
+    const double r456 = 0.7071067811865475 * r77 - r78;
+    const double r474 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
+    const double r478 = r474 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
+    const double r481 = 0.7071067811865475 * (left_s1 * r137 - left_s1 * r139);
+    const double r484 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
+    const double r488 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
+    const double r489 = 0.7071067811865475 * (left_s1 * r456);
+    const double r493 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r456);
+    const double r499 = 0.5 * (r69 * r456) - 0.7071067811865475 * (r65 * r139);
+    const double r523 = r225 + (r219 + r221 - r223), r527 = r235 + (r229 + r231 - r233);
+    const double r531 = r246 + (r244 + (r240 + r242)), r536 = r223 - r225, r538 = r233 - r235;
+    const double r540 = r244 + r246, r545 = right_c5 * r194 - right_s5 * r195;
+    const double r547 = right_c5 * r196 - right_s5 * r197, r550 = right_c5 * r192 - right_s5 * r193;
+    const double r556 = 0.09999999999999998 * r163 - 0.035355339059327376 * r165;
+    const double r560 = r556 + 0.07276128778409574 * r190 + 0.07276128778409574 * r191;
+    const double r564 = r560 - 0.01597707772091004 * r214 + 0.03195415544182008 * r215;
+    const double r568 = r564 - 0.035355339059327376 * r164 + 0.07276128778409574 * r188;
+    const double r572 = r568 + 0.07276128778409574 * r189 - 0.01597707772091004 * r212;
+    const double r576 = 0.7071067811865475 * (left_s1 * r226 - left_s1 * r236);
+    const double r587 = 0.07071067811865475 * r161 + 0.04999999999999999 * r162;
+    const double r591 = r587 + 0.07276128778409574 * r186 + 0.07276128778409574 * r187;
+    const double r595 = r591 + 0.022594999999999997 * r210 + 0.03195415544182008 * r211;
+    const double r597 = 0.7071067811865475 * (left_s1 * r247);
+    const double r601 = 0.5 * (r208 * r247) + 0.7071067811865475 * (r204 * r226);
+    const double r604 = 0.5 * (r208 * r531) + 0.7071067811865475 * (r204 * r523);
+    const double r607 = 0.5 * (r208 * r540) - 0.7071067811865475 * (r204 * r536);
+    const double r612 = 0.7071067811865475 * (r204 * r236) + 0.5 * (r206 * r247);
+    const double r615 = 0.7071067811865475 * (r204 * r527) + 0.5 * (r206 * r531);
+    const double r618 = 0.5 * (r206 * r540) - 0.7071067811865475 * (r204 * r538), r621 = 0.5 * r212 - r213;
+    const double r640 = 0.35355339059327373 * r214 - 0.7071067811865475 * r215;
+    const double r644 = r640 + 0.35355339059327373 * r212 - 0.7071067811865475 * r213;
+    const double r646 = 0.7071067811865475 * (left_s1 * r256 - left_s1 * r621);
+    const double r648 = 0.5 * (r206 * r256 - r208 * r621);
+    const double r652 = 0.4999999999999999 * r210 + 0.7071067811865475 * r211;
+    const double r653 = 0.7071067811865475 * (left_s1 * r259);
+    const double r658 = 0.7071067811865475 * (r204 * r256) - 0.5 * (r208 * r259);
+    const double r666 = 0.7071067811865475 * (r204 * r621) - 0.5 * (r206 * r259);
     const Jacobian result = { {
-        {r232, r2 * r238 - r2 * r237, r31 * r249 - r34 * r248, r68 * r261 - r69 * r260, r112 * r273 - r113 * r272, r152 * r285 - r155 * r284, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {-0.7071067811865475 * r225, r242 - left_c1 * r238, r34 * r247 - r28 * r249, r69 * r259 - r67 * r261, r113 * r271 - r111 * r273, r155 * r283 - r149 * r285, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - 0.7071067811865475 * r225, left_c1 * r237 - r242, r28 * r248 - r31 * r247, r67 * r260 - r68 * r259, r111 * r272 - r112 * r271, r149 * r284 - r152 * r283, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r300, r2 * r188 - r2 * r187, r31 * r188 - r34 * r187, r68 * r188 - r69 * r187, r112 * r188 - r113 * r187, r152 * r188 - r155 * r187, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {-0.7071067811865475 * r186, r307 - left_c1 * r188, r34 * r186 - r28 * r188, r69 * r186 - r67 * r188, r113 * r186 - r111 * r188, r155 * r186 - r149 * r188, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - 0.7071067811865475 * r186, left_c1 * r187 - r307, r28 * r187 - r31 * r186, r67 * r187 - r68 * r186, r111 * r187 - r112 * r186, r149 * r187 - r152 * r186, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r353, r2 * r197 - r2 * r194, r31 * r197 - r34 * r194, r68 * r197 - r69 * r194, r112 * r197 - r113 * r194, r152 * r197 - r155 * r194, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {-0.7071067811865475 * r191, r360 - left_c1 * r197, r34 * r191 - r28 * r197, r69 * r191 - r67 * r197, r113 * r191 - r111 * r197, r155 * r191 - r149 * r197, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - 0.7071067811865475 * r191, left_c1 * r194 - r360, r28 * r194 - r31 * r191, r67 * r194 - r68 * r191, r111 * r194 - r112 * r191, r149 * r194 - r152 * r191, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r406, r2 * r206 - r2 * r203, r31 * r206 - r34 * r203, r68 * r206 - r69 * r203, r112 * r206 - r113 * r203, r152 * r206 - r155 * r203, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {-0.7071067811865475 * r200, r413 - left_c1 * r206, r34 * r200 - r28 * r206, r69 * r200 - r67 * r206, r113 * r200 - r111 * r206, r155 * r200 - r149 * r206, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - 0.7071067811865475 * r200, left_c1 * r203 - r413, r28 * r203 - r31 * r200, r67 * r203 - r68 * r200, r111 * r203 - r112 * r200, r149 * r203 - r152 * r200, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r685, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r690 - r2 * r689, r481 * r702 - r484 * r701, r520 * r714 - r521 * r713, r565 * r726 - r566 * r725, r605 * r738 - r608 * r737},
-        {r686, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r688 - left_c1 * r690, r484 * r700 - r478 * r702, r521 * r712 - r519 * r714, r566 * r724 - r564 * r726, r608 * r736 - r602 * r738},
-        {0.0 - r686, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r689 - r0 * r688, r478 * r701 - r481 * r700, r519 * r713 - r520 * r712, r564 * r725 - r565 * r724, r602 * r737 - r605 * r736},
-        {r753, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r659 - r2 * r656, r481 * r659 - r484 * r656, r520 * r659 - r521 * r656, r565 * r659 - r566 * r656, r605 * r659 - r608 * r656},
-        {r754, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r653 - left_c1 * r659, r484 * r653 - r478 * r659, r521 * r653 - r519 * r659, r566 * r653 - r564 * r659, r608 * r653 - r602 * r659},
-        {0.0 - r754, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r656 - r0 * r653, r478 * r656 - r481 * r653, r519 * r656 - r520 * r653, r564 * r656 - r565 * r653, r602 * r656 - r605 * r653},
+        {r325 + 0.03195415544182008 * r80, 0.0 - r329, 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r277 - r73 * r281), 0.5 * (r69 * r290 - r73 * r292), r292 * r301 - r290 * r299, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r348, r349 - left_c1 * r93, 0.0 - r353, 0.0 - r357, r361, 0.0 - (r294 * r301 + r290 * r115), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r348, left_c1 * r103 - r349, r367, r370, r373, r292 * r115 + r294 * r299, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r389, r391, r394, r394, r394, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r396, left_c1 * r301 - r397, r401, r401, r401, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r396, r397 - left_c1 * r299, r406, r406, r406, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r430, 0.0 - r432, r435, r435, r435, r301 * r130 - r299 * r128, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r440, 0.0 - (left_c1 * r128 + r441), r446, r446, r446, 0.0 - (r301 * r132 + r115 * r128), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r440, left_c1 * r130 + r441, r452, r452, r452, r115 * r130 + r299 * r132, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0 - r478, r481, r484, r484, r484, r299 * r137 - r301 * r139, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r488, left_c1 * r137 + r489, r493, r493, r493, r301 * r456 + r115 * r137, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r488, 0.0 - (left_c1 * r139 + r489), r499, r499, r499, 0.0 - (r115 * r139 + r299 * r456), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r572 + 0.03195415544182008 * r213, 0.0, 0.0, 0.0, 0.0, 0.0, r576, 0.5 * (r206 * r226 - r208 * r236), 0.5 * (r206 * r523 - r208 * r527), 0.0 - 0.5 * (r206 * r536 - r208 * r538), r538 * r547 - r536 * r545},
+        {0.0 - r595, 0.0, 0.0, 0.0, 0.0, 0.0, r597 - left_c1 * r226, r601, r604, r607, r540 * r547 + r536 * r550},
+        {r595, 0.0, 0.0, 0.0, 0.0, 0.0, r597 - left_c1 * r236, r612, r615, r618, r538 * r550 + r540 * r545},
+        {r644, 0.0, 0.0, 0.0, 0.0, 0.0, r646, r648, r648, r648, r545 * r256 - r547 * r621},
+        {r652, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r256 + r653), r658, r658, r658, 0.0 - (r547 * r259 + r550 * r256)},
+        {0.0 - r652, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r621 + r653), r666, r666, r666, 0.0 - (r550 * r621 + r545 * r259)},
     } };
     return result;
 }
@@ -1421,16 +1418,16 @@ static void block_13(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 12 share. */
 typedef struct {
-    double r74;
-    double r75;
+    double r38;
+    double r39;
 } Shared12;
 
 /* Chart 1 of block 12: generic.
  */
 static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
-    const double r76 = 0.0 - shared->r74, r78 = 0.0 - (-0.0 - shared->r75);
-    const double r82 = sqrt(fmax(r78 * r78 + r76 * r76, 0.0)), right_c6 = r78 / r82, right_s6 = r76 / r82;
+    const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38, r43 = sqrt(fmax(r42, 0.0));
+    const double right_c6 = shared->r39 / r43, right_s6 = 0.0 - shared->r38 / r43;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1442,29 +1439,27 @@ static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *
 /* Block 12: AnkleRoll. */
 static void block_12(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r3 = 0.7071067811865475 * known->left_s1, r6 = 0.5 * p->right_dy + 0.5 * p->right_dz;
-    const double r10 = 0.0 - p->right_dx;
-    const double r15 = p->right_dx * known->left_c1 + (0.0 - (p->right_dz - p->right_dy)) * r3;
-    const double r18 = (p->right_dy - r6) * known->left_c1 + r10 * r3;
-    const double r21 = (p->right_dz - r6) * known->left_c1 + (0.0 - r10) * r3, r22 = r6 + r18, r23 = r6 + r21;
-    const double r31 = r22 * known->right_c2 + (0.0 - (0.0 - r23)) * known->right_s2;
-    const double r34 = r23 * known->right_c2 + (0.0 - r22) * known->right_s2;
-    const double r35 = r15 + (r15 - r15) * known->right_c2;
-    const double r43 = r35 * known->right_c3 + (0.0 - r34) * known->right_s3;
-    const double r47 = r34 * known->right_c3 + (0.0 - (0.0 - r35)) * known->right_s3;
-    const double r55 = r43 * known->right_c4 + (0.0 - r47) * known->right_s4;
-    const double r59 = r47 * known->right_c4 + (0.0 - (0.0 - r43)) * known->right_s4;
-    const double r71 = r59 * known->right_c5 + (0.0 - (0.0 - r55)) * known->right_s5, r74 = 0.0 - (0.0 - r31);
-    const double r75 = 0.0 - (0.0 - r71);
-    const Shared12 own = { r74, r75 };
+    const double r1 = p->right_dz - p->right_dy, r9 = 0.5 * p->right_dy + 0.5 * p->right_dz;
+    const double r10 = 0.5 * (known->left_c1 * (p->right_dy - p->right_dz));
+    const double r12 = 0.7071067811865475 * (p->right_dx * known->left_s1), r13 = r9 + r10 - r12;
+    const double r17 = r12 + (r9 + 0.5 * (known->left_c1 * r1));
+    const double r22 = p->right_dx * known->left_c1 - 0.7071067811865475 * (known->left_s1 * r1);
+    const double r24 = known->right_c2 * r17 - known->right_s2 * r13;
+    const double r28 = known->right_c3 * r22 - known->right_s3 * r24;
+    const double r30 = known->right_c3 * r24 + known->right_s3 * r22;
+    const double r34 = known->right_c4 * r28 - known->right_s4 * r30;
+    const double r35 = known->right_c4 * r30 + known->right_s4 * r28;
+    const double r38 = known->right_c2 * r13 + known->right_s2 * r17;
+    const double r39 = known->right_c5 * r35 + known->right_s5 * r34;
+    const Shared12 own = { r38, r39 };
     const Shared12 *const shared = &own;
     chart_12_1(p, known, shared, answers);
 }
 
 /* What the charts of block 11 share. */
 typedef struct {
-    double r61;
-    double r64;
+    double r32;
+    double r33;
 } Shared11;
 
 /* Chart 1 of block 11: generic.
@@ -1472,17 +1467,17 @@ typedef struct {
  */
 static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r65 = shared->r61 * shared->r61, r66 = shared->r64 * shared->r64, r67 = r65 + r66;
-    if (!is_away(r67, 23120000.0)) {
+    const double r34 = shared->r32 * shared->r32, r35 = shared->r33 * shared->r33, r36 = r34 + r35;
+    if (!is_away(r36, 23120000.0)) {
         return;
     }
-    const double r71 = known->right_f3 * (48.08326112068523 * known->right_f2);
-    const double choice0_0[3] = {0.0 - r65 - r66, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, r71);
+    const double r40 = known->right_f3 * (48.08326112068523 * known->right_f2);
+    const double choice0_0[3] = {0.0 - r34 - r35, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, r40);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w5 = roots0.values[i0], r75 = (0.0 - (0.0 - shared->r61 * right_w5)) / r67;
-        const double r78 = (0.0 - shared->r64 * right_w5) / r67, r82 = sqrt(fmax(r78 * r78 + r75 * r75, 0.0));
-        const double right_c5 = r78 / r82, right_s5 = r75 / r82;
+        const double right_w5 = roots0.values[i0], r42 = right_w5 * shared->r32 / r36;
+        const double r44 = right_w5 * shared->r33 / r36, r48 = sqrt(fmax(r44 * r44 + r42 * r42, 0.0));
+        const double right_c5 = 0.0 - r44 / r48, right_s5 = r42 / r48;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1498,8 +1493,8 @@ static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *
  */
 static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r67 = shared->r61 * shared->r61 + shared->r64 * shared->r64;
-    if (!is_near(r67, 0.0002312)) {
+    const double r36 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
+    if (!is_near(r36, 0.0002312)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1517,19 +1512,17 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
 /* Block 11: AnklePitch. */
 static void block_11(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r3 = 0.7071067811865475 * known->left_s1, r6 = 0.5 * p->right_dy + 0.5 * p->right_dz;
-    const double r10 = 0.0 - p->right_dx;
-    const double r15 = p->right_dx * known->left_c1 + (0.0 - (p->right_dz - p->right_dy)) * r3;
-    const double r18 = (p->right_dy - r6) * known->left_c1 + r10 * r3;
-    const double r21 = (p->right_dz - r6) * known->left_c1 + (0.0 - r10) * r3;
-    const double r34 = (r6 + r21) * known->right_c2 + (0.0 - (r6 + r18)) * known->right_s2;
-    const double r35 = r15 + (r15 - r15) * known->right_c2;
-    const double r42 = r35 * known->right_c3 + (0.0 - r34) * known->right_s3;
-    const double r46 = r34 * known->right_c3 + (0.0 - (0.0 - r35)) * known->right_s3;
-    const double r54 = r42 * known->right_c4 + (0.0 - r46) * known->right_s4;
-    const double r58 = r46 * known->right_c4 + (0.0 - (0.0 - r42)) * known->right_s4, r61 = 0.0 - r54;
-    const double r64 = 0.0 - (0.0 - r58);
-    const Shared11 own = { r61, r64 };
+    const double r1 = p->right_dz - p->right_dy, r9 = 0.5 * p->right_dy + 0.5 * p->right_dz;
+    const double r10 = 0.5 * (known->left_c1 * (p->right_dy - p->right_dz));
+    const double r12 = 0.7071067811865475 * (p->right_dx * known->left_s1);
+    const double r17 = known->right_c2 * (r12 + (r9 + 0.5 * (known->left_c1 * r1)));
+    const double r20 = p->right_dx * known->left_c1 - 0.7071067811865475 * (known->left_s1 * r1);
+    const double r22 = r17 - known->right_s2 * (r9 + r10 - r12);
+    const double r26 = known->right_c3 * r20 - known->right_s3 * r22;
+    const double r28 = known->right_c3 * r22 + known->right_s3 * r20;
+    const double r32 = known->right_s4 * r28 - known->right_c4 * r26;
+    const double r33 = known->right_c4 * r28 + known->right_s4 * r26;
+    const Shared11 own = { r32, r33 };
     const Shared11 *const shared = &own;
     chart_11_1(p, known, shared, answers);
     chart_11_2(p, known, shared, answers);
@@ -1537,12 +1530,12 @@ static void block_11(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 10 share. */
 typedef struct {
-    double r4;
+    double r36;
+    double r38;
     double r40;
-    double r60;
-    double r61;
-    double r89;
-    double r90;
+    double r41;
+    double r46;
+    double r47;
 } Shared10;
 
 /* Chart 1 of block 10: generic.
@@ -1550,14 +1543,13 @@ typedef struct {
  */
 static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
-    const double r93 = shared->r4 * shared->r4 + shared->r40 * shared->r40;
-    if (!is_away(r93, 7755.348199999999)) {
+    const double r50 = shared->r36 * shared->r36 + shared->r38 * shared->r38;
+    if (!is_away(r50, 7755.348199999999)) {
         return;
     }
-    const double right_f3 = 1.0, r96 = shared->r40 * shared->r60 - shared->r4 * shared->r61;
-    const double r98 = (0.0 - r96) / r93, r102 = 0.0 - shared->r4 * shared->r60 - shared->r40 * shared->r61;
-    const double r104 = (0.0 - r102) / r93, r108 = sqrt(fmax(r104 * r104 + r98 * r98, 0.0));
-    const double right_c3 = r104 / r108, right_s3 = r98 / r108;
+    const double right_f3 = 1.0, r53 = shared->r38 * shared->r40 + shared->r36 * shared->r41, r54 = r53 / r50;
+    const double r57 = shared->r38 * shared->r41 - shared->r36 * shared->r40, r58 = r57 / r50;
+    const double r62 = sqrt(fmax(r58 * r58 + r54 * r54, 0.0)), right_c3 = r58 / r62, right_s3 = 0.0 - r54 / r62;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1573,8 +1565,8 @@ static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *
  */
 static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
-    const double r93 = shared->r4 * shared->r4 + shared->r40 * shared->r40;
-    if (!(is_near(r93, 7.755348200000001e-8) && is_near(shared->r61, 0.01 * shared->r90) && is_near(shared->r60, 0.01 * shared->r89))) {
+    const double r50 = shared->r36 * shared->r36 + shared->r38 * shared->r38;
+    if (!(is_near(r50, 7.755348200000001e-8) && is_near(shared->r41, 0.01 * shared->r47) && is_near(shared->r40, 0.01 * shared->r46))) {
         return;
     }
     const double right_f3 = 1000000.0;
@@ -1594,20 +1586,18 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
 /* Block 10: HipPitch. */
 static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r3 = 0.7071067811865475 * known->left_s1, r4 = -0.1029 * known->right_s4;
-    const double r12 = p->right_px + 0.04519 * p->right_dx, r15 = p->right_py + 0.04519 * p->right_dy + 0.05;
-    const double r16 = p->right_pz + 0.04519 * p->right_dz + 0.085, r19 = 0.5 * r15 + 0.5 * r16, r23 = 0.0 - r12;
-    const double r28 = r12 * known->left_c1 + (0.0 - (r16 - r15)) * r3;
-    const double r34 = (r16 - r19) * known->left_c1 + (0.0 - r23) * r3;
-    const double r35 = r19 + ((r15 - r19) * known->left_c1 + r23 * r3);
-    const double r40 = 0.0 - (-0.1029 * known->right_c4 - 0.185 + 0.085);
-    const double r52 = (r19 + r34 - 0.085 + 0.085) * known->right_c2;
-    const double r53 = (0.0 - (r35 - 0.05 + 0.05)) * known->right_s2, r60 = 0.0 - (0.0 - r28);
-    const double r61 = 0.0 - (0.085 - (0.0 - (r52 + r53 - 0.085))), r62 = p->magnitude + 0.72099;
-    const double r63 = r62 + 0.05, r64 = r62 + 0.085, r67 = 0.5 * r63 + 0.5 * r64;
-    const double r82 = r67 + (r64 + r67 + r62) + 0.085 + 0.085 + (r67 + (r63 + r67 + r62) + 0.05 + 0.05);
-    const double r89 = fabs(0.0 - (r62 + (r64 + r63))), r90 = fabs(0.0 - (r82 + 0.085 + 0.085));
-    const Shared10 own = { r4, r40, r60, r61, r89, r90 };
+    const double r1 = p->right_px + 0.04519 * p->right_dx;
+    const double r5 = p->right_pz + 0.04519 * p->right_dz - p->right_py;
+    const double r9 = known->left_s1 * (r5 - 0.04519 * p->right_dy + 0.035), r10 = 0.5 * p->right_py;
+    const double r11 = 0.022595 * p->right_dy, r12 = r10 + r11, r13 = 0.5 * p->right_pz;
+    const double r15 = 0.022595 * p->right_dz, r24 = known->left_c1 * (r13 + r15 - r10 - r11 + 0.0175);
+    const double r26 = r15 + (r12 + r13), r27 = known->left_c1 * (r12 - r13 - r15 - 0.0175) + r26;
+    const double r28 = 0.7071067811865475 * (known->left_s1 * r1);
+    const double r34 = known->right_c2 * (r28 + (r24 + r26) + 0.0675), r36 = 0.1029 * known->right_s4;
+    const double r38 = 0.1029 * known->right_c4 + 0.1, r40 = known->left_c1 * r1 - 0.7071067811865475 * r9;
+    const double r41 = known->right_s2 * (r27 - r28 + 0.0675) - r34, r46 = fabs(3.0 * p->magnitude + 2.29797);
+    const double r47 = fabs(8.0 * p->magnitude + 6.61292);
+    const Shared10 own = { r36, r38, r40, r41, r46, r47 };
     const Shared10 *const shared = &own;
     chart_10_1(p, known, shared, answers);
     chart_10_2(p, known, shared, answers);
@@ -1615,21 +1605,21 @@ static void block_10(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 9 share. */
 typedef struct {
-    double r34;
+    double r28;
 } Shared9;
 
 /* Chart 1 of block 9: generic.
  */
 static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
-    const double r36 = shared->r34 * shared->r34 - 0.00042353640000000005;
-    const double choice0_0[3] = {r36, 0.0, 1.0};
+    const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
+    const double choice0_0[3] = {r30, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->right_f2);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w4 = roots0.values[i0];
-        const double r41 = (0.0 - (0.0 - 0.02058 * right_w4)) / 0.00042353640000000005;
-        const double r44 = (0.0 - 0.02058 * shared->r34) / 0.00042353640000000005;
-        const double r48 = sqrt(fmax(r44 * r44 + r41 * r41, 0.0)), right_c4 = r44 / r48, right_s4 = r41 / r48;
+        const double right_w4 = roots0.values[i0], r33 = 0.02058 * right_w4 / 0.00042353640000000005;
+        const double r35 = 0.02058 * shared->r28 / 0.00042353640000000005;
+        const double r39 = sqrt(fmax(r35 * r35 + r33 * r33, 0.0)), right_c4 = 0.0 - r35 / r39;
+        const double right_s4 = r33 / r39;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1642,24 +1632,24 @@ static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *sh
 /* Block 9: KneePitch. */
 static void block_9(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r8 = p->right_py + 0.04519 * p->right_dy, r9 = p->right_pz + 0.04519 * p->right_dz;
-    const double r10 = p->right_px * (p->right_px + 0.04519 * p->right_dx);
-    const double r14 = r10 + p->right_py * r8 + p->right_pz * r9;
-    const double r19 = p->right_px * p->right_px + p->right_py * p->right_py;
-    const double r21 = r14 + r14 - (r19 + p->right_pz * p->right_pz);
-    const double r28 = -0.05 * (-0.05 - r8) + -0.085 * (-0.085 - r9);
-    const double r33 = r21 + 0.0020421361 + r28 - (-0.05 * r8 + -0.085 * r9), r34 = 0.02058841 - r33;
-    const Shared9 own = { r34 };
+    const double r2 = p->right_px * (p->right_px + 0.04519 * p->right_dx);
+    const double r5 = p->right_py * (p->right_py + 0.04519 * p->right_dy);
+    const double r8 = p->right_pz * (p->right_pz + 0.04519 * p->right_dz);
+    const double r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p->right_px * p->right_px;
+    const double r19 = r17 - p->right_py * p->right_py - p->right_pz * p->right_pz;
+    const double r23 = r19 + 0.1 * p->right_py + 0.004519 * p->right_dy;
+    const double r27 = r23 + 0.17 * p->right_pz + 0.0076823 * p->right_dz, r28 = 0.0088212739 - r27;
+    const Shared9 own = { r28 };
     const Shared9 *const shared = &own;
     chart_9_1(p, known, shared, answers);
 }
 
 /* What the charts of block 8 share. */
 typedef struct {
-    double r39;
-    double r40;
-    double r60;
-    double r61;
+    double r22;
+    double r25;
+    double r29;
+    double r30;
 } Shared8;
 
 /* Chart 1 of block 8: generic.
@@ -1667,18 +1657,18 @@ typedef struct {
  */
 static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r62 = shared->r39 * shared->r39, r63 = shared->r40 * shared->r40, r64 = r62 + r63;
-    const double r67 = shared->r60 * shared->r60 + shared->r61 * shared->r61;
-    if (!is_away(r64, 10000.0 * r67)) {
+    const double r31 = shared->r22 * shared->r22, r32 = shared->r25 * shared->r25, r33 = r31 + r32;
+    const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
+    if (!is_away(r33, 10000.0 * r36)) {
         return;
     }
     const double right_f2 = 1.0;
-    const double choice0_0[3] = {0.0 - r62 - r63, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r67, 0.0)));
+    const double choice0_0[3] = {0.0 - r31 - r32, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r36, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w2 = roots0.values[i0], r75 = (0.0 - (0.0 - shared->r39 * right_w2)) / r64;
-        const double r78 = (0.0 - shared->r40 * right_w2) / r64, r82 = sqrt(fmax(r78 * r78 + r75 * r75, 0.0));
-        const double right_c2 = r78 / r82, right_s2 = r75 / r82;
+        const double right_w2 = roots0.values[i0], r42 = right_w2 * shared->r22 / r33;
+        const double r44 = right_w2 * shared->r25 / r33, r48 = sqrt(fmax(r44 * r44 + r42 * r42, 0.0));
+        const double right_c2 = r44 / r48, right_s2 = 0.0 - r42 / r48;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1695,9 +1685,9 @@ static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *sh
  */
 static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r64 = shared->r39 * shared->r39 + shared->r40 * shared->r40;
-    const double r67 = shared->r60 * shared->r60 + shared->r61 * shared->r61;
-    if (!is_near(r64, 1.0000000000000001e-7 * r67)) {
+    const double r33 = shared->r22 * shared->r22 + shared->r25 * shared->r25;
+    const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
+    if (!is_near(r33, 1.0000000000000001e-7 * r36)) {
         return;
     }
     const double right_f2 = 1000000.0;
@@ -1717,16 +1707,13 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
 /* Block 8: HipRoll. */
 static void block_8(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r3 = 0.7071067811865475 * known->left_s1, r10 = p->right_py + 0.04519 * p->right_dy + 0.05;
-    const double r11 = p->right_pz + 0.04519 * p->right_dz + 0.085, r14 = 0.5 * r10 + 0.5 * r11;
-    const double r18 = 0.0 - (p->right_px + 0.04519 * p->right_dx);
-    const double r29 = (r11 - r14) * known->left_c1 + (0.0 - r18) * r3;
-    const double r30 = r14 + ((r10 - r14) * known->left_c1 + r18 * r3), r39 = 0.0 - (r30 - 0.05 + 0.05);
-    const double r40 = 0.0 - (0.0 - (0.0 - (r14 + r29 - 0.085 + 0.085))), r41 = p->magnitude + 0.72099;
-    const double r42 = r41 + 0.05, r43 = r41 + 0.085, r46 = 0.5 * r42 + 0.5 * r43;
-    const double r60 = fabs(r46 + (r42 + r46 + r41) + 0.05 + 0.05);
-    const double r61 = fabs(r46 + (r43 + r46 + r41) + 0.085 + 0.085);
-    const Shared8 own = { r39, r40, r60, r61 };
+    const double r2 = 0.5 * p->right_py, r3 = 0.022595 * p->right_dy, r4 = r2 + r3, r5 = 0.5 * p->right_pz;
+    const double r7 = 0.022595 * p->right_dz, r11 = known->left_s1 * (p->right_px + 0.04519 * p->right_dx);
+    const double r16 = known->left_c1 * (r5 + r7 - r2 - r3 + 0.0175), r18 = r7 + (r4 + r5);
+    const double r19 = known->left_c1 * (r4 - r5 - r7 - 0.0175) + r18, r20 = 0.7071067811865475 * r11;
+    const double r22 = r19 - r20 + 0.0675, r25 = r20 + (r16 + r18) + 0.0675, r26 = 4.0 * p->magnitude;
+    const double r29 = fabs(r26 + 3.16896), r30 = fabs(r26 + 3.27396);
+    const Shared8 own = { r22, r25, r29, r30 };
     const Shared8 *const shared = &own;
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, answers);
@@ -1804,17 +1791,16 @@ static void block_7(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r115;
-    double r116;
+    double r59;
+    double r62;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r137 = (0.0 - 0.1 * shared->r115) / 0.010000000000000002;
-    const double r141 = (0.0 - (-0.0 - 0.1 * shared->r116)) / 0.010000000000000002;
-    const double r145 = sqrt(fmax(r141 * r141 + r137 * r137, 0.0)), left_c3 = r141 / r145, left_s3 = r137 / r145;
+    const double r64 = 0.1 * shared->r59 / 0.010000000000000002, r66 = 0.1 * shared->r62 / 0.010000000000000002;
+    const double r70 = sqrt(fmax(r66 * r66 + r64 * r64, 0.0)), left_c3 = r66 / r70, left_s3 = 0.0 - r64 / r70;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1826,41 +1812,39 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: HipPitch. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s1, r1 = -0.1029 * known->left_s5;
-    const double r4 = 0.1029 * known->left_c5 - 0.2879 + 0.2879, r11 = r1 + (r1 - r1) * known->left_c6;
-    const double r14 = (0.0 - (0.0 - r4)) * known->left_s6 + 0.05 - 0.05;
-    const double r15 = r4 * known->left_c6 - 0.2879 + 0.33309;
-    const double r20 = r11 * p->left_r11 + r14 * p->left_r12 + r15 * p->left_r13;
-    const double r25 = r11 * p->left_r21 + r14 * p->left_r22 + r15 * p->left_r23;
-    const double r30 = r11 * p->left_r31 + r14 * p->left_r32 + r15 * p->left_r33;
-    const double r43 = p->left_pz + r30 + 0.085 - (0.0 - (p->left_py + r25 - 0.05));
-    const double r49 = (p->left_px + r20) * known->left_c1 + (0.0 - r43) * r0, r60 = 0.0 - known->left_c4;
-    const double r61 = 0.0 - known->left_s4, r67 = r60 * known->left_c5 + (0.0 - r61) * known->left_s5;
-    const double r70 = r61 * known->left_c5 + (0.0 - (0.0 - r60)) * known->left_s5;
-    const double r75 = (0.0 - (0.0 - r70)) * known->left_s6, r76 = r70 * known->left_c6;
-    const double r77 = r67 + (r67 - r67) * known->left_c6;
-    const double r82 = r77 * p->left_r11 + r75 * p->left_r12 + r76 * p->left_r13;
-    const double r87 = r77 * p->left_r21 + r75 * p->left_r22 + r76 * p->left_r23;
-    const double r92 = r77 * p->left_r31 + r75 * p->left_r32 + r76 * p->left_r33;
-    const double r106 = r82 * known->left_c1 + (0.0 - (r92 - (0.0 - r87))) * r0, r115 = 0.0 - (0.0 - r49);
-    const double r116 = 0.1 * (0.0 - r106);
-    const Shared6 own = { r115, r116 };
+    const double r0 = known->left_c5 * known->left_s6, r5 = 0.1029 * (known->left_c5 * known->left_c6) + 0.04519;
+    const double r14 = p->left_px - 0.1029 * (p->left_r11 * known->left_s5);
+    const double r17 = p->left_r13 * r5 + (r14 + 0.1029 * (p->left_r12 * r0));
+    const double r20 = p->left_pz - 0.1029 * (p->left_r31 * known->left_s5);
+    const double r23 = p->left_r33 * r5 + (r20 + 0.1029 * (p->left_r32 * r0));
+    const double r26 = p->left_py + r23 - 0.1029 * (p->left_r21 * known->left_s5);
+    const double r29 = p->left_r23 * r5 + (r26 + 0.1029 * (p->left_r22 * r0));
+    const double r36 = known->left_s4 * known->left_c5 + known->left_c4 * known->left_s5;
+    const double r37 = known->left_s6 * r36, r38 = known->left_c6 * r36;
+    const double r39 = known->left_c4 * known->left_c5 - known->left_s4 * known->left_s5;
+    const double r50 = p->left_r13 * r38 + (p->left_r11 * r39 + p->left_r12 * r37);
+    const double r53 = p->left_r33 * r38 + (p->left_r31 * r39 + p->left_r32 * r37);
+    const double r55 = p->left_r22 * r37 + (p->left_r21 * r39 + r53);
+    const double r58 = 0.7071067811865475 * (known->left_s1 * (r29 + 0.035)), r59 = known->left_c1 * r17 - r58;
+    const double r61 = 0.07071067811865475 * (known->left_s1 * (p->left_r23 * r38 + r55));
+    const double r62 = 0.1 * (known->left_c1 * r50) - r61;
+    const Shared6 own = { r59, r62 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r35;
-    double r36;
+    double r26;
+    double r29;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r38 = 0.0 - (0.0 - shared->r35), r41 = 0.0 - (-0.0 - (0.0 - shared->r36));
-    const double r45 = sqrt(fmax(r41 * r41 + r38 * r38, 0.0)), left_c2 = r41 / r45, left_s2 = r38 / r45;
+    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r33 = sqrt(fmax(r32, 0.0));
+    const double left_c2 = shared->r29 / r33, left_s2 = shared->r26 / r33;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1872,22 +1856,22 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: HipRoll. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - known->left_s6, r4 = known->left_c6 * p->left_r12 + r1 * p->left_r13;
-    const double r7 = known->left_c6 * p->left_r22 + r1 * p->left_r23;
-    const double r10 = known->left_c6 * p->left_r32 + r1 * p->left_r33, r13 = 0.5 * r7 + -0.5 * r10;
-    const double r14 = 0.0 - r13, r26 = (0.0 - (0.0 - r4)) * (0.7071067811865475 * known->left_s1);
-    const double r32 = 0.0 - (r14 + ((r10 - r14) * known->left_c1 + r26));
-    const double r33 = 0.0 - (r13 + ((r7 - r13) * known->left_c1 + r26)), r35 = 0.0 - r32;
-    const double r36 = 0.0 - (0.0 - r33);
-    const Shared5 own = { r35, r36 };
+    const double r2 = p->left_r22 * known->left_c6, r3 = p->left_r23 * known->left_s6;
+    const double r4 = p->left_r32 * known->left_c6, r5 = p->left_r33 * known->left_s6;
+    const double r6 = p->left_r12 * known->left_c6 - p->left_r13 * known->left_s6;
+    const double r22 = 0.5 * r2 - 0.5 * r3 - 0.5 * r4 + 0.5 * r5;
+    const double r23 = 0.5 * (known->left_c1 * (r2 + (r4 - r5) - r3));
+    const double r25 = 0.7071067811865475 * (known->left_s1 * r6), r26 = r25 - (r22 - r23);
+    const double r27 = 0.5 * (known->left_c1 * (r4 + (r2 - r3) - r5)), r29 = r25 + (r22 + r27);
+    const Shared5 own = { r26, r29 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r18;
-    double r22;
+    double r6;
+    double r10;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1895,17 +1879,17 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r23 = shared->r18 * shared->r18, r24 = shared->r22 * shared->r22, r25 = r23 + r24;
-    if (!is_away(r25, 119999.99999999999)) {
+    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10, r13 = r11 + r12;
+    if (!is_away(r13, 119999.99999999999)) {
         return;
     }
-    const double r29 = known->left_f5 * (3.4641016151377544 * known->left_f6);
-    const double choice0_0[3] = {0.0 - r23 - r24, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, r29);
+    const double r17 = known->left_f5 * (3.4641016151377544 * known->left_f6);
+    const double choice0_0[3] = {0.0 - r11 - r12, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, r17);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r33 = (0.0 - (0.0 - shared->r18 * left_w1)) / r25;
-        const double r36 = (0.0 - shared->r22 * left_w1) / r25, r40 = sqrt(fmax(r36 * r36 + r33 * r33, 0.0));
-        const double left_c1 = r36 / r40, left_s1 = r33 / r40;
+        const double left_w1 = roots0.values[i0], r19 = left_w1 * shared->r6 / r13;
+        const double r21 = left_w1 * shared->r10 / r13, r25 = sqrt(fmax(r21 * r21 + r19 * r19, 0.0));
+        const double left_c1 = 0.0 - r21 / r25, left_s1 = r19 / r25;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1921,8 +1905,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r25 = shared->r18 * shared->r18 + shared->r22 * shared->r22;
-    if (!is_near(r25, 1.2e-6)) {
+    const double r13 = shared->r6 * shared->r6 + shared->r10 * shared->r10;
+    if (!is_near(r13, 1.2e-6)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1940,11 +1924,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYawPitch. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - known->left_s6, r3 = known->left_c6 * p->left_r12 + r0 * p->left_r13;
-    const double r6 = known->left_c6 * p->left_r22 + r0 * p->left_r23;
-    const double r9 = known->left_c6 * p->left_r32 + r0 * p->left_r33, r18 = 0.0 - r3;
-    const double r22 = 0.7071067811865475 * (0.0 - (0.0 - (r9 - (0.0 - r6))));
-    const Shared4 own = { r18, r22 };
+    const double r6 = p->left_r13 * known->left_s6 - p->left_r12 * known->left_c6;
+    const double r7 = p->left_r32 * known->left_c6 - p->left_r33 * known->left_s6;
+    const double r9 = p->left_r22 * known->left_c6 + r7 - p->left_r23 * known->left_s6;
+    const double r10 = 0.7071067811865475 * r9;
+    const Shared4 own = { r6, r10 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1952,13 +1936,14 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r88;
-    double r135;
-    double r136;
-    double r137;
-    double r183;
-    double r184;
-    double r185;
+    double r41;
+    double r50;
+    double r67;
+    double r68;
+    double r69;
+    double r83;
+    double r84;
+    double r85;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1966,16 +1951,15 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r188 = shared->r88 * shared->r88 + shared->r135 * shared->r135;
-    const double r191 = shared->r183 * shared->r183 + shared->r184 * shared->r184;
-    if (!is_away(r188, 10000.0 * r191)) {
+    const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
+    const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
+    if (!is_away(r88, 10000.0 * r91)) {
         return;
     }
-    const double left_f5 = 1.0, r195 = shared->r135 * shared->r136 - shared->r88 * shared->r137;
-    const double r197 = (0.0 - r195) / r188;
-    const double r201 = 0.0 - shared->r88 * shared->r136 - shared->r135 * shared->r137;
-    const double r203 = (0.0 - r201) / r188, r207 = sqrt(fmax(r203 * r203 + r197 * r197, 0.0));
-    const double left_c5 = r203 / r207, left_s5 = r197 / r207;
+    const double left_f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
+    const double r97 = r96 / r88, r100 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
+    const double r101 = r100 / r88, r105 = sqrt(fmax(r101 * r101 + r97 * r97, 0.0)), left_c5 = r101 / r105;
+    const double left_s5 = r97 / r105;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1991,9 +1975,9 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r188 = shared->r88 * shared->r88 + shared->r135 * shared->r135;
-    const double r191 = shared->r183 * shared->r183 + shared->r184 * shared->r184;
-    if (!(is_near(r188, 1.0000000000000001e-7 * r191) && is_near(shared->r137, 0.00055566) && is_near(shared->r136, 0.01 * shared->r185))) {
+    const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
+    const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
+    if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
         return;
     }
     const double left_f5 = 1000000.0;
@@ -2013,33 +1997,28 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnklePitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.1029 * known->left_s6, r1 = 0.1029 * known->left_c6, r2 = 0.05 * r0;
-    const double r4 = r2 + -0.2879 * r1, r11 = -0.1029 * p->left_r21, r15 = r0 * p->left_r22 + r1 * p->left_r23;
-    const double r16 = -0.1029 * p->left_r31, r20 = r0 * p->left_r32 + r1 * p->left_r33;
-    const double r22 = p->left_py + 0.04519 * p->left_r23, r23 = p->left_pz + 0.04519 * p->left_r33;
-    const double r25 = r2 + -0.33309 * r1, r28 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
-    const double r29 = p->left_px * (r0 * p->left_r12 + r1 * p->left_r13);
-    const double r39 = p->left_px * (-0.1029 * p->left_r11) + p->left_py * r11;
-    const double r40 = r28 + p->left_py * r22 + p->left_pz * r23;
-    const double r41 = r29 + p->left_py * r15 + p->left_pz * r20, r42 = r39 + p->left_pz * r16;
-    const double r49 = p->left_px * p->left_px + p->left_py * p->left_py;
-    const double r52 = r40 + r40 - (r49 + p->left_pz * p->left_pz) + 0.0126305461;
-    const double r69 = 0.05 * (0.05 - r22) + -0.085 * (-0.085 - r23);
-    const double r82 = r4 + r4 - (r25 + r25) + (r41 + r41) + (0.05 * (0.0 - r15) + -0.085 * (0.0 - r20));
-    const double r83 = r42 + r42 + (0.05 * (0.0 - r11) + -0.085 * (0.0 - r16));
-    const double r87 = 0.01 - (r52 + r69 - (0.05 * r22 + -0.085 * r23));
-    const double r88 = 0.0 - (r82 - (0.05 * r15 + -0.085 * r20));
-    const double r93 = -0.085 * known->left_s4 - -0.185 * known->left_s4;
-    const double r135 = 0.0 - (0.0 - (r83 - (0.05 * r11 + -0.085 * r16))), r136 = 0.0 - r87;
-    const double r137 = -0.2058 * r93, r138 = p->magnitude + 2.27259, r139 = p->magnitude * r138;
-    const double r140 = 1.3458 * p->magnitude, r141 = 1.4187 * p->magnitude, r145 = r139 + r139 + r139;
-    const double r146 = r140 + r140 + r140, r147 = r141 + r141 + r141, r151 = p->magnitude * p->magnitude;
-    const double r155 = r145 + r145 + (r151 + r151 + r151) + 2.4510423541;
-    const double r161 = 0.05 * (r138 + 0.05) + 0.085 * (r138 + 0.085);
-    const double r169 = r146 + r146 + 1.554899982 + 0.181683 + 0.181683;
-    const double r171 = r155 + r161 + (0.05 * r138 + 0.085 * r138) + 0.0829, r183 = fabs(r169);
-    const double r184 = fabs(0.0 - (r147 + r147 + 0.1915245 + 0.1915245)), r185 = fabs(0.0 - r171);
-    const Shared3 own = { r88, r135, r136, r137, r183, r184, r185 };
+    const double r2 = p->left_r22 * known->left_s6, r3 = p->left_r23 * known->left_c6;
+    const double r4 = p->left_r32 * known->left_s6, r5 = p->left_r33 * known->left_c6;
+    const double r8 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
+    const double r9 = p->left_r12 * known->left_s6 + p->left_r13 * known->left_c6;
+    const double r14 = p->left_py * (p->left_py + 0.04519 * p->left_r23);
+    const double r20 = p->left_pz * (p->left_pz + 0.04519 * p->left_r33);
+    const double r29 = 0.009300102 * known->left_c6 + 0.2058 * (p->left_px * r9);
+    const double r33 = r29 + 0.2058 * (p->left_py * (r2 + r3)) + 0.2058 * (p->left_pz * (r4 + r5));
+    const double r39 = r33 - 0.01029 * r2 - 0.01029 * r3 + 0.017493 * r4, r41 = r39 + 0.017493 * r5;
+    const double r44 = 0.2058 * (p->left_px * p->left_r11) + 0.2058 * (p->left_py * p->left_r21);
+    const double r48 = r44 + 0.2058 * (p->left_pz * p->left_r31) - 0.01029 * p->left_r21;
+    const double r50 = r48 + 0.017493 * p->left_r31;
+    const double r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p->left_px * p->left_px;
+    const double r58 = r56 - p->left_py * p->left_py - p->left_pz * p->left_pz;
+    const double r62 = r58 - 0.1 * p->left_py - 0.004519 * p->left_r23;
+    const double r66 = r62 + 0.17 * p->left_pz + 0.0076823 * p->left_r33, r67 = r66 + 0.0123555461;
+    const double r68 = 0.02058 * known->left_s4, r69 = 0.0 - r68;
+    const double r77 = 6.0 * (p->magnitude * (p->magnitude + 2.27259));
+    const double r81 = r77 + 3.0 * (p->magnitude * p->magnitude) + 0.27 * p->magnitude;
+    const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
+    const double r85 = fabs(r81 + 3.1572666541);
+    const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -2047,10 +2026,10 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
+    double r11;
+    double r18;
     double r22;
     double r23;
-    double r30;
-    double r31;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -2058,18 +2037,18 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r32 = shared->r22 * shared->r22, r33 = shared->r23 * shared->r23, r34 = r32 + r33;
-    const double r37 = shared->r30 * shared->r30 + shared->r31 * shared->r31;
-    if (!is_away(r34, 10000.0 * r37)) {
+    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18, r26 = r24 + r25;
+    const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
+    if (!is_away(r26, 10000.0 * r29)) {
         return;
     }
     const double left_f6 = 1.0;
-    const double choice0_0[3] = {0.0 - r32 - r33, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r37, 0.0)));
+    const double choice0_0[3] = {0.0 - r24 - r25, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r29, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w6 = roots0.values[i0], r45 = (0.0 - (0.0 - shared->r22 * left_w6)) / r34;
-        const double r48 = (0.0 - shared->r23 * left_w6) / r34, r52 = sqrt(fmax(r48 * r48 + r45 * r45, 0.0));
-        const double left_c6 = r48 / r52, left_s6 = r45 / r52;
+        const double left_w6 = roots0.values[i0], r35 = left_w6 * shared->r11 / r26;
+        const double r37 = left_w6 * shared->r18 / r26, r41 = sqrt(fmax(r37 * r37 + r35 * r35, 0.0));
+        const double left_c6 = 0.0 - r37 / r41, left_s6 = r35 / r41;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -2086,9 +2065,9 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r34 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    const double r37 = shared->r30 * shared->r30 + shared->r31 * shared->r31;
-    if (!is_near(r34, 1.0000000000000001e-7 * r37)) {
+    const double r26 = shared->r11 * shared->r11 + shared->r18 * shared->r18;
+    const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
+    if (!is_near(r26, 1.0000000000000001e-7 * r29)) {
         return;
     }
     const double left_f6 = 1000000.0;
@@ -2108,14 +2087,12 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: AnkleRoll. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - p->left_r23, r2 = 0.0 - p->left_r33;
-    const double r9 = p->left_px * p->left_r12 + p->left_py * p->left_r22;
-    const double r10 = p->left_px * (0.0 - p->left_r13) + p->left_py * r1;
-    const double r20 = 0.05 * p->left_r22 + -0.085 * p->left_r32 - (r9 + p->left_pz * p->left_r32);
-    const double r21 = 0.05 * r1 + -0.085 * r2 - (r10 + p->left_pz * r2 - 0.04519), r22 = 0.0 - r20;
-    const double r23 = 0.0 - r21, r25 = p->magnitude + p->magnitude + p->magnitude;
-    const double r30 = fabs(r25 + 0.1 + 0.135), r31 = fabs(r25 + 0.62099 + 0.135);
-    const Shared2 own = { r22, r23, r30, r31 };
+    const double r9 = 0.05 * p->left_r22 - 0.085 * p->left_r32 - p->left_px * p->left_r12;
+    const double r11 = p->left_pz * p->left_r32 - (r9 - p->left_py * p->left_r22);
+    const double r15 = 0.05 * p->left_r23 - 0.085 * p->left_r33 - p->left_px * p->left_r13;
+    const double r17 = r15 - p->left_py * p->left_r23 - p->left_pz * p->left_r33, r18 = r17 - 0.04519;
+    const double r19 = 3.0 * p->magnitude, r22 = fabs(r19 + 0.235), r23 = fabs(r19 + 0.75599);
+    const Shared2 own = { r11, r18, r22, r23 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -2123,21 +2100,21 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r30;
+    double r28;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r32 = shared->r30 * shared->r30 - 0.00042353640000000005;
-    const double choice0_0[3] = {r32, 0.0, 1.0};
+    const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
+    const double choice0_0[3] = {r30, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0];
-        const double r36 = (0.0 - (0.0 - 0.02058 * left_w4)) / 0.00042353640000000005;
-        const double r39 = (0.0 - 0.02058 * shared->r30) / 0.00042353640000000005;
-        const double r43 = sqrt(fmax(r39 * r39 + r36 * r36, 0.0)), left_c4 = r39 / r43, left_s4 = r36 / r43;
+        const double left_w4 = roots0.values[i0], r32 = 0.02058 * left_w4 / 0.00042353640000000005;
+        const double r34 = 0.02058 * shared->r28 / 0.00042353640000000005;
+        const double r38 = sqrt(fmax(r34 * r34 + r32 * r32, 0.0)), left_c4 = 0.0 - r34 / r38;
+        const double left_s4 = r32 / r38;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -2150,14 +2127,14 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: KneePitch. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r4 = p->left_py + 0.04519 * p->left_r23, r5 = p->left_pz + 0.04519 * p->left_r33;
-    const double r6 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
-    const double r10 = r6 + p->left_py * r4 + p->left_pz * r5;
-    const double r15 = p->left_px * p->left_px + p->left_py * p->left_py;
-    const double r18 = r10 + r10 - (r15 + p->left_pz * p->left_pz) + 0.0020421361;
-    const double r28 = r18 + (0.05 * (0.05 - r4) + -0.085 * (-0.085 - r5));
-    const double r30 = 0.02058841 - (r28 - (0.05 * r4 + -0.085 * r5));
-    const Shared1 own = { r30 };
+    const double r2 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
+    const double r5 = p->left_py * (p->left_py + 0.04519 * p->left_r23);
+    const double r8 = p->left_pz * (p->left_pz + 0.04519 * p->left_r33);
+    const double r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p->left_px * p->left_px;
+    const double r19 = r17 - p->left_py * p->left_py - p->left_pz * p->left_pz;
+    const double r23 = r19 - 0.1 * p->left_py - 0.004519 * p->left_r23;
+    const double r27 = r23 + 0.17 * p->left_pz + 0.0076823 * p->left_r33, r28 = 0.0088212739 - r27;
+    const Shared1 own = { r28 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

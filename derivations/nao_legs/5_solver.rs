@@ -471,33 +471,33 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: KneePitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r4 = p.left_py + 0.04519 * p.left_r23;
-    let r5 = p.left_pz + 0.04519 * p.left_r33;
-    let r6 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
-    let r10 = r6 + p.left_py * r4 + p.left_pz * r5;
-    let r15 = p.left_px * p.left_px + p.left_py * p.left_py;
-    let r18 = r10 + r10 - (r15 + p.left_pz * p.left_pz) + 0.0020421361;
-    let r28 = r18 + (0.05 * (0.05 - r4) + -0.085 * (-0.085 - r5));
-    let r30 = 0.02058841 - (r28 - (0.05 * r4 + -0.085 * r5));
-    let shared = &Shared1 { r30 };
+    let r2 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
+    let r5 = p.left_py * (p.left_py + 0.04519 * p.left_r23);
+    let r8 = p.left_pz * (p.left_pz + 0.04519 * p.left_r33);
+    let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.left_px * p.left_px;
+    let r19 = r17 - p.left_py * p.left_py - p.left_pz * p.left_pz;
+    let r23 = r19 - 0.1 * p.left_py - 0.004519 * p.left_r23;
+    let r27 = r23 + 0.17 * p.left_pz + 0.0076823 * p.left_r33;
+    let r28 = 0.0088212739 - r27;
+    let shared = &Shared1 { r28 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r30: f64,
+    r28: f64,
 }
 
 /// Chart 1 of block 1: generic.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r32 = shared.r30 * shared.r30 - 0.00042353640000000005;
-    let roots0 = real_roots(&[r32, 0.0, 1.0], 1.4142135623730951);
+    let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
+    let roots0 = real_roots(&[r30, 0.0, 1.0], 1.4142135623730951);
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r36 = (0.0 - (0.0 - 0.02058 * left_w4)) / 0.00042353640000000005;
-        let r39 = (0.0 - 0.02058 * shared.r30) / 0.00042353640000000005;
-        let r43 = f64::max(r39 * r39 + r36 * r36, 0.0).sqrt();
-        let left_c4 = r39 / r43;
-        let left_s4 = r36 / r43;
+        let r32 = 0.02058 * left_w4 / 0.00042353640000000005;
+        let r34 = 0.02058 * shared.r28 / 0.00042353640000000005;
+        let r38 = f64::max(r34 * r34 + r32 * r32, 0.0).sqrt();
+        let left_c4 = 0.0 - r34 / r38;
+        let left_s4 = r32 / r38;
         let next = Known { branch: i0, last: 2, left_c4, left_s4, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -505,48 +505,45 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: AnkleRoll.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - p.left_r23;
-    let r2 = 0.0 - p.left_r33;
-    let r9 = p.left_px * p.left_r12 + p.left_py * p.left_r22;
-    let r10 = p.left_px * (0.0 - p.left_r13) + p.left_py * r1;
-    let r20 = 0.05 * p.left_r22 + -0.085 * p.left_r32 - (r9 + p.left_pz * p.left_r32);
-    let r21 = 0.05 * r1 + -0.085 * r2 - (r10 + p.left_pz * r2 - 0.04519);
-    let r22 = 0.0 - r20;
-    let r23 = 0.0 - r21;
-    let r25 = p.magnitude + p.magnitude + p.magnitude;
-    let r30 = f64::abs(r25 + 0.1 + 0.135);
-    let r31 = f64::abs(r25 + 0.62099 + 0.135);
-    let shared = &Shared2 { r22, r23, r30, r31 };
+    let r9 = 0.05 * p.left_r22 - 0.085 * p.left_r32 - p.left_px * p.left_r12;
+    let r11 = p.left_pz * p.left_r32 - (r9 - p.left_py * p.left_r22);
+    let r15 = 0.05 * p.left_r23 - 0.085 * p.left_r33 - p.left_px * p.left_r13;
+    let r17 = r15 - p.left_py * p.left_r23 - p.left_pz * p.left_r33;
+    let r18 = r17 - 0.04519;
+    let r19 = 3.0 * p.magnitude;
+    let r22 = f64::abs(r19 + 0.235);
+    let r23 = f64::abs(r19 + 0.75599);
+    let shared = &Shared2 { r11, r18, r22, r23 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
+    r11: f64,
+    r18: f64,
     r22: f64,
     r23: f64,
-    r30: f64,
-    r31: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r32 = shared.r22 * shared.r22;
-    let r33 = shared.r23 * shared.r23;
-    let r34 = r32 + r33;
-    let r37 = shared.r30 * shared.r30 + shared.r31 * shared.r31;
-    if !is_away(r34, 10000.0 * r37) {
+    let r24 = shared.r11 * shared.r11;
+    let r25 = shared.r18 * shared.r18;
+    let r26 = r24 + r25;
+    let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
+    if !is_away(r26, 10000.0 * r29) {
         return;
     }
     let left_f6 = 1.0;
-    let roots0 = real_roots(&[0.0 - r32 - r33, 0.0, 1.0], f64::max(r37, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r24 - r25, 0.0, 1.0], f64::max(r29, 0.0).sqrt());
     for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r45 = (0.0 - (0.0 - shared.r22 * left_w6)) / r34;
-        let r48 = (0.0 - shared.r23 * left_w6) / r34;
-        let r52 = f64::max(r48 * r48 + r45 * r45, 0.0).sqrt();
-        let left_c6 = r48 / r52;
-        let left_s6 = r45 / r52;
+        let r35 = left_w6 * shared.r11 / r26;
+        let r37 = left_w6 * shared.r18 / r26;
+        let r41 = f64::max(r37 * r37 + r35 * r35, 0.0).sqrt();
+        let left_c6 = 0.0 - r37 / r41;
+        let left_s6 = r35 / r41;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, left_c6, left_s6, left_f6, ..*known };
         block_3(p, &next, answers);
     }
@@ -556,9 +553,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r34 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
-    let r37 = shared.r30 * shared.r30 + shared.r31 * shared.r31;
-    if !is_near(r34, 1.0000000000000001e-7 * r37) {
+    let r26 = shared.r11 * shared.r11 + shared.r18 * shared.r18;
+    let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
+    if !is_near(r26, 1.0000000000000001e-7 * r29) {
         return;
     }
     let left_f6 = 1000000.0;
@@ -570,81 +567,66 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: AnklePitch.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.1029 * known.left_s6;
-    let r1 = 0.1029 * known.left_c6;
-    let r2 = 0.05 * r0;
-    let r4 = r2 + -0.2879 * r1;
-    let r11 = -0.1029 * p.left_r21;
-    let r15 = r0 * p.left_r22 + r1 * p.left_r23;
-    let r16 = -0.1029 * p.left_r31;
-    let r20 = r0 * p.left_r32 + r1 * p.left_r33;
-    let r22 = p.left_py + 0.04519 * p.left_r23;
-    let r23 = p.left_pz + 0.04519 * p.left_r33;
-    let r25 = r2 + -0.33309 * r1;
-    let r28 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
-    let r29 = p.left_px * (r0 * p.left_r12 + r1 * p.left_r13);
-    let r39 = p.left_px * (-0.1029 * p.left_r11) + p.left_py * r11;
-    let r40 = r28 + p.left_py * r22 + p.left_pz * r23;
-    let r41 = r29 + p.left_py * r15 + p.left_pz * r20;
-    let r42 = r39 + p.left_pz * r16;
-    let r49 = p.left_px * p.left_px + p.left_py * p.left_py;
-    let r52 = r40 + r40 - (r49 + p.left_pz * p.left_pz) + 0.0126305461;
-    let r69 = 0.05 * (0.05 - r22) + -0.085 * (-0.085 - r23);
-    let r82 = r4 + r4 - (r25 + r25) + (r41 + r41) + (0.05 * (0.0 - r15) + -0.085 * (0.0 - r20));
-    let r83 = r42 + r42 + (0.05 * (0.0 - r11) + -0.085 * (0.0 - r16));
-    let r87 = 0.01 - (r52 + r69 - (0.05 * r22 + -0.085 * r23));
-    let r88 = 0.0 - (r82 - (0.05 * r15 + -0.085 * r20));
-    let r93 = -0.085 * known.left_s4 - -0.185 * known.left_s4;
-    let r135 = 0.0 - (0.0 - (r83 - (0.05 * r11 + -0.085 * r16)));
-    let r136 = 0.0 - r87;
-    let r137 = -0.2058 * r93;
-    let r138 = p.magnitude + 2.27259;
-    let r139 = p.magnitude * r138;
-    let r140 = 1.3458 * p.magnitude;
-    let r141 = 1.4187 * p.magnitude;
-    let r145 = r139 + r139 + r139;
-    let r146 = r140 + r140 + r140;
-    let r147 = r141 + r141 + r141;
-    let r151 = p.magnitude * p.magnitude;
-    let r155 = r145 + r145 + (r151 + r151 + r151) + 2.4510423541;
-    let r161 = 0.05 * (r138 + 0.05) + 0.085 * (r138 + 0.085);
-    let r169 = r146 + r146 + 1.554899982 + 0.181683 + 0.181683;
-    let r171 = r155 + r161 + (0.05 * r138 + 0.085 * r138) + 0.0829;
-    let r183 = f64::abs(r169);
-    let r184 = f64::abs(0.0 - (r147 + r147 + 0.1915245 + 0.1915245));
-    let r185 = f64::abs(0.0 - r171);
-    let shared = &Shared3 { r88, r135, r136, r137, r183, r184, r185 };
+    let r2 = p.left_r22 * known.left_s6;
+    let r3 = p.left_r23 * known.left_c6;
+    let r4 = p.left_r32 * known.left_s6;
+    let r5 = p.left_r33 * known.left_c6;
+    let r8 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
+    let r9 = p.left_r12 * known.left_s6 + p.left_r13 * known.left_c6;
+    let r14 = p.left_py * (p.left_py + 0.04519 * p.left_r23);
+    let r20 = p.left_pz * (p.left_pz + 0.04519 * p.left_r33);
+    let r29 = 0.009300102 * known.left_c6 + 0.2058 * (p.left_px * r9);
+    let r33 = r29 + 0.2058 * (p.left_py * (r2 + r3)) + 0.2058 * (p.left_pz * (r4 + r5));
+    let r39 = r33 - 0.01029 * r2 - 0.01029 * r3 + 0.017493 * r4;
+    let r41 = r39 + 0.017493 * r5;
+    let r44 = 0.2058 * (p.left_px * p.left_r11) + 0.2058 * (p.left_py * p.left_r21);
+    let r48 = r44 + 0.2058 * (p.left_pz * p.left_r31) - 0.01029 * p.left_r21;
+    let r50 = r48 + 0.017493 * p.left_r31;
+    let r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p.left_px * p.left_px;
+    let r58 = r56 - p.left_py * p.left_py - p.left_pz * p.left_pz;
+    let r62 = r58 - 0.1 * p.left_py - 0.004519 * p.left_r23;
+    let r66 = r62 + 0.17 * p.left_pz + 0.0076823 * p.left_r33;
+    let r67 = r66 + 0.0123555461;
+    let r68 = 0.02058 * known.left_s4;
+    let r69 = 0.0 - r68;
+    let r77 = 6.0 * (p.magnitude * (p.magnitude + 2.27259));
+    let r81 = r77 + 3.0 * (p.magnitude * p.magnitude) + 0.27 * p.magnitude;
+    let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
+    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049);
+    let r85 = f64::abs(r81 + 3.1572666541);
+    let shared = &Shared3 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r88: f64,
-    r135: f64,
-    r136: f64,
-    r137: f64,
-    r183: f64,
-    r184: f64,
-    r185: f64,
+    r41: f64,
+    r50: f64,
+    r67: f64,
+    r68: f64,
+    r69: f64,
+    r83: f64,
+    r84: f64,
+    r85: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r188 = shared.r88 * shared.r88 + shared.r135 * shared.r135;
-    let r191 = shared.r183 * shared.r183 + shared.r184 * shared.r184;
-    if !is_away(r188, 10000.0 * r191) {
+    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
+    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
+    if !is_away(r88, 10000.0 * r91) {
         return;
     }
     let left_f5 = 1.0;
-    let r195 = shared.r135 * shared.r136 - shared.r88 * shared.r137;
-    let r197 = (0.0 - r195) / r188;
-    let r201 = 0.0 - shared.r88 * shared.r136 - shared.r135 * shared.r137;
-    let r203 = (0.0 - r201) / r188;
-    let r207 = f64::max(r203 * r203 + r197 * r197, 0.0).sqrt();
-    let left_c5 = r203 / r207;
-    let left_s5 = r197 / r207;
+    let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
+    let r97 = r96 / r88;
+    let r100 = shared.r50 * shared.r68 - shared.r41 * shared.r67;
+    let r101 = r100 / r88;
+    let r105 = f64::max(r101 * r101 + r97 * r97, 0.0).sqrt();
+    let left_c5 = r101 / r105;
+    let left_s5 = r97 / r105;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, left_c5, left_s5, left_f5, ..*known };
     block_4(p, &next, answers);
 }
@@ -653,9 +635,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r188 = shared.r88 * shared.r88 + shared.r135 * shared.r135;
-    let r191 = shared.r183 * shared.r183 + shared.r184 * shared.r184;
-    if !(is_near(r188, 1.0000000000000001e-7 * r191) && is_near(shared.r137, 0.00055566) && is_near(shared.r136, 0.01 * shared.r185)) {
+    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
+    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
+    if !(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared.r69, 0.00055566) && is_near(shared.r67, 0.01 * shared.r85)) {
         return;
     }
     let left_f5 = 1000000.0;
@@ -667,39 +649,38 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: HipYawPitch.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - known.left_s6;
-    let r16 = 0.0 - (known.left_c6 * p.left_r22 + r0 * p.left_r23);
-    let r17 = known.left_c6 * p.left_r32 + r0 * p.left_r33 - r16;
-    let r18 = 0.0 - (known.left_c6 * p.left_r12 + r0 * p.left_r13);
-    let r22 = 0.7071067811865475 * (0.0 - (0.0 - r17));
-    let shared = &Shared4 { r18, r22 };
+    let r6 = p.left_r13 * known.left_s6 - p.left_r12 * known.left_c6;
+    let r7 = p.left_r32 * known.left_c6 - p.left_r33 * known.left_s6;
+    let r9 = p.left_r22 * known.left_c6 + r7 - p.left_r23 * known.left_s6;
+    let r10 = 0.7071067811865475 * r9;
+    let shared = &Shared4 { r6, r10 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r18: f64,
-    r22: f64,
+    r6: f64,
+    r10: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r23 = shared.r18 * shared.r18;
-    let r24 = shared.r22 * shared.r22;
-    let r25 = r23 + r24;
-    if !is_away(r25, 119999.99999999999) {
+    let r11 = shared.r6 * shared.r6;
+    let r12 = shared.r10 * shared.r10;
+    let r13 = r11 + r12;
+    if !is_away(r13, 119999.99999999999) {
         return;
     }
-    let r29 = known.left_f5 * (3.4641016151377544 * known.left_f6);
-    let roots0 = real_roots(&[0.0 - r23 - r24, 0.0, 1.0], r29);
+    let r17 = known.left_f5 * (3.4641016151377544 * known.left_f6);
+    let roots0 = real_roots(&[0.0 - r11 - r12, 0.0, 1.0], r17);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r33 = (0.0 - (0.0 - shared.r18 * left_w1)) / r25;
-        let r36 = (0.0 - shared.r22 * left_w1) / r25;
-        let r40 = f64::max(r36 * r36 + r33 * r33, 0.0).sqrt();
-        let left_c1 = r36 / r40;
-        let left_s1 = r33 / r40;
+        let r19 = left_w1 * shared.r6 / r13;
+        let r21 = left_w1 * shared.r10 / r13;
+        let r25 = f64::max(r21 * r21 + r19 * r19, 0.0).sqrt();
+        let left_c1 = 0.0 - r21 / r25;
+        let left_s1 = r19 / r25;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, left_c1, left_s1, ..*known };
         block_5(p, &next, answers);
     }
@@ -709,8 +690,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r25 = shared.r18 * shared.r18 + shared.r22 * shared.r22;
-    if !is_near(r25, 1.2e-6) {
+    let r13 = shared.r6 * shared.r6 + shared.r10 * shared.r10;
+    if !is_near(r13, 1.2e-6) {
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
@@ -721,81 +702,74 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: HipRoll.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - known.left_s6;
-    let r7 = known.left_c6 * p.left_r22 + r1 * p.left_r23;
-    let r10 = known.left_c6 * p.left_r32 + r1 * p.left_r33;
-    let r13 = 0.5 * r7 + -0.5 * r10;
-    let r14 = 0.0 - r13;
-    let r19 = 0.0 - (known.left_c6 * p.left_r12 + r1 * p.left_r13);
-    let r26 = (0.0 - r19) * (0.7071067811865475 * known.left_s1);
-    let r32 = 0.0 - (r14 + ((r10 - r14) * known.left_c1 + r26));
-    let r33 = 0.0 - (r13 + ((r7 - r13) * known.left_c1 + r26));
-    let r35 = 0.0 - r32;
-    let r36 = 0.0 - (0.0 - r33);
-    let shared = &Shared5 { r35, r36 };
+    let r2 = p.left_r22 * known.left_c6;
+    let r3 = p.left_r23 * known.left_s6;
+    let r4 = p.left_r32 * known.left_c6;
+    let r5 = p.left_r33 * known.left_s6;
+    let r6 = p.left_r12 * known.left_c6 - p.left_r13 * known.left_s6;
+    let r22 = 0.5 * r2 - 0.5 * r3 - 0.5 * r4 + 0.5 * r5;
+    let r23 = 0.5 * (known.left_c1 * (r2 + (r4 - r5) - r3));
+    let r25 = 0.7071067811865475 * (known.left_s1 * r6);
+    let r26 = r25 - (r22 - r23);
+    let r27 = 0.5 * (known.left_c1 * (r4 + (r2 - r3) - r5));
+    let r29 = r25 + (r22 + r27);
+    let shared = &Shared5 { r26, r29 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r35: f64,
-    r36: f64,
+    r26: f64,
+    r29: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r38 = 0.0 - (0.0 - shared.r35);
-    let r41 = 0.0 - (-0.0 - (0.0 - shared.r36));
-    let r45 = f64::max(r41 * r41 + r38 * r38, 0.0).sqrt();
-    let left_c2 = r41 / r45;
-    let left_s2 = r38 / r45;
+    let r32 = shared.r29 * shared.r29 + shared.r26 * shared.r26;
+    let r33 = f64::max(r32, 0.0).sqrt();
+    let left_c2 = shared.r29 / r33;
+    let left_s2 = shared.r26 / r33;
     let next = Known { branch: known.branch, last: known.last, left_c2, left_s2, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: HipPitch.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s1;
-    let r1 = -0.1029 * known.left_s5;
-    let r4 = 0.1029 * known.left_c5 - 0.2879 + 0.2879;
-    let r11 = r1 + (r1 - r1) * known.left_c6;
-    let r14 = (0.0 - (0.0 - r4)) * known.left_s6 + 0.05 - 0.05;
-    let r15 = r4 * known.left_c6 - 0.2879 + 0.33309;
-    let r20 = r11 * p.left_r11 + r14 * p.left_r12 + r15 * p.left_r13;
-    let r25 = r11 * p.left_r21 + r14 * p.left_r22 + r15 * p.left_r23;
-    let r30 = r11 * p.left_r31 + r14 * p.left_r32 + r15 * p.left_r33;
-    let r43 = p.left_pz + r30 + 0.085 - (0.0 - (p.left_py + r25 - 0.05));
-    let r49 = (p.left_px + r20) * known.left_c1 + (0.0 - r43) * r0;
-    let r60 = 0.0 - known.left_c4;
-    let r61 = 0.0 - known.left_s4;
-    let r67 = r60 * known.left_c5 + (0.0 - r61) * known.left_s5;
-    let r70 = r61 * known.left_c5 + (0.0 - (0.0 - r60)) * known.left_s5;
-    let r75 = (0.0 - (0.0 - r70)) * known.left_s6;
-    let r76 = r70 * known.left_c6;
-    let r77 = r67 + (r67 - r67) * known.left_c6;
-    let r82 = r77 * p.left_r11 + r75 * p.left_r12 + r76 * p.left_r13;
-    let r87 = r77 * p.left_r21 + r75 * p.left_r22 + r76 * p.left_r23;
-    let r92 = r77 * p.left_r31 + r75 * p.left_r32 + r76 * p.left_r33;
-    let r106 = r82 * known.left_c1 + (0.0 - (r92 - (0.0 - r87))) * r0;
-    let r115 = 0.0 - (0.0 - r49);
-    let r116 = 0.1 * (0.0 - r106);
-    let shared = &Shared6 { r115, r116 };
+    let r0 = known.left_c5 * known.left_s6;
+    let r5 = 0.1029 * (known.left_c5 * known.left_c6) + 0.04519;
+    let r14 = p.left_px - 0.1029 * (p.left_r11 * known.left_s5);
+    let r17 = p.left_r13 * r5 + (r14 + 0.1029 * (p.left_r12 * r0));
+    let r20 = p.left_pz - 0.1029 * (p.left_r31 * known.left_s5);
+    let r23 = p.left_r33 * r5 + (r20 + 0.1029 * (p.left_r32 * r0));
+    let r26 = p.left_py + r23 - 0.1029 * (p.left_r21 * known.left_s5);
+    let r29 = p.left_r23 * r5 + (r26 + 0.1029 * (p.left_r22 * r0));
+    let r36 = known.left_s4 * known.left_c5 + known.left_c4 * known.left_s5;
+    let r37 = known.left_s6 * r36;
+    let r38 = known.left_c6 * r36;
+    let r39 = known.left_c4 * known.left_c5 - known.left_s4 * known.left_s5;
+    let r50 = p.left_r13 * r38 + (p.left_r11 * r39 + p.left_r12 * r37);
+    let r53 = p.left_r33 * r38 + (p.left_r31 * r39 + p.left_r32 * r37);
+    let r56 = p.left_r23 * r38 + (p.left_r22 * r37 + (p.left_r21 * r39 + r53));
+    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035));
+    let r59 = known.left_c1 * r17 - r58;
+    let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
+    let shared = &Shared6 { r59, r62 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r115: f64,
-    r116: f64,
+    r59: f64,
+    r62: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r137 = (0.0 - 0.1 * shared.r115) / 0.010000000000000002;
-    let r141 = (0.0 - (-0.0 - 0.1 * shared.r116)) / 0.010000000000000002;
-    let r145 = f64::max(r141 * r141 + r137 * r137, 0.0).sqrt();
-    let left_c3 = r141 / r145;
-    let left_s3 = r137 / r145;
+    let r64 = 0.1 * shared.r59 / 0.010000000000000002;
+    let r66 = 0.1 * shared.r62 / 0.010000000000000002;
+    let r70 = f64::max(r66 * r66 + r64 * r64, 0.0).sqrt();
+    let left_c3 = r66 / r70;
+    let left_s3 = 0.0 - r64 / r70;
     let next = Known { branch: known.branch, last: known.last, left_c3, left_s3, ..*known };
     block_7(p, &next, answers);
 }
@@ -848,52 +822,52 @@ fn claim_7_3(p: &Parameters) -> f64 {
 
 /// Block 8: HipRoll.
 fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = 0.7071067811865475 * known.left_s1;
-    let r10 = p.right_py + 0.04519 * p.right_dy + 0.05;
-    let r11 = p.right_pz + 0.04519 * p.right_dz + 0.085;
-    let r14 = 0.5 * r10 + 0.5 * r11;
-    let r18 = 0.0 - (p.right_px + 0.04519 * p.right_dx);
-    let r29 = (r11 - r14) * known.left_c1 + (0.0 - r18) * r3;
-    let r30 = r14 + ((r10 - r14) * known.left_c1 + r18 * r3);
-    let r39 = 0.0 - (r30 - 0.05 + 0.05);
-    let r40 = 0.0 - (0.0 - (0.0 - (r14 + r29 - 0.085 + 0.085)));
-    let r41 = p.magnitude + 0.72099;
-    let r42 = r41 + 0.05;
-    let r43 = r41 + 0.085;
-    let r46 = 0.5 * r42 + 0.5 * r43;
-    let r60 = f64::abs(r46 + (r42 + r46 + r41) + 0.05 + 0.05);
-    let r61 = f64::abs(r46 + (r43 + r46 + r41) + 0.085 + 0.085);
-    let shared = &Shared8 { r39, r40, r60, r61 };
+    let r2 = 0.5 * p.right_py;
+    let r3 = 0.022595 * p.right_dy;
+    let r4 = r2 + r3;
+    let r5 = 0.5 * p.right_pz;
+    let r7 = 0.022595 * p.right_dz;
+    let r11 = known.left_s1 * (p.right_px + 0.04519 * p.right_dx);
+    let r18 = r7 + (r4 + r5);
+    let r19 = known.left_c1 * (r4 - r5 - r7 - 0.0175) + r18;
+    let r20 = 0.7071067811865475 * r11;
+    let r22 = r19 - r20 + 0.0675;
+    let r23 = known.left_c1 * (r5 + r7 - r2 - r3 + 0.0175) + r18;
+    let r25 = r20 + r23 + 0.0675;
+    let r26 = 4.0 * p.magnitude;
+    let r29 = f64::abs(r26 + 3.16896);
+    let r30 = f64::abs(r26 + 3.27396);
+    let shared = &Shared8 { r22, r25, r29, r30 };
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, answers);
 }
 
 /// What the charts of block 8 share.
 struct Shared8 {
-    r39: f64,
-    r40: f64,
-    r60: f64,
-    r61: f64,
+    r22: f64,
+    r25: f64,
+    r29: f64,
+    r30: f64,
 }
 
 /// Chart 1 of block 8: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r62 = shared.r39 * shared.r39;
-    let r63 = shared.r40 * shared.r40;
-    let r64 = r62 + r63;
-    let r67 = shared.r60 * shared.r60 + shared.r61 * shared.r61;
-    if !is_away(r64, 10000.0 * r67) {
+    let r31 = shared.r22 * shared.r22;
+    let r32 = shared.r25 * shared.r25;
+    let r33 = r31 + r32;
+    let r36 = shared.r29 * shared.r29 + shared.r30 * shared.r30;
+    if !is_away(r33, 10000.0 * r36) {
         return;
     }
     let right_f2 = 1.0;
-    let roots0 = real_roots(&[0.0 - r62 - r63, 0.0, 1.0], f64::max(r67, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r31 - r32, 0.0, 1.0], f64::max(r36, 0.0).sqrt());
     for (i0, &right_w2) in roots0.as_slice().iter().enumerate() {
-        let r75 = (0.0 - (0.0 - shared.r39 * right_w2)) / r64;
-        let r78 = (0.0 - shared.r40 * right_w2) / r64;
-        let r82 = f64::max(r78 * r78 + r75 * r75, 0.0).sqrt();
-        let right_c2 = r78 / r82;
-        let right_s2 = r75 / r82;
+        let r42 = right_w2 * shared.r22 / r33;
+        let r44 = right_w2 * shared.r25 / r33;
+        let r48 = f64::max(r44 * r44 + r42 * r42, 0.0).sqrt();
+        let right_c2 = r44 / r48;
+        let right_s2 = 0.0 - r42 / r48;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, right_c2, right_s2, right_f2, ..*known };
         block_9(p, &next, answers);
     }
@@ -903,9 +877,9 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: right_HipRoll.
 fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r64 = shared.r39 * shared.r39 + shared.r40 * shared.r40;
-    let r67 = shared.r60 * shared.r60 + shared.r61 * shared.r61;
-    if !is_near(r64, 1.0000000000000001e-7 * r67) {
+    let r33 = shared.r22 * shared.r22 + shared.r25 * shared.r25;
+    let r36 = shared.r29 * shared.r29 + shared.r30 * shared.r30;
+    if !is_near(r33, 1.0000000000000001e-7 * r36) {
         return;
     }
     let right_f2 = 1000000.0;
@@ -917,33 +891,33 @@ fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 
 /// Block 9: KneePitch.
 fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r8 = p.right_py + 0.04519 * p.right_dy;
-    let r9 = p.right_pz + 0.04519 * p.right_dz;
-    let r10 = p.right_px * (p.right_px + 0.04519 * p.right_dx);
-    let r14 = r10 + p.right_py * r8 + p.right_pz * r9;
-    let r19 = p.right_px * p.right_px + p.right_py * p.right_py;
-    let r22 = r14 + r14 - (r19 + p.right_pz * p.right_pz) + 0.0020421361;
-    let r28 = -0.05 * (-0.05 - r8) + -0.085 * (-0.085 - r9);
-    let r34 = 0.02058841 - (r22 + r28 - (-0.05 * r8 + -0.085 * r9));
-    let shared = &Shared9 { r34 };
+    let r2 = p.right_px * (p.right_px + 0.04519 * p.right_dx);
+    let r5 = p.right_py * (p.right_py + 0.04519 * p.right_dy);
+    let r8 = p.right_pz * (p.right_pz + 0.04519 * p.right_dz);
+    let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.right_px * p.right_px;
+    let r19 = r17 - p.right_py * p.right_py - p.right_pz * p.right_pz;
+    let r23 = r19 + 0.1 * p.right_py + 0.004519 * p.right_dy;
+    let r27 = r23 + 0.17 * p.right_pz + 0.0076823 * p.right_dz;
+    let r28 = 0.0088212739 - r27;
+    let shared = &Shared9 { r28 };
     chart_9_1(p, known, shared, answers);
 }
 
 /// What the charts of block 9 share.
 struct Shared9 {
-    r34: f64,
+    r28: f64,
 }
 
 /// Chart 1 of block 9: generic.
 fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
-    let r36 = shared.r34 * shared.r34 - 0.00042353640000000005;
-    let roots0 = real_roots(&[r36, 0.0, 1.0], 1.4142135623730951 * known.right_f2);
+    let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
+    let roots0 = real_roots(&[r30, 0.0, 1.0], 1.4142135623730951 * known.right_f2);
     for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
-        let r41 = (0.0 - (0.0 - 0.02058 * right_w4)) / 0.00042353640000000005;
-        let r44 = (0.0 - 0.02058 * shared.r34) / 0.00042353640000000005;
-        let r48 = f64::max(r44 * r44 + r41 * r41, 0.0).sqrt();
-        let right_c4 = r44 / r48;
-        let right_s4 = r41 / r48;
+        let r33 = 0.02058 * right_w4 / 0.00042353640000000005;
+        let r35 = 0.02058 * shared.r28 / 0.00042353640000000005;
+        let r39 = f64::max(r35 * r35 + r33 * r33, 0.0).sqrt();
+        let right_c4 = 0.0 - r35 / r39;
+        let right_s4 = r33 / r39;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, right_c4, right_s4, ..*known };
         block_10(p, &next, answers);
     }
@@ -951,57 +925,55 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
 
 /// Block 10: HipPitch.
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = 0.7071067811865475 * known.left_s1;
-    let r4 = -0.1029 * known.right_s4;
-    let r12 = p.right_px + 0.04519 * p.right_dx;
-    let r15 = p.right_py + 0.04519 * p.right_dy + 0.05;
-    let r16 = p.right_pz + 0.04519 * p.right_dz + 0.085;
-    let r19 = 0.5 * r15 + 0.5 * r16;
-    let r23 = 0.0 - r12;
-    let r28 = r12 * known.left_c1 + (0.0 - (r16 - r15)) * r3;
-    let r34 = (r16 - r19) * known.left_c1 + (0.0 - r23) * r3;
-    let r35 = r19 + ((r15 - r19) * known.left_c1 + r23 * r3);
-    let r40 = 0.0 - (-0.1029 * known.right_c4 - 0.185 + 0.085);
-    let r54 = (r19 + r34 - 0.085 + 0.085) * known.right_c2 + (0.0 - (r35 - 0.05 + 0.05)) * known.right_s2;
-    let r60 = 0.0 - (0.0 - r28);
-    let r61 = 0.0 - (0.085 - (0.0 - (r54 - 0.085)));
-    let r62 = p.magnitude + 0.72099;
-    let r63 = r62 + 0.05;
-    let r64 = r62 + 0.085;
-    let r67 = 0.5 * r63 + 0.5 * r64;
-    let r82 = r67 + (r64 + r67 + r62) + 0.085 + 0.085 + (r67 + (r63 + r67 + r62) + 0.05 + 0.05);
-    let r89 = f64::abs(0.0 - (r62 + (r64 + r63)));
-    let r90 = f64::abs(0.0 - (r82 + 0.085 + 0.085));
-    let shared = &Shared10 { r4, r40, r60, r61, r89, r90 };
+    let r1 = p.right_px + 0.04519 * p.right_dx;
+    let r5 = p.right_pz + 0.04519 * p.right_dz - p.right_py;
+    let r9 = known.left_s1 * (r5 - 0.04519 * p.right_dy + 0.035);
+    let r10 = 0.5 * p.right_py;
+    let r11 = 0.022595 * p.right_dy;
+    let r12 = r10 + r11;
+    let r13 = 0.5 * p.right_pz;
+    let r15 = 0.022595 * p.right_dz;
+    let r24 = known.left_c1 * (r13 + r15 - r10 - r11 + 0.0175);
+    let r26 = r15 + (r12 + r13);
+    let r27 = known.left_c1 * (r12 - r13 - r15 - 0.0175) + r26;
+    let r28 = 0.7071067811865475 * (known.left_s1 * r1);
+    let r34 = known.right_c2 * (r28 + (r24 + r26) + 0.0675);
+    let r36 = 0.1029 * known.right_s4;
+    let r38 = 0.1029 * known.right_c4 + 0.1;
+    let r40 = known.left_c1 * r1 - 0.7071067811865475 * r9;
+    let r41 = known.right_s2 * (r27 - r28 + 0.0675) - r34;
+    let r46 = f64::abs(3.0 * p.magnitude + 2.29797);
+    let r47 = f64::abs(8.0 * p.magnitude + 6.61292);
+    let shared = &Shared10 { r36, r38, r40, r41, r46, r47 };
     chart_10_1(p, known, shared, answers);
     chart_10_2(p, known, shared, answers);
 }
 
 /// What the charts of block 10 share.
 struct Shared10 {
-    r4: f64,
+    r36: f64,
+    r38: f64,
     r40: f64,
-    r60: f64,
-    r61: f64,
-    r89: f64,
-    r90: f64,
+    r41: f64,
+    r46: f64,
+    r47: f64,
 }
 
 /// Chart 1 of block 10: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r93 = shared.r4 * shared.r4 + shared.r40 * shared.r40;
-    if !is_away(r93, 7755.348199999999) {
+    let r50 = shared.r36 * shared.r36 + shared.r38 * shared.r38;
+    if !is_away(r50, 7755.348199999999) {
         return;
     }
     let right_f3 = 1.0;
-    let r96 = shared.r40 * shared.r60 - shared.r4 * shared.r61;
-    let r98 = (0.0 - r96) / r93;
-    let r102 = 0.0 - shared.r4 * shared.r60 - shared.r40 * shared.r61;
-    let r104 = (0.0 - r102) / r93;
-    let r108 = f64::max(r104 * r104 + r98 * r98, 0.0).sqrt();
-    let right_c3 = r104 / r108;
-    let right_s3 = r98 / r108;
+    let r53 = shared.r38 * shared.r40 + shared.r36 * shared.r41;
+    let r54 = r53 / r50;
+    let r57 = shared.r38 * shared.r41 - shared.r36 * shared.r40;
+    let r58 = r57 / r50;
+    let r62 = f64::max(r58 * r58 + r54 * r54, 0.0).sqrt();
+    let right_c3 = r58 / r62;
+    let right_s3 = 0.0 - r54 / r62;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, right_c3, right_s3, right_f3, ..*known };
     block_11(p, &next, answers);
 }
@@ -1010,8 +982,8 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_HipPitch.
 fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r93 = shared.r4 * shared.r4 + shared.r40 * shared.r40;
-    if !(is_near(r93, 7.755348200000001e-8) && is_near(shared.r61, 0.01 * shared.r90) && is_near(shared.r60, 0.01 * shared.r89)) {
+    let r50 = shared.r36 * shared.r36 + shared.r38 * shared.r38;
+    if !(is_near(r50, 7.755348200000001e-8) && is_near(shared.r41, 0.01 * shared.r47) && is_near(shared.r40, 0.01 * shared.r46)) {
         return;
     }
     let right_f3 = 1000000.0;
@@ -1023,48 +995,45 @@ fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 
 /// Block 11: AnklePitch.
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = 0.7071067811865475 * known.left_s1;
-    let r6 = 0.5 * p.right_dy + 0.5 * p.right_dz;
-    let r10 = 0.0 - p.right_dx;
-    let r15 = p.right_dx * known.left_c1 + (0.0 - (p.right_dz - p.right_dy)) * r3;
-    let r21 = (p.right_dz - r6) * known.left_c1 + (0.0 - r10) * r3;
-    let r22 = r6 + ((p.right_dy - r6) * known.left_c1 + r10 * r3);
-    let r34 = (r6 + r21) * known.right_c2 + (0.0 - r22) * known.right_s2;
-    let r35 = r15 + (r15 - r15) * known.right_c2;
-    let r42 = r35 * known.right_c3 + (0.0 - r34) * known.right_s3;
-    let r46 = r34 * known.right_c3 + (0.0 - (0.0 - r35)) * known.right_s3;
-    let r54 = r42 * known.right_c4 + (0.0 - r46) * known.right_s4;
-    let r58 = r46 * known.right_c4 + (0.0 - (0.0 - r42)) * known.right_s4;
-    let r61 = 0.0 - r54;
-    let r64 = 0.0 - (0.0 - r58);
-    let shared = &Shared11 { r61, r64 };
+    let r1 = p.right_dz - p.right_dy;
+    let r9 = 0.5 * p.right_dy + 0.5 * p.right_dz;
+    let r10 = 0.5 * (known.left_c1 * (p.right_dy - p.right_dz));
+    let r12 = 0.7071067811865475 * (p.right_dx * known.left_s1);
+    let r17 = known.right_c2 * (r12 + (r9 + 0.5 * (known.left_c1 * r1)));
+    let r20 = p.right_dx * known.left_c1 - 0.7071067811865475 * (known.left_s1 * r1);
+    let r22 = r17 - known.right_s2 * (r9 + r10 - r12);
+    let r26 = known.right_c3 * r20 - known.right_s3 * r22;
+    let r28 = known.right_c3 * r22 + known.right_s3 * r20;
+    let r32 = known.right_s4 * r28 - known.right_c4 * r26;
+    let r33 = known.right_c4 * r28 + known.right_s4 * r26;
+    let shared = &Shared11 { r32, r33 };
     chart_11_1(p, known, shared, answers);
     chart_11_2(p, known, shared, answers);
 }
 
 /// What the charts of block 11 share.
 struct Shared11 {
-    r61: f64,
-    r64: f64,
+    r32: f64,
+    r33: f64,
 }
 
 /// Chart 1 of block 11: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r65 = shared.r61 * shared.r61;
-    let r66 = shared.r64 * shared.r64;
-    let r67 = r65 + r66;
-    if !is_away(r67, 23120000.0) {
+    let r34 = shared.r32 * shared.r32;
+    let r35 = shared.r33 * shared.r33;
+    let r36 = r34 + r35;
+    if !is_away(r36, 23120000.0) {
         return;
     }
-    let r71 = known.right_f3 * (48.08326112068523 * known.right_f2);
-    let roots0 = real_roots(&[0.0 - r65 - r66, 0.0, 1.0], r71);
+    let r40 = known.right_f3 * (48.08326112068523 * known.right_f2);
+    let roots0 = real_roots(&[0.0 - r34 - r35, 0.0, 1.0], r40);
     for (i0, &right_w5) in roots0.as_slice().iter().enumerate() {
-        let r75 = (0.0 - (0.0 - shared.r61 * right_w5)) / r67;
-        let r78 = (0.0 - shared.r64 * right_w5) / r67;
-        let r82 = f64::max(r78 * r78 + r75 * r75, 0.0).sqrt();
-        let right_c5 = r78 / r82;
-        let right_s5 = r75 / r82;
+        let r42 = right_w5 * shared.r32 / r36;
+        let r44 = right_w5 * shared.r33 / r36;
+        let r48 = f64::max(r44 * r44 + r42 * r42, 0.0).sqrt();
+        let right_c5 = 0.0 - r44 / r48;
+        let right_s5 = r42 / r48;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, right_c5, right_s5, ..*known };
         block_12(p, &next, answers);
     }
@@ -1074,8 +1043,8 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// It runs where A^2 + B^2 is near zero.
 /// Free: right_AnklePitch.
 fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r67 = shared.r61 * shared.r61 + shared.r64 * shared.r64;
-    if !is_near(r67, 0.0002312) {
+    let r36 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
+    if !is_near(r36, 0.0002312) {
         return;
     }
     for [right_c5, right_s5] in SAMPLES_1 {
@@ -1086,40 +1055,36 @@ fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 
 /// Block 12: AnkleRoll.
 fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = 0.7071067811865475 * known.left_s1;
-    let r6 = 0.5 * p.right_dy + 0.5 * p.right_dz;
-    let r10 = 0.0 - p.right_dx;
-    let r15 = p.right_dx * known.left_c1 + (0.0 - (p.right_dz - p.right_dy)) * r3;
-    let r21 = (p.right_dz - r6) * known.left_c1 + (0.0 - r10) * r3;
-    let r22 = r6 + ((p.right_dy - r6) * known.left_c1 + r10 * r3);
-    let r23 = r6 + r21;
-    let r31 = r22 * known.right_c2 + (0.0 - (0.0 - r23)) * known.right_s2;
-    let r34 = r23 * known.right_c2 + (0.0 - r22) * known.right_s2;
-    let r35 = r15 + (r15 - r15) * known.right_c2;
-    let r43 = r35 * known.right_c3 + (0.0 - r34) * known.right_s3;
-    let r47 = r34 * known.right_c3 + (0.0 - (0.0 - r35)) * known.right_s3;
-    let r55 = r43 * known.right_c4 + (0.0 - r47) * known.right_s4;
-    let r59 = r47 * known.right_c4 + (0.0 - (0.0 - r43)) * known.right_s4;
-    let r71 = r59 * known.right_c5 + (0.0 - (0.0 - r55)) * known.right_s5;
-    let r74 = 0.0 - (0.0 - r31);
-    let r75 = 0.0 - (0.0 - r71);
-    let shared = &Shared12 { r74, r75 };
+    let r1 = p.right_dz - p.right_dy;
+    let r9 = 0.5 * p.right_dy + 0.5 * p.right_dz;
+    let r10 = 0.5 * (known.left_c1 * (p.right_dy - p.right_dz));
+    let r12 = 0.7071067811865475 * (p.right_dx * known.left_s1);
+    let r13 = r9 + r10 - r12;
+    let r17 = r12 + (r9 + 0.5 * (known.left_c1 * r1));
+    let r22 = p.right_dx * known.left_c1 - 0.7071067811865475 * (known.left_s1 * r1);
+    let r24 = known.right_c2 * r17 - known.right_s2 * r13;
+    let r28 = known.right_c3 * r22 - known.right_s3 * r24;
+    let r30 = known.right_c3 * r24 + known.right_s3 * r22;
+    let r36 = known.right_c5 * (known.right_c4 * r30 + known.right_s4 * r28);
+    let r37 = known.right_s5 * (known.right_c4 * r28 - known.right_s4 * r30);
+    let r38 = known.right_c2 * r13 + known.right_s2 * r17;
+    let r39 = r36 + r37;
+    let shared = &Shared12 { r38, r39 };
     chart_12_1(p, known, shared, answers);
 }
 
 /// What the charts of block 12 share.
 struct Shared12 {
-    r74: f64,
-    r75: f64,
+    r38: f64,
+    r39: f64,
 }
 
 /// Chart 1 of block 12: generic.
 fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
-    let r76 = 0.0 - shared.r74;
-    let r78 = 0.0 - (-0.0 - shared.r75);
-    let r82 = f64::max(r78 * r78 + r76 * r76, 0.0).sqrt();
-    let right_c6 = r78 / r82;
-    let right_s6 = r76 / r82;
+    let r42 = shared.r39 * shared.r39 + shared.r38 * shared.r38;
+    let r43 = f64::max(r42, 0.0).sqrt();
+    let right_c6 = shared.r39 / r43;
+    let right_s6 = 0.0 - shared.r38 / r43;
     let next = Known { branch: known.branch, last: known.last, right_c6, right_s6, ..*known };
     block_13(p, &next, answers);
 }
@@ -1185,183 +1150,123 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let right_s5 = q[9].sin();
     let right_c6 = q[10].cos();
     let right_s6 = q[10].sin();
-    let r0 = 0.7071067811865475 * left_s1;
-    let r1 = 1.0 - left_c1;
-    let r2 = 0.0 - r0;
-    let r3 = 0.5 * r1;
-    let r4 = left_c1 + r3;
-    let r5 = -0.5 * r1;
-    let r7 = -0.085 * r0;
-    let r8 = 0.05 * r0 + r7;
-    let r11 = 0.05 * r4 + -0.085 * r5;
-    let r13 = -0.085 * r4;
-    let r14 = 0.05 * r5 + r13;
-    let r22 = left_c2 + (1.0 - left_c2);
-    let r23 = 0.0 - left_s2;
-    let r24 = left_c1 * r22;
-    let r25 = r2 * r22;
-    let r26 = r0 * left_c2;
-    let r28 = r26 + r0 * left_s2;
-    let r29 = r4 * left_c2;
-    let r31 = r29 + r5 * left_s2;
-    let r32 = r5 * left_c2;
-    let r34 = r32 + r4 * left_s2;
-    let r36 = r0 * r23 + r26;
-    let r38 = r4 * r23 + r32;
-    let r40 = r5 * r23 + r29;
-    let r43 = 0.05 * r28 + -0.085 * r36;
-    let r46 = 0.05 * r31 + -0.085 * r38;
-    let r49 = 0.05 * r34 + -0.085 * r40;
-    let r57 = 0.0 - left_s3;
-    let r58 = left_c3 + (1.0 - left_c3);
-    let r61 = r24 * left_c3 + r36 * r57;
-    let r62 = r25 * left_c3;
-    let r64 = r62 + r38 * r57;
-    let r66 = r62 + r40 * r57;
-    let r67 = r28 * r58;
-    let r68 = r31 * r58;
-    let r69 = r34 * r58;
-    let r72 = r24 * left_s3 + r36 * left_c3;
-    let r73 = r25 * left_s3;
-    let r75 = r73 + r38 * left_c3;
-    let r77 = r73 + r40 * left_c3;
-    let r78 = 0.05 * r67;
-    let r81 = 0.05 * r68;
-    let r84 = 0.05 * r69;
-    let r87 = 0.0 - r8 + r8 - r43 + r43 - (r78 + -0.085 * r72);
-    let r88 = 0.05 - r11 + r11 - r46 + r46 - (r81 + -0.085 * r75);
-    let r89 = -0.085 - r14 + r14 - r49 + r49 - (r84 + -0.085 * r77);
-    let r100 = 0.0 - left_s4;
-    let r101 = left_c4 + (1.0 - left_c4);
-    let r104 = r61 * left_c4 + r72 * r100;
-    let r107 = r64 * left_c4 + r75 * r100;
-    let r110 = r66 * left_c4 + r77 * r100;
-    let r111 = r67 * r101;
-    let r112 = r68 * r101;
-    let r113 = r69 * r101;
-    let r116 = r61 * left_s4 + r72 * left_c4;
-    let r119 = r64 * left_s4 + r75 * left_c4;
-    let r122 = r66 * left_s4 + r77 * left_c4;
-    let r123 = 0.05 * r111;
-    let r126 = 0.05 * r112;
-    let r129 = 0.05 * r113;
-    let r132 = r87 + (r78 + -0.185 * r72) - (r123 + -0.185 * r116);
-    let r133 = r88 + (r81 + -0.185 * r75) - (r126 + -0.185 * r119);
-    let r134 = r89 + (r84 + -0.185 * r77) - (r129 + -0.185 * r122);
-    let r145 = 0.0 - left_s5;
-    let r146 = left_c5 + (1.0 - left_c5);
-    let r156 = r111 * r146;
-    let r157 = r112 * r146;
-    let r158 = r113 * r146;
-    let r161 = r104 * left_s5 + r116 * left_c5;
-    let r164 = r107 * left_s5 + r119 * left_c5;
-    let r167 = r110 * left_s5 + r122 * left_c5;
-    let r170 = 0.05 * r156 + -0.2879 * r161;
-    let r173 = 0.05 * r157 + -0.2879 * r164;
-    let r176 = 0.05 * r158 + -0.2879 * r167;
-    let r184 = left_c6 + (1.0 - left_c6);
-    let r185 = 0.0 - left_s6;
-    let r191 = r156 * left_c6 + r161 * left_s6;
-    let r194 = r157 * left_c6 + r164 * left_s6;
-    let r197 = r158 * left_c6 + r167 * left_s6;
-    let r200 = r156 * r185 + r161 * left_c6;
-    let r203 = r157 * r185 + r164 * left_c6;
-    let r206 = r158 * r185 + r167 * left_c6;
-    let r207 = 0.05 * r191;
-    let r210 = 0.05 * r194;
-    let r213 = 0.05 * r197;
-    let r216 = r132 + (r123 + -0.2879 * r116) - r170 + r170 - (r207 + -0.2879 * r200);
-    let r217 = r133 + (r126 + -0.2879 * r119) - r173 + r173 - (r210 + -0.2879 * r203);
-    let r218 = r134 + (r129 + -0.2879 * r122) - r176 + r176 - (r213 + -0.2879 * r206);
-    let r458 = -0.05 * r2 + r7;
-    let r461 = -0.05 * r4 + -0.085 * r3;
-    let r463 = -0.05 * r3 + r13;
-    let r471 = right_c2 + (1.0 - right_c2);
-    let r472 = 0.0 - right_s2;
-    let r473 = left_c1 * r471;
-    let r474 = r0 * r471;
-    let r475 = r2 * r471;
-    let r478 = r2 * right_c2 + r0 * right_s2;
-    let r479 = r4 * right_c2;
-    let r481 = r479 + r3 * right_s2;
-    let r482 = r3 * right_c2;
-    let r484 = r482 + r4 * right_s2;
-    let r487 = r2 * r472 + r0 * right_c2;
-    let r489 = r4 * r472 + r482;
-    let r491 = r3 * r472 + r479;
-    let r494 = -0.05 * r478 + -0.085 * r487;
-    let r497 = -0.05 * r481 + -0.085 * r489;
-    let r500 = -0.05 * r484 + -0.085 * r491;
-    let r508 = 0.0 - right_s3;
-    let r509 = right_c3 + (1.0 - right_c3);
-    let r512 = r473 * right_c3 + r487 * r508;
-    let r515 = r474 * right_c3 + r489 * r508;
-    let r518 = r475 * right_c3 + r491 * r508;
-    let r519 = r478 * r509;
-    let r520 = r481 * r509;
-    let r521 = r484 * r509;
-    let r524 = r473 * right_s3 + r487 * right_c3;
-    let r527 = r474 * right_s3 + r489 * right_c3;
-    let r530 = r475 * right_s3 + r491 * right_c3;
-    let r531 = -0.05 * r519;
-    let r534 = -0.05 * r520;
-    let r537 = -0.05 * r521;
-    let r540 = 0.0 - r458 + r458 - r494 + r494 - (r531 + -0.085 * r524);
-    let r541 = -0.05 - r461 + r461 - r497 + r497 - (r534 + -0.085 * r527);
-    let r542 = -0.085 - r463 + r463 - r500 + r500 - (r537 + -0.085 * r530);
-    let r553 = 0.0 - right_s4;
-    let r554 = right_c4 + (1.0 - right_c4);
-    let r564 = r519 * r554;
-    let r565 = r520 * r554;
-    let r566 = r521 * r554;
-    let r569 = r512 * right_s4 + r524 * right_c4;
-    let r572 = r515 * right_s4 + r527 * right_c4;
-    let r575 = r518 * right_s4 + r530 * right_c4;
-    let r576 = -0.05 * r564;
-    let r579 = -0.05 * r565;
-    let r582 = -0.05 * r566;
-    let r585 = r540 + (r531 + -0.185 * r524) - (r576 + -0.185 * r569);
-    let r586 = r541 + (r534 + -0.185 * r527) - (r579 + -0.185 * r572);
-    let r587 = r542 + (r537 + -0.185 * r530) - (r582 + -0.185 * r575);
-    let r599 = right_c5 + (1.0 - right_c5);
-    let r609 = r564 * r599;
-    let r610 = r565 * r599;
-    let r611 = r566 * r599;
-    let r614 = (r512 * right_c4 + r524 * r553) * right_s5 + r569 * right_c5;
-    let r617 = (r515 * right_c4 + r527 * r553) * right_s5 + r572 * right_c5;
-    let r620 = (r518 * right_c4 + r530 * r553) * right_s5 + r575 * right_c5;
-    let r623 = -0.05 * r609 + -0.2879 * r614;
-    let r626 = -0.05 * r610 + -0.2879 * r617;
-    let r629 = -0.05 * r611 + -0.2879 * r620;
-    let r638 = 0.0 - right_s6;
-    let r653 = r609 * r638 + r614 * right_c6;
-    let r656 = r610 * r638 + r617 * right_c6;
-    let r659 = r611 * r638 + r620 * right_c6;
-    let r660 = -0.05 * (r609 * right_c6 + r614 * right_s6);
-    let r663 = -0.05 * (r610 * right_c6 + r617 * right_s6);
-    let r666 = -0.05 * (r611 * right_c6 + r620 * right_s6);
-    let r669 = r585 + (r576 + -0.2879 * r569) - r623 + r623 - (r660 + -0.2879 * r653);
-    let r670 = r586 + (r579 + -0.2879 * r572) - r626 + r626 - (r663 + -0.2879 * r656);
-    let r671 = r587 + (r582 + -0.2879 * r575) - r629 + r629 - (r666 + -0.2879 * r659);
+    let r0 = left_s1 * left_c2;
+    let r1 = left_s1 * left_s2;
+    let r2 = left_c1 + 1.0;
+    let r3 = left_c2 * r2;
+    let r4 = left_c1 - 1.0;
+    let r5 = left_s2 * r4;
+    let r6 = left_c2 * r4;
+    let r7 = left_s2 * r2;
+    let r9 = r1 - r0;
+    let r12 = r7 - r6;
+    let r14 = r5 - r3;
+    let r16 = left_c1 * left_s3;
+    let r17 = left_c3 * r9;
+    let r18 = left_s1 * left_s3;
+    let r19 = left_c3 * r12;
+    let r20 = left_c3 * r14;
+    let r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    let r25 = r16 - 0.7071067811865475 * r17;
+    let r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    let r29 = r27 - 0.5 * (left_s3 * r12);
+    let r31 = 0.7071067811865475 * r18;
+    let r33 = r31 + 0.5 * r19;
+    let r36 = r27 - 0.5 * (left_s3 * r14);
+    let r39 = r31 + 0.5 * r20;
+    let r41 = left_s4 * r22;
+    let r42 = left_c4 * r25;
+    let r43 = left_s4 * r29;
+    let r44 = left_c4 * r33;
+    let r45 = left_s4 * r36;
+    let r46 = left_c4 * r39;
+    let r47 = left_c4 * r22 - left_s4 * r25;
+    let r49 = r41 + r42;
+    let r51 = left_c4 * r29 - left_s4 * r33;
+    let r53 = r43 + r44;
+    let r55 = left_c4 * r36 - left_s4 * r39;
+    let r57 = r45 + r46;
+    let r65 = r0 + r1;
+    let r67 = left_s5 * r47 + left_c5 * r49;
+    let r69 = r3 + r5;
+    let r71 = left_s5 * r51 + left_c5 * r53;
+    let r73 = r6 + r7;
+    let r75 = left_s5 * r55 + left_c5 * r57;
+    let r77 = left_s6 * r65;
+    let r78 = left_c6 * r67;
+    let r79 = left_s6 * r69;
+    let r80 = left_c6 * r71;
+    let r81 = left_s6 * r73;
+    let r82 = left_c6 * r75;
+    let r83 = 0.07071067811865475 * r18;
+    let r89 = r83 + 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
+    let r99 = r83 + 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
+    let r108 = 0.1 * r16 - 0.07071067811865475 * r17 + 0.1029 * r41;
+    let r112 = r108 + 0.1029 * r42 - 0.03195415544182008 * r77;
+    let r132 = left_s6 * r67 + 0.7071067811865475 * (left_c6 * r65);
+    let r147 = left_s1 * right_c2;
+    let r148 = left_s1 * right_s2;
+    let r149 = right_c2 * r2;
+    let r150 = right_s2 * r4;
+    let r151 = right_c2 * r4;
+    let r152 = right_s2 * r2;
+    let r154 = r147 + r148;
+    let r157 = r151 + r152;
+    let r159 = r149 + r150;
+    let r161 = left_c1 * right_s3;
+    let r162 = right_c3 * r154;
+    let r163 = left_s1 * right_s3;
+    let r164 = right_c3 * r157;
+    let r165 = right_c3 * r159;
+    let r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
+    let r170 = r161 + 0.7071067811865475 * r162;
+    let r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    let r174 = r172 + 0.5 * (right_s3 * r157);
+    let r176 = 0.7071067811865475 * r163;
+    let r178 = r176 - 0.5 * r164;
+    let r181 = r172 + 0.5 * (right_s3 * r159);
+    let r184 = r176 - 0.5 * r165;
+    let r186 = right_s4 * r167;
+    let r187 = right_c4 * r170;
+    let r188 = right_s4 * r174;
+    let r189 = right_c4 * r178;
+    let r190 = right_s4 * r181;
+    let r191 = right_c4 * r184;
+    let r198 = right_s5 * (right_c4 * r167 - right_s4 * r170);
+    let r200 = right_s5 * (right_c4 * r174 - right_s4 * r178);
+    let r202 = right_s5 * (right_c4 * r181 - right_s4 * r184);
+    let r210 = right_s6 * (r147 - r148);
+    let r211 = right_c6 * (r198 + right_c5 * (r186 + r187));
+    let r212 = right_s6 * (r149 - r150);
+    let r213 = right_c6 * (r200 + right_c5 * (r188 + r189));
+    let r214 = right_s6 * (r151 - r152);
+    let r215 = right_c6 * (r202 + right_c5 * (r190 + r191));
+    let r216 = 0.07071067811865475 * r163;
+    let r222 = r216 - 0.05 * r165 + 0.1029 * r190 + 0.1029 * r191;
+    let r232 = r216 - 0.05 * r164 + 0.1029 * r188 + 0.1029 * r189;
+    let r241 = 0.1 * r161 + 0.07071067811865475 * r162 + 0.1029 * r186;
+    let r245 = r241 + 0.1029 * r187 + 0.03195415544182008 * r210;
+    let r250 = r232 - 0.022595 * r212 + 0.04519 * r213 + 0.05;
+    let r253 = r222 - 0.022595 * r214 + 0.04519 * r215 - 0.085;
     [
-        r216 + (r207 + -0.33309 * r200),
-        r217 + (r210 + -0.33309 * r203),
-        r218 + (r213 + -0.33309 * r206),
-        (r104 * left_c5 + r116 * r145) * r184,
-        (r107 * left_c5 + r119 * r145) * r184,
-        (r110 * left_c5 + r122 * r145) * r184,
-        r191,
-        r194,
-        r197,
-        r200,
-        r203,
-        r206,
-        r669 + (r660 + -0.33309 * r653),
-        r670 + (r663 + -0.33309 * r656),
-        r671 + (r666 + -0.33309 * r659),
-        r653,
-        r656,
-        r659,
+        0.0 - (r112 + 0.04519 * r78),
+        r99 + 0.022595 * r79 + 0.04519 * r80 + 0.05,
+        r89 + 0.022595 * r81 + 0.04519 * r82 - 0.085,
+        left_c5 * r47 - left_s5 * r49,
+        left_s5 * r53 - left_c5 * r51,
+        left_s5 * r57 - left_c5 * r55,
+        r132,
+        0.5 * (left_c6 * r69) - left_s6 * r71,
+        0.5 * (left_c6 * r73) - left_s6 * r75,
+        r78 - 0.7071067811865475 * r77,
+        0.0 - (r80 + 0.5 * r79),
+        0.0 - (r82 + 0.5 * r81),
+        0.0 - (r245 + 0.04519 * r211),
+        0.0 - r250,
+        r253,
+        r211 + 0.7071067811865475 * r210,
+        r213 - 0.5 * r212,
+        0.5 * r214 - r215,
     ]
 }
 
@@ -1441,255 +1346,250 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let right_s5 = q[9].sin();
     let right_c6 = q[10].cos();
     let right_s6 = q[10].sin();
-    let r0 = 0.7071067811865475 * left_s1;
-    let r1 = 1.0 - left_c1;
-    let r2 = 0.0 - r0;
-    let r3 = 0.5 * r1;
-    let r4 = left_c1 + r3;
-    let r5 = -0.5 * r1;
-    let r7 = -0.085 * r0;
-    let r8 = 0.05 * r0 + r7;
-    let r11 = 0.05 * r4 + -0.085 * r5;
-    let r13 = -0.085 * r4;
-    let r14 = 0.05 * r5 + r13;
-    let r18 = 0.0 - r8 + r8;
-    let r19 = 0.05 - r11 + r11;
-    let r20 = -0.085 - r14 + r14;
-    let r22 = left_c2 + (1.0 - left_c2);
-    let r23 = 0.0 - left_s2;
-    let r24 = left_c1 * r22;
-    let r25 = r2 * r22;
-    let r26 = r0 * left_c2;
-    let r28 = r26 + r0 * left_s2;
-    let r29 = r4 * left_c2;
-    let r31 = r29 + r5 * left_s2;
-    let r32 = r5 * left_c2;
-    let r34 = r32 + r4 * left_s2;
-    let r36 = r0 * r23 + r26;
-    let r38 = r4 * r23 + r32;
-    let r40 = r5 * r23 + r29;
-    let r43 = 0.05 * r28 + -0.085 * r36;
-    let r46 = 0.05 * r31 + -0.085 * r38;
-    let r49 = 0.05 * r34 + -0.085 * r40;
-    let r53 = r18 - r43 + r43;
-    let r54 = r19 - r46 + r46;
-    let r55 = r20 - r49 + r49;
-    let r57 = 0.0 - left_s3;
-    let r58 = left_c3 + (1.0 - left_c3);
-    let r61 = r24 * left_c3 + r36 * r57;
-    let r62 = r25 * left_c3;
-    let r64 = r62 + r38 * r57;
-    let r66 = r62 + r40 * r57;
-    let r67 = r28 * r58;
-    let r68 = r31 * r58;
-    let r69 = r34 * r58;
-    let r72 = r24 * left_s3 + r36 * left_c3;
-    let r73 = r25 * left_s3;
-    let r75 = r73 + r38 * left_c3;
-    let r77 = r73 + r40 * left_c3;
-    let r78 = 0.05 * r67;
-    let r81 = 0.05 * r68;
-    let r84 = 0.05 * r69;
-    let r96 = r53 - (r78 + -0.085 * r72) + (r78 + -0.185 * r72);
-    let r97 = r54 - (r81 + -0.085 * r75) + (r81 + -0.185 * r75);
-    let r98 = r55 - (r84 + -0.085 * r77) + (r84 + -0.185 * r77);
-    let r100 = 0.0 - left_s4;
-    let r101 = left_c4 + (1.0 - left_c4);
-    let r104 = r61 * left_c4 + r72 * r100;
-    let r107 = r64 * left_c4 + r75 * r100;
-    let r110 = r66 * left_c4 + r77 * r100;
-    let r111 = r67 * r101;
-    let r112 = r68 * r101;
-    let r113 = r69 * r101;
-    let r116 = r61 * left_s4 + r72 * left_c4;
-    let r119 = r64 * left_s4 + r75 * left_c4;
-    let r122 = r66 * left_s4 + r77 * left_c4;
-    let r123 = 0.05 * r111;
-    let r126 = 0.05 * r112;
-    let r129 = 0.05 * r113;
-    let r141 = r96 - (r123 + -0.185 * r116) + (r123 + -0.2879 * r116);
-    let r142 = r97 - (r126 + -0.185 * r119) + (r126 + -0.2879 * r119);
-    let r143 = r98 - (r129 + -0.185 * r122) + (r129 + -0.2879 * r122);
-    let r145 = 0.0 - left_s5;
-    let r146 = left_c5 + (1.0 - left_c5);
-    let r149 = r104 * left_c5 + r116 * r145;
-    let r152 = r107 * left_c5 + r119 * r145;
-    let r155 = r110 * left_c5 + r122 * r145;
-    let r156 = r111 * r146;
-    let r157 = r112 * r146;
-    let r158 = r113 * r146;
-    let r161 = r104 * left_s5 + r116 * left_c5;
-    let r164 = r107 * left_s5 + r119 * left_c5;
-    let r167 = r110 * left_s5 + r122 * left_c5;
-    let r170 = 0.05 * r156 + -0.2879 * r161;
-    let r173 = 0.05 * r157 + -0.2879 * r164;
-    let r176 = 0.05 * r158 + -0.2879 * r167;
-    let r180 = r141 - r170 + r170;
-    let r181 = r142 - r173 + r173;
-    let r182 = r143 - r176 + r176;
-    let r184 = left_c6 + (1.0 - left_c6);
-    let r185 = 0.0 - left_s6;
-    let r186 = r149 * r184;
-    let r187 = r152 * r184;
-    let r188 = r155 * r184;
-    let r191 = r156 * left_c6 + r161 * left_s6;
-    let r194 = r157 * left_c6 + r164 * left_s6;
-    let r197 = r158 * left_c6 + r167 * left_s6;
-    let r200 = r156 * r185 + r161 * left_c6;
-    let r203 = r157 * r185 + r164 * left_c6;
-    let r206 = r158 * r185 + r167 * left_c6;
-    let r207 = 0.05 * r191;
-    let r210 = 0.05 * r194;
-    let r213 = 0.05 * r197;
-    let r225 = r180 - (r207 + -0.2879 * r200) + (r207 + -0.33309 * r200);
-    let r226 = r181 - (r210 + -0.2879 * r203) + (r210 + -0.33309 * r203);
-    let r227 = r182 - (r213 + -0.2879 * r206) + (r213 + -0.33309 * r206);
-    let r232 = 0.7071067811865475 * (r227 + 0.085) - -0.7071067811865475 * (r226 - 0.05);
-    let r237 = r226 - r19;
-    let r238 = r227 - r20;
-    let r242 = r2 * (r225 - r18);
-    let r247 = r225 - r53;
-    let r248 = r226 - r54;
-    let r249 = r227 - r55;
-    let r259 = r225 - r96;
-    let r260 = r226 - r97;
-    let r261 = r227 - r98;
-    let r271 = r225 - r141;
-    let r272 = r226 - r142;
-    let r273 = r227 - r143;
-    let r283 = r225 - r180;
-    let r284 = r226 - r181;
-    let r285 = r227 - r182;
-    let r300 = 0.7071067811865475 * r188 - -0.7071067811865475 * r187;
-    let r307 = r2 * r186;
-    let r353 = 0.7071067811865475 * r197 - -0.7071067811865475 * r194;
-    let r360 = r2 * r191;
-    let r406 = 0.7071067811865475 * r206 - -0.7071067811865475 * r203;
-    let r413 = r2 * r200;
-    let r458 = -0.05 * r2 + r7;
-    let r461 = -0.05 * r4 + -0.085 * r3;
-    let r463 = -0.05 * r3 + r13;
-    let r467 = 0.0 - r458 + r458;
-    let r468 = -0.05 - r461 + r461;
-    let r469 = -0.085 - r463 + r463;
-    let r471 = right_c2 + (1.0 - right_c2);
-    let r472 = 0.0 - right_s2;
-    let r473 = left_c1 * r471;
-    let r474 = r0 * r471;
-    let r475 = r2 * r471;
-    let r478 = r2 * right_c2 + r0 * right_s2;
-    let r479 = r4 * right_c2;
-    let r481 = r479 + r3 * right_s2;
-    let r482 = r3 * right_c2;
-    let r484 = r482 + r4 * right_s2;
-    let r487 = r2 * r472 + r0 * right_c2;
-    let r489 = r4 * r472 + r482;
-    let r491 = r3 * r472 + r479;
-    let r494 = -0.05 * r478 + -0.085 * r487;
-    let r497 = -0.05 * r481 + -0.085 * r489;
-    let r500 = -0.05 * r484 + -0.085 * r491;
-    let r504 = r467 - r494 + r494;
-    let r505 = r468 - r497 + r497;
-    let r506 = r469 - r500 + r500;
-    let r508 = 0.0 - right_s3;
-    let r509 = right_c3 + (1.0 - right_c3);
-    let r512 = r473 * right_c3 + r487 * r508;
-    let r515 = r474 * right_c3 + r489 * r508;
-    let r518 = r475 * right_c3 + r491 * r508;
-    let r519 = r478 * r509;
-    let r520 = r481 * r509;
-    let r521 = r484 * r509;
-    let r524 = r473 * right_s3 + r487 * right_c3;
-    let r527 = r474 * right_s3 + r489 * right_c3;
-    let r530 = r475 * right_s3 + r491 * right_c3;
-    let r531 = -0.05 * r519;
-    let r534 = -0.05 * r520;
-    let r537 = -0.05 * r521;
-    let r549 = r504 - (r531 + -0.085 * r524) + (r531 + -0.185 * r524);
-    let r550 = r505 - (r534 + -0.085 * r527) + (r534 + -0.185 * r527);
-    let r551 = r506 - (r537 + -0.085 * r530) + (r537 + -0.185 * r530);
-    let r553 = 0.0 - right_s4;
-    let r554 = right_c4 + (1.0 - right_c4);
-    let r557 = r512 * right_c4 + r524 * r553;
-    let r560 = r515 * right_c4 + r527 * r553;
-    let r563 = r518 * right_c4 + r530 * r553;
-    let r564 = r519 * r554;
-    let r565 = r520 * r554;
-    let r566 = r521 * r554;
-    let r569 = r512 * right_s4 + r524 * right_c4;
-    let r572 = r515 * right_s4 + r527 * right_c4;
-    let r575 = r518 * right_s4 + r530 * right_c4;
-    let r576 = -0.05 * r564;
-    let r579 = -0.05 * r565;
-    let r582 = -0.05 * r566;
-    let r594 = r549 - (r576 + -0.185 * r569) + (r576 + -0.2879 * r569);
-    let r595 = r550 - (r579 + -0.185 * r572) + (r579 + -0.2879 * r572);
-    let r596 = r551 - (r582 + -0.185 * r575) + (r582 + -0.2879 * r575);
-    let r598 = 0.0 - right_s5;
-    let r599 = right_c5 + (1.0 - right_c5);
-    let r602 = r557 * right_c5 + r569 * r598;
-    let r605 = r560 * right_c5 + r572 * r598;
-    let r608 = r563 * right_c5 + r575 * r598;
-    let r609 = r564 * r599;
-    let r610 = r565 * r599;
-    let r611 = r566 * r599;
-    let r614 = r557 * right_s5 + r569 * right_c5;
-    let r617 = r560 * right_s5 + r572 * right_c5;
-    let r620 = r563 * right_s5 + r575 * right_c5;
-    let r623 = -0.05 * r609 + -0.2879 * r614;
-    let r626 = -0.05 * r610 + -0.2879 * r617;
-    let r629 = -0.05 * r611 + -0.2879 * r620;
-    let r633 = r594 - r623 + r623;
-    let r634 = r595 - r626 + r626;
-    let r635 = r596 - r629 + r629;
-    let r638 = 0.0 - right_s6;
-    let r653 = r609 * r638 + r614 * right_c6;
-    let r656 = r610 * r638 + r617 * right_c6;
-    let r659 = r611 * r638 + r620 * right_c6;
-    let r660 = -0.05 * (r609 * right_c6 + r614 * right_s6);
-    let r663 = -0.05 * (r610 * right_c6 + r617 * right_s6);
-    let r666 = -0.05 * (r611 * right_c6 + r620 * right_s6);
-    let r678 = r633 - (r660 + -0.2879 * r653) + (r660 + -0.33309 * r653);
-    let r679 = r634 - (r663 + -0.2879 * r656) + (r663 + -0.33309 * r656);
-    let r680 = r635 - (r666 + -0.2879 * r659) + (r666 + -0.33309 * r659);
-    let r685 = 0.7071067811865475 * (r680 + 0.085) - 0.7071067811865475 * (r679 + 0.05);
-    let r686 = 0.7071067811865475 * r678;
-    let r688 = r678 - r467;
-    let r689 = r679 - r468;
-    let r690 = r680 - r469;
-    let r700 = r678 - r504;
-    let r701 = r679 - r505;
-    let r702 = r680 - r506;
-    let r712 = r678 - r549;
-    let r713 = r679 - r550;
-    let r714 = r680 - r551;
-    let r724 = r678 - r594;
-    let r725 = r679 - r595;
-    let r726 = r680 - r596;
-    let r736 = r678 - r633;
-    let r737 = r679 - r634;
-    let r738 = r680 - r635;
-    let r753 = 0.7071067811865475 * r659 - 0.7071067811865475 * r656;
-    let r754 = 0.7071067811865475 * r653;
+    let r0 = left_s1 * left_c2;
+    let r1 = left_s1 * left_s2;
+    let r2 = left_c1 + 1.0;
+    let r3 = left_c2 * r2;
+    let r4 = left_c1 - 1.0;
+    let r5 = left_s2 * r4;
+    let r6 = left_c2 * r4;
+    let r7 = left_s2 * r2;
+    let r9 = r1 - r0;
+    let r12 = r7 - r6;
+    let r14 = r5 - r3;
+    let r16 = left_c1 * left_s3;
+    let r17 = left_c3 * r9;
+    let r18 = left_s1 * left_s3;
+    let r19 = left_c3 * r12;
+    let r20 = left_c3 * r14;
+    let r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    let r25 = r16 - 0.7071067811865475 * r17;
+    let r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    let r29 = r27 - 0.5 * (left_s3 * r12);
+    let r31 = 0.7071067811865475 * r18;
+    let r33 = r31 + 0.5 * r19;
+    let r36 = r27 - 0.5 * (left_s3 * r14);
+    let r39 = r31 + 0.5 * r20;
+    let r41 = left_s4 * r22;
+    let r42 = left_c4 * r25;
+    let r43 = left_s4 * r29;
+    let r44 = left_c4 * r33;
+    let r45 = left_s4 * r36;
+    let r46 = left_c4 * r39;
+    let r47 = left_c4 * r22 - left_s4 * r25;
+    let r49 = r41 + r42;
+    let r51 = left_c4 * r29 - left_s4 * r33;
+    let r52 = left_c5 * r51;
+    let r53 = r43 + r44;
+    let r54 = left_s5 * r53;
+    let r55 = left_c4 * r36 - left_s4 * r39;
+    let r57 = r45 + r46;
+    let r65 = r0 + r1;
+    let r66 = left_c6 * r65;
+    let r67 = left_s5 * r47 + left_c5 * r49;
+    let r68 = left_s6 * r67;
+    let r69 = r3 + r5;
+    let r70 = left_c6 * r69;
+    let r71 = left_s5 * r51 + left_c5 * r53;
+    let r72 = left_s6 * r71;
+    let r73 = r6 + r7;
+    let r74 = left_c6 * r73;
+    let r75 = left_s5 * r55 + left_c5 * r57;
+    let r76 = left_s6 * r75;
+    let r77 = left_s6 * r65;
+    let r78 = left_c6 * r67;
+    let r79 = left_s6 * r69;
+    let r80 = left_c6 * r71;
+    let r81 = left_s6 * r73;
+    let r82 = left_c6 * r75;
+    let r83 = 0.07071067811865475 * r18;
+    let r86 = 0.1029 * r45;
+    let r88 = 0.1029 * r46;
+    let r90 = 0.022595 * r81;
+    let r92 = 0.04519 * r82;
+    let r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92;
+    let r96 = 0.1029 * r43;
+    let r98 = 0.1029 * r44;
+    let r100 = 0.022595 * r79;
+    let r102 = 0.04519 * r80;
+    let r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102;
+    let r107 = 0.1029 * r41;
+    let r109 = 0.1029 * r42;
+    let r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109;
+    let r111 = 0.03195415544182008 * r77;
+    let r113 = 0.04519 * r78;
+    let r114 = r110 - r111 + r113;
+    let r115 = left_c5 * r47 - left_s5 * r49;
+    let r128 = 0.5 * r74 - r76;
+    let r130 = 0.5 * r70 - r72;
+    let r132 = r68 + 0.7071067811865475 * r66;
+    let r137 = r82 + 0.5 * r81;
+    let r139 = r80 + 0.5 * r79;
+    let r147 = left_s1 * right_c2;
+    let r148 = left_s1 * right_s2;
+    let r149 = right_c2 * r2;
+    let r150 = right_s2 * r4;
+    let r151 = right_c2 * r4;
+    let r152 = right_s2 * r2;
+    let r154 = r147 + r148;
+    let r157 = r151 + r152;
+    let r159 = r149 + r150;
+    let r161 = left_c1 * right_s3;
+    let r162 = right_c3 * r154;
+    let r163 = left_s1 * right_s3;
+    let r164 = right_c3 * r157;
+    let r165 = right_c3 * r159;
+    let r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
+    let r170 = r161 + 0.7071067811865475 * r162;
+    let r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    let r174 = r172 + 0.5 * (right_s3 * r157);
+    let r176 = 0.7071067811865475 * r163;
+    let r178 = r176 - 0.5 * r164;
+    let r181 = r172 + 0.5 * (right_s3 * r159);
+    let r184 = r176 - 0.5 * r165;
+    let r186 = right_s4 * r167;
+    let r187 = right_c4 * r170;
+    let r188 = right_s4 * r174;
+    let r189 = right_c4 * r178;
+    let r190 = right_s4 * r181;
+    let r191 = right_c4 * r184;
+    let r192 = right_c4 * r167 - right_s4 * r170;
+    let r193 = r186 + r187;
+    let r194 = right_c4 * r174 - right_s4 * r178;
+    let r195 = r188 + r189;
+    let r196 = right_c4 * r181 - right_s4 * r184;
+    let r197 = r190 + r191;
+    let r204 = r147 - r148;
+    let r206 = r149 - r150;
+    let r208 = r151 - r152;
+    let r210 = right_s6 * r204;
+    let r211 = right_c6 * (right_s5 * r192 + right_c5 * r193);
+    let r212 = right_s6 * r206;
+    let r213 = right_c6 * (right_s5 * r194 + right_c5 * r195);
+    let r214 = right_s6 * r208;
+    let r215 = right_c6 * (right_s5 * r196 + right_c5 * r197);
+    let r216 = 0.07071067811865475 * r163;
+    let r219 = 0.1029 * r190;
+    let r221 = 0.1029 * r191;
+    let r223 = 0.022595 * r214;
+    let r225 = 0.04519 * r215;
+    let r226 = r216 - 0.05 * r165 + r219 + r221 - r223 + r225;
+    let r229 = 0.1029 * r188;
+    let r231 = 0.1029 * r189;
+    let r233 = 0.022595 * r212;
+    let r235 = 0.04519 * r213;
+    let r236 = r216 - 0.05 * r164 + r229 + r231 - r233 + r235;
+    let r240 = 0.1029 * r186;
+    let r241 = 0.1 * r161 + 0.07071067811865475 * r162 + r240;
+    let r242 = 0.1029 * r187;
+    let r244 = 0.03195415544182008 * r210;
+    let r246 = 0.04519 * r211;
+    let r247 = r241 + r242 + r244 + r246;
+    let r256 = 0.5 * r214 - r215;
+    let r259 = r211 + 0.7071067811865475 * r210;
+    let r277 = r92 + (r90 + (r86 + r88));
+    let r281 = r102 + (r100 + (r96 + r98));
+    let r285 = r113 + (r107 + r109 - r111);
+    let r290 = r90 + r92;
+    let r292 = r100 + r102;
+    let r294 = r111 - r113;
+    let r299 = r52 - r54;
+    let r301 = left_c5 * r55 - left_s5 * r57;
+    let r309 = 0.09999999999999998 * r18 + 0.035355339059327376 * r20;
+    let r313 = r309 + 0.07276128778409574 * r45 + 0.07276128778409574 * r46;
+    let r317 = r313 + 0.01597707772091004 * r81 + 0.03195415544182008 * r82;
+    let r321 = r317 + 0.035355339059327376 * r19 + 0.07276128778409574 * r43;
+    let r325 = r321 + 0.07276128778409574 * r44 + 0.01597707772091004 * r79;
+    let r329 = 0.7071067811865475 * (left_s1 * r93 - left_s1 * r103);
+    let r340 = 0.07071067811865475 * r16 - 0.04999999999999999 * r17;
+    let r344 = r340 + 0.07276128778409574 * r41 + 0.07276128778409574 * r42;
+    let r348 = r344 - 0.022594999999999997 * r77 + 0.03195415544182008 * r78;
+    let r349 = 0.7071067811865475 * (left_s1 * r114);
+    let r353 = 0.5 * (r73 * r114) + 0.7071067811865475 * (r65 * r93);
+    let r357 = 0.5 * (r73 * r285) + 0.7071067811865475 * (r65 * r277);
+    let r361 = 0.5 * (r73 * r294) - 0.7071067811865475 * (r65 * r290);
+    let r367 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
+    let r370 = 0.7071067811865475 * (r65 * r281) + 0.5 * (r69 * r285);
+    let r373 = 0.7071067811865475 * (r65 * r292) - 0.5 * (r69 * r294);
+    let r389 = 0.0 - 0.7071067811865475 * (r52 + r301 - r54);
+    let r391 = 0.7071067811865475 * (left_s1 * r301 - left_s1 * r299);
+    let r394 = 0.0 - 0.5 * (r69 * r301 - r73 * r299);
+    let r396 = 0.0 - 0.7071067811865475 * r115;
+    let r397 = 0.7071067811865475 * (left_s1 * r115);
+    let r401 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r301);
+    let r405 = 0.7071067811865475 * (r65 * r299) + 0.5 * (r69 * r115);
+    let r406 = 0.0 - r405;
+    let r426 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
+    let r430 = r426 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
+    let r432 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
+    let r435 = 0.5 * (r69 * r128 - r73 * r130);
+    let r439 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68;
+    let r440 = 0.0 - r439;
+    let r441 = 0.7071067811865475 * (left_s1 * r132);
+    let r446 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
+    let r452 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
+    let r456 = 0.7071067811865475 * r77 - r78;
+    let r474 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
+    let r478 = r474 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
+    let r481 = 0.7071067811865475 * (left_s1 * r137 - left_s1 * r139);
+    let r484 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
+    let r488 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
+    let r489 = 0.7071067811865475 * (left_s1 * r456);
+    let r493 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r456);
+    let r499 = 0.5 * (r69 * r456) - 0.7071067811865475 * (r65 * r139);
+    let r523 = r225 + (r219 + r221 - r223);
+    let r527 = r235 + (r229 + r231 - r233);
+    let r531 = r246 + (r244 + (r240 + r242));
+    let r536 = r223 - r225;
+    let r538 = r233 - r235;
+    let r540 = r244 + r246;
+    let r545 = right_c5 * r194 - right_s5 * r195;
+    let r547 = right_c5 * r196 - right_s5 * r197;
+    let r550 = right_c5 * r192 - right_s5 * r193;
+    let r556 = 0.09999999999999998 * r163 - 0.035355339059327376 * r165;
+    let r560 = r556 + 0.07276128778409574 * r190 + 0.07276128778409574 * r191;
+    let r564 = r560 - 0.01597707772091004 * r214 + 0.03195415544182008 * r215;
+    let r568 = r564 - 0.035355339059327376 * r164 + 0.07276128778409574 * r188;
+    let r572 = r568 + 0.07276128778409574 * r189 - 0.01597707772091004 * r212;
+    let r576 = 0.7071067811865475 * (left_s1 * r226 - left_s1 * r236);
+    let r587 = 0.07071067811865475 * r161 + 0.04999999999999999 * r162;
+    let r591 = r587 + 0.07276128778409574 * r186 + 0.07276128778409574 * r187;
+    let r595 = r591 + 0.022594999999999997 * r210 + 0.03195415544182008 * r211;
+    let r597 = 0.7071067811865475 * (left_s1 * r247);
+    let r601 = 0.5 * (r208 * r247) + 0.7071067811865475 * (r204 * r226);
+    let r604 = 0.5 * (r208 * r531) + 0.7071067811865475 * (r204 * r523);
+    let r607 = 0.5 * (r208 * r540) - 0.7071067811865475 * (r204 * r536);
+    let r612 = 0.7071067811865475 * (r204 * r236) + 0.5 * (r206 * r247);
+    let r615 = 0.7071067811865475 * (r204 * r527) + 0.5 * (r206 * r531);
+    let r618 = 0.5 * (r206 * r540) - 0.7071067811865475 * (r204 * r538);
+    let r621 = 0.5 * r212 - r213;
+    let r640 = 0.35355339059327373 * r214 - 0.7071067811865475 * r215;
+    let r644 = r640 + 0.35355339059327373 * r212 - 0.7071067811865475 * r213;
+    let r646 = 0.7071067811865475 * (left_s1 * r256 - left_s1 * r621);
+    let r648 = 0.5 * (r206 * r256 - r208 * r621);
+    let r652 = 0.4999999999999999 * r210 + 0.7071067811865475 * r211;
+    let r653 = 0.7071067811865475 * (left_s1 * r259);
+    let r658 = 0.7071067811865475 * (r204 * r256) - 0.5 * (r208 * r259);
+    let r666 = 0.7071067811865475 * (r204 * r621) - 0.5 * (r206 * r259);
     [
-        [r232, r2 * r238 - r2 * r237, r31 * r249 - r34 * r248, r68 * r261 - r69 * r260, r112 * r273 - r113 * r272, r152 * r285 - r155 * r284, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [-0.7071067811865475 * r225, r242 - left_c1 * r238, r34 * r247 - r28 * r249, r69 * r259 - r67 * r261, r113 * r271 - r111 * r273, r155 * r283 - r149 * r285, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - 0.7071067811865475 * r225, left_c1 * r237 - r242, r28 * r248 - r31 * r247, r67 * r260 - r68 * r259, r111 * r272 - r112 * r271, r149 * r284 - r152 * r283, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r300, r2 * r188 - r2 * r187, r31 * r188 - r34 * r187, r68 * r188 - r69 * r187, r112 * r188 - r113 * r187, r152 * r188 - r155 * r187, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [-0.7071067811865475 * r186, r307 - left_c1 * r188, r34 * r186 - r28 * r188, r69 * r186 - r67 * r188, r113 * r186 - r111 * r188, r155 * r186 - r149 * r188, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - 0.7071067811865475 * r186, left_c1 * r187 - r307, r28 * r187 - r31 * r186, r67 * r187 - r68 * r186, r111 * r187 - r112 * r186, r149 * r187 - r152 * r186, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r353, r2 * r197 - r2 * r194, r31 * r197 - r34 * r194, r68 * r197 - r69 * r194, r112 * r197 - r113 * r194, r152 * r197 - r155 * r194, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [-0.7071067811865475 * r191, r360 - left_c1 * r197, r34 * r191 - r28 * r197, r69 * r191 - r67 * r197, r113 * r191 - r111 * r197, r155 * r191 - r149 * r197, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - 0.7071067811865475 * r191, left_c1 * r194 - r360, r28 * r194 - r31 * r191, r67 * r194 - r68 * r191, r111 * r194 - r112 * r191, r149 * r194 - r152 * r191, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r406, r2 * r206 - r2 * r203, r31 * r206 - r34 * r203, r68 * r206 - r69 * r203, r112 * r206 - r113 * r203, r152 * r206 - r155 * r203, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [-0.7071067811865475 * r200, r413 - left_c1 * r206, r34 * r200 - r28 * r206, r69 * r200 - r67 * r206, r113 * r200 - r111 * r206, r155 * r200 - r149 * r206, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - 0.7071067811865475 * r200, left_c1 * r203 - r413, r28 * r203 - r31 * r200, r67 * r203 - r68 * r200, r111 * r203 - r112 * r200, r149 * r203 - r152 * r200, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r685, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r690 - r2 * r689, r481 * r702 - r484 * r701, r520 * r714 - r521 * r713, r565 * r726 - r566 * r725, r605 * r738 - r608 * r737],
-        [r686, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r688 - left_c1 * r690, r484 * r700 - r478 * r702, r521 * r712 - r519 * r714, r566 * r724 - r564 * r726, r608 * r736 - r602 * r738],
-        [0.0 - r686, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r689 - r0 * r688, r478 * r701 - r481 * r700, r519 * r713 - r520 * r712, r564 * r725 - r565 * r724, r602 * r737 - r605 * r736],
-        [r753, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r659 - r2 * r656, r481 * r659 - r484 * r656, r520 * r659 - r521 * r656, r565 * r659 - r566 * r656, r605 * r659 - r608 * r656],
-        [r754, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r653 - left_c1 * r659, r484 * r653 - r478 * r659, r521 * r653 - r519 * r659, r566 * r653 - r564 * r659, r608 * r653 - r602 * r659],
-        [0.0 - r754, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r656 - r0 * r653, r478 * r656 - r481 * r653, r519 * r656 - r520 * r653, r564 * r656 - r565 * r653, r602 * r656 - r605 * r653],
+        [r325 + 0.03195415544182008 * r80, 0.0 - r329, 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r277 - r73 * r281), 0.5 * (r69 * r290 - r73 * r292), r292 * r301 - r290 * r299, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r348, r349 - left_c1 * r93, 0.0 - r353, 0.0 - r357, r361, 0.0 - (r294 * r301 + r290 * r115), 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r348, left_c1 * r103 - r349, r367, r370, r373, r292 * r115 + r294 * r299, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r389, r391, r394, r394, r394, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r396, left_c1 * r301 - r397, r401, r401, r401, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r396, r397 - left_c1 * r299, r406, r406, r406, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r430, 0.0 - r432, r435, r435, r435, r301 * r130 - r299 * r128, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r440, 0.0 - (left_c1 * r128 + r441), r446, r446, r446, 0.0 - (r301 * r132 + r115 * r128), 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r440, left_c1 * r130 + r441, r452, r452, r452, r115 * r130 + r299 * r132, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0 - r478, r481, r484, r484, r484, r299 * r137 - r301 * r139, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r488, left_c1 * r137 + r489, r493, r493, r493, r301 * r456 + r115 * r137, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r488, 0.0 - (left_c1 * r139 + r489), r499, r499, r499, 0.0 - (r115 * r139 + r299 * r456), 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r572 + 0.03195415544182008 * r213, 0.0, 0.0, 0.0, 0.0, 0.0, r576, 0.5 * (r206 * r226 - r208 * r236), 0.5 * (r206 * r523 - r208 * r527), 0.0 - 0.5 * (r206 * r536 - r208 * r538), r538 * r547 - r536 * r545],
+        [0.0 - r595, 0.0, 0.0, 0.0, 0.0, 0.0, r597 - left_c1 * r226, r601, r604, r607, r540 * r547 + r536 * r550],
+        [r595, 0.0, 0.0, 0.0, 0.0, 0.0, r597 - left_c1 * r236, r612, r615, r618, r538 * r550 + r540 * r545],
+        [r644, 0.0, 0.0, 0.0, 0.0, 0.0, r646, r648, r648, r648, r545 * r256 - r547 * r621],
+        [r652, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r256 + r653), r658, r658, r658, 0.0 - (r547 * r259 + r550 * r256)],
+        [0.0 - r652, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r621 + r653), r666, r666, r666, 0.0 - (r550 * r621 + r545 * r259)],
     ]
 }
 

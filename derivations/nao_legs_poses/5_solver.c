@@ -348,100 +348,74 @@ static void tip(const double *q, double *reached)
     const double left_c5 = cos(q[4]), left_s5 = sin(q[4]), left_c6 = cos(q[5]), left_s6 = sin(q[5]);
     const double right_c2 = cos(q[6]), right_s2 = sin(q[6]), right_c3 = cos(q[7]), right_s3 = sin(q[7]);
     const double right_c4 = cos(q[8]), right_s4 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
-    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = 0.7071067811865475 * left_s1;
-    const double r1 = 1.0 - left_c1, r2 = 0.0 - r0, r3 = 0.5 * r1, r4 = left_c1 + r3, r5 = -0.5 * r1;
-    const double r7 = -0.085 * r0, r8 = 0.05 * r0 + r7, r11 = 0.05 * r4 + -0.085 * r5, r13 = -0.085 * r4;
-    const double r14 = 0.05 * r5 + r13, r22 = left_c2 + (1.0 - left_c2), r23 = 0.0 - left_s2;
-    const double r24 = left_c1 * r22, r25 = r2 * r22, r26 = r0 * left_c2, r28 = r26 + r0 * left_s2;
-    const double r29 = r4 * left_c2, r31 = r29 + r5 * left_s2, r32 = r5 * left_c2, r34 = r32 + r4 * left_s2;
-    const double r36 = r0 * r23 + r26, r38 = r4 * r23 + r32, r40 = r5 * r23 + r29;
-    const double r43 = 0.05 * r28 + -0.085 * r36, r46 = 0.05 * r31 + -0.085 * r38;
-    const double r49 = 0.05 * r34 + -0.085 * r40, r57 = 0.0 - left_s3, r58 = left_c3 + (1.0 - left_c3);
-    const double r61 = r24 * left_c3 + r36 * r57, r62 = r25 * left_c3, r64 = r62 + r38 * r57;
-    const double r66 = r62 + r40 * r57, r67 = r28 * r58, r68 = r31 * r58, r69 = r34 * r58;
-    const double r72 = r24 * left_s3 + r36 * left_c3, r73 = r25 * left_s3, r75 = r73 + r38 * left_c3;
-    const double r77 = r73 + r40 * left_c3, r78 = 0.05 * r67, r81 = 0.05 * r68, r84 = 0.05 * r69;
-    const double r87 = 0.0 - r8 + r8 - r43 + r43 - (r78 + -0.085 * r72);
-    const double r88 = 0.05 - r11 + r11 - r46 + r46 - (r81 + -0.085 * r75);
-    const double r89 = -0.085 - r14 + r14 - r49 + r49 - (r84 + -0.085 * r77), r100 = 0.0 - left_s4;
-    const double r101 = left_c4 + (1.0 - left_c4), r104 = r61 * left_c4 + r72 * r100;
-    const double r107 = r64 * left_c4 + r75 * r100, r110 = r66 * left_c4 + r77 * r100, r111 = r67 * r101;
-    const double r112 = r68 * r101, r113 = r69 * r101, r116 = r61 * left_s4 + r72 * left_c4;
-    const double r119 = r64 * left_s4 + r75 * left_c4, r122 = r66 * left_s4 + r77 * left_c4, r123 = 0.05 * r111;
-    const double r126 = 0.05 * r112, r129 = 0.05 * r113;
-    const double r132 = r87 + (r78 + -0.185 * r72) - (r123 + -0.185 * r116);
-    const double r133 = r88 + (r81 + -0.185 * r75) - (r126 + -0.185 * r119);
-    const double r134 = r89 + (r84 + -0.185 * r77) - (r129 + -0.185 * r122), r145 = 0.0 - left_s5;
-    const double r146 = left_c5 + (1.0 - left_c5), r156 = r111 * r146, r157 = r112 * r146, r158 = r113 * r146;
-    const double r161 = r104 * left_s5 + r116 * left_c5, r164 = r107 * left_s5 + r119 * left_c5;
-    const double r167 = r110 * left_s5 + r122 * left_c5, r170 = 0.05 * r156 + -0.2879 * r161;
-    const double r173 = 0.05 * r157 + -0.2879 * r164, r176 = 0.05 * r158 + -0.2879 * r167;
-    const double r184 = left_c6 + (1.0 - left_c6), r185 = 0.0 - left_s6, r191 = r156 * left_c6 + r161 * left_s6;
-    const double r194 = r157 * left_c6 + r164 * left_s6, r197 = r158 * left_c6 + r167 * left_s6;
-    const double r200 = r156 * r185 + r161 * left_c6, r203 = r157 * r185 + r164 * left_c6;
-    const double r206 = r158 * r185 + r167 * left_c6, r207 = 0.05 * r191, r210 = 0.05 * r194, r213 = 0.05 * r197;
-    const double r216 = r132 + (r123 + -0.2879 * r116) - r170 + r170 - (r207 + -0.2879 * r200);
-    const double r217 = r133 + (r126 + -0.2879 * r119) - r173 + r173 - (r210 + -0.2879 * r203);
-    const double r218 = r134 + (r129 + -0.2879 * r122) - r176 + r176 - (r213 + -0.2879 * r206);
-    const double r458 = -0.05 * r2 + r7, r461 = -0.05 * r4 + -0.085 * r3, r463 = -0.05 * r3 + r13;
-    const double r471 = right_c2 + (1.0 - right_c2), r472 = 0.0 - right_s2, r473 = left_c1 * r471;
-    const double r474 = r0 * r471, r475 = r2 * r471, r478 = r2 * right_c2 + r0 * right_s2, r479 = r4 * right_c2;
-    const double r481 = r479 + r3 * right_s2, r482 = r3 * right_c2, r484 = r482 + r4 * right_s2;
-    const double r487 = r2 * r472 + r0 * right_c2, r489 = r4 * r472 + r482, r491 = r3 * r472 + r479;
-    const double r494 = -0.05 * r478 + -0.085 * r487, r497 = -0.05 * r481 + -0.085 * r489;
-    const double r500 = -0.05 * r484 + -0.085 * r491, r508 = 0.0 - right_s3, r509 = right_c3 + (1.0 - right_c3);
-    const double r512 = r473 * right_c3 + r487 * r508, r515 = r474 * right_c3 + r489 * r508;
-    const double r518 = r475 * right_c3 + r491 * r508, r519 = r478 * r509, r520 = r481 * r509;
-    const double r521 = r484 * r509, r524 = r473 * right_s3 + r487 * right_c3;
-    const double r527 = r474 * right_s3 + r489 * right_c3, r530 = r475 * right_s3 + r491 * right_c3;
-    const double r531 = -0.05 * r519, r534 = -0.05 * r520, r537 = -0.05 * r521;
-    const double r540 = 0.0 - r458 + r458 - r494 + r494 - (r531 + -0.085 * r524);
-    const double r541 = -0.05 - r461 + r461 - r497 + r497 - (r534 + -0.085 * r527);
-    const double r542 = -0.085 - r463 + r463 - r500 + r500 - (r537 + -0.085 * r530), r553 = 0.0 - right_s4;
-    const double r554 = right_c4 + (1.0 - right_c4), r557 = r512 * right_c4 + r524 * r553;
-    const double r560 = r515 * right_c4 + r527 * r553, r563 = r518 * right_c4 + r530 * r553, r564 = r519 * r554;
-    const double r565 = r520 * r554, r566 = r521 * r554, r569 = r512 * right_s4 + r524 * right_c4;
-    const double r572 = r515 * right_s4 + r527 * right_c4, r575 = r518 * right_s4 + r530 * right_c4;
-    const double r576 = -0.05 * r564, r579 = -0.05 * r565, r582 = -0.05 * r566;
-    const double r585 = r540 + (r531 + -0.185 * r524) - (r576 + -0.185 * r569);
-    const double r586 = r541 + (r534 + -0.185 * r527) - (r579 + -0.185 * r572);
-    const double r587 = r542 + (r537 + -0.185 * r530) - (r582 + -0.185 * r575), r598 = 0.0 - right_s5;
-    const double r599 = right_c5 + (1.0 - right_c5), r609 = r564 * r599, r610 = r565 * r599, r611 = r566 * r599;
-    const double r614 = r557 * right_s5 + r569 * right_c5, r617 = r560 * right_s5 + r572 * right_c5;
-    const double r620 = r563 * right_s5 + r575 * right_c5, r623 = -0.05 * r609 + -0.2879 * r614;
-    const double r626 = -0.05 * r610 + -0.2879 * r617, r629 = -0.05 * r611 + -0.2879 * r620;
-    const double r637 = right_c6 + (1.0 - right_c6), r638 = 0.0 - right_s6;
-    const double r644 = r609 * right_c6 + r614 * right_s6, r647 = r610 * right_c6 + r617 * right_s6;
-    const double r650 = r611 * right_c6 + r620 * right_s6, r653 = r609 * r638 + r614 * right_c6;
-    const double r656 = r610 * r638 + r617 * right_c6, r659 = r611 * r638 + r620 * right_c6, r660 = -0.05 * r644;
-    const double r663 = -0.05 * r647, r666 = -0.05 * r650;
-    const double r669 = r585 + (r576 + -0.2879 * r569) - r623 + r623 - (r660 + -0.2879 * r653);
-    const double r670 = r586 + (r579 + -0.2879 * r572) - r626 + r626 - (r663 + -0.2879 * r656);
-    const double r671 = r587 + (r582 + -0.2879 * r575) - r629 + r629 - (r666 + -0.2879 * r659);
-    reached[0] = r216 + (r207 + -0.33309 * r200);
-    reached[1] = r217 + (r210 + -0.33309 * r203);
-    reached[2] = r218 + (r213 + -0.33309 * r206);
-    reached[3] = (r104 * left_c5 + r116 * r145) * r184;
-    reached[4] = (r107 * left_c5 + r119 * r145) * r184;
-    reached[5] = (r110 * left_c5 + r122 * r145) * r184;
-    reached[6] = r191;
-    reached[7] = r194;
-    reached[8] = r197;
-    reached[9] = r200;
-    reached[10] = r203;
-    reached[11] = r206;
-    reached[12] = r669 + (r660 + -0.33309 * r653);
-    reached[13] = r670 + (r663 + -0.33309 * r656);
-    reached[14] = r671 + (r666 + -0.33309 * r659);
-    reached[15] = (r557 * right_c5 + r569 * r598) * r637;
-    reached[16] = (r560 * right_c5 + r572 * r598) * r637;
-    reached[17] = (r563 * right_c5 + r575 * r598) * r637;
-    reached[18] = r644;
-    reached[19] = r647;
-    reached[20] = r650;
-    reached[21] = r653;
-    reached[22] = r656;
-    reached[23] = r659;
+    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
+    const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4, r6 = left_c2 * r4;
+    const double r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = left_c1 * left_s3;
+    const double r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12, r20 = left_c3 * r14;
+    const double r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    const double r25 = r16 - 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    const double r29 = r27 - 0.5 * (left_s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19;
+    const double r36 = r27 - 0.5 * (left_s3 * r14), r39 = r31 + 0.5 * r20, r41 = left_s4 * r22;
+    const double r42 = left_c4 * r25, r43 = left_s4 * r29, r44 = left_c4 * r33, r45 = left_s4 * r36;
+    const double r46 = left_c4 * r39, r47 = left_c4 * r22 - left_s4 * r25, r49 = r41 + r42;
+    const double r51 = left_c4 * r29 - left_s4 * r33, r53 = r43 + r44, r55 = left_c4 * r36 - left_s4 * r39;
+    const double r57 = r45 + r46, r65 = r0 + r1, r67 = left_s5 * r47 + left_c5 * r49, r69 = r3 + r5;
+    const double r71 = left_s5 * r51 + left_c5 * r53, r73 = r6 + r7, r75 = left_s5 * r55 + left_c5 * r57;
+    const double r77 = left_s6 * r65, r78 = left_c6 * r67, r79 = left_s6 * r69, r80 = left_c6 * r71;
+    const double r81 = left_s6 * r73, r82 = left_c6 * r75, r83 = 0.07071067811865475 * r18;
+    const double r89 = r83 + 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
+    const double r99 = r83 + 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
+    const double r108 = 0.1 * r16 - 0.07071067811865475 * r17 + 0.1029 * r41;
+    const double r112 = r108 + 0.1029 * r42 - 0.03195415544182008 * r77;
+    const double r132 = left_s6 * r67 + 0.7071067811865475 * (left_c6 * r65), r147 = left_s1 * right_c2;
+    const double r148 = left_s1 * right_s2, r149 = right_c2 * r2, r150 = right_s2 * r4, r151 = right_c2 * r4;
+    const double r152 = right_s2 * r2, r154 = r147 + r148, r157 = r151 + r152, r159 = r149 + r150;
+    const double r161 = left_c1 * right_s3, r162 = right_c3 * r154, r163 = left_s1 * right_s3;
+    const double r164 = right_c3 * r157, r165 = right_c3 * r159;
+    const double r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
+    const double r170 = r161 + 0.7071067811865475 * r162, r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    const double r174 = r172 + 0.5 * (right_s3 * r157), r176 = 0.7071067811865475 * r163;
+    const double r178 = r176 - 0.5 * r164, r181 = r172 + 0.5 * (right_s3 * r159), r184 = r176 - 0.5 * r165;
+    const double r186 = right_s4 * r167, r187 = right_c4 * r170, r188 = right_s4 * r174, r189 = right_c4 * r178;
+    const double r190 = right_s4 * r181, r191 = right_c4 * r184, r192 = right_c4 * r167 - right_s4 * r170;
+    const double r194 = r186 + r187, r196 = right_c4 * r174 - right_s4 * r178, r198 = r188 + r189;
+    const double r200 = right_c4 * r181 - right_s4 * r184, r202 = r190 + r191, r210 = r147 - r148;
+    const double r212 = right_s5 * r192 + right_c5 * r194, r214 = r149 - r150;
+    const double r216 = right_s5 * r196 + right_c5 * r198, r218 = r151 - r152;
+    const double r220 = right_s5 * r200 + right_c5 * r202, r222 = right_s6 * r210, r223 = right_c6 * r212;
+    const double r224 = right_s6 * r214, r225 = right_c6 * r216, r226 = right_s6 * r218, r227 = right_c6 * r220;
+    const double r228 = 0.07071067811865475 * r163, r234 = r228 - 0.05 * r165 + 0.1029 * r190 + 0.1029 * r191;
+    const double r244 = r228 - 0.05 * r164 + 0.1029 * r188 + 0.1029 * r189;
+    const double r253 = 0.1 * r161 + 0.07071067811865475 * r162 + 0.1029 * r186;
+    const double r257 = r253 + 0.1029 * r187 + 0.03195415544182008 * r222;
+    const double r264 = r244 - 0.022595 * r224 + 0.04519 * r225 + 0.05;
+    const double r267 = r234 - 0.022595 * r226 + 0.04519 * r227 - 0.085;
+    const double r278 = right_s6 * r212 - 0.7071067811865475 * (right_c6 * r210);
+    const double r281 = 0.0 - (right_s6 * r220 + 0.5 * (right_c6 * r218));
+    reached[0] = 0.0 - (r112 + 0.04519 * r78);
+    reached[1] = r99 + 0.022595 * r79 + 0.04519 * r80 + 0.05;
+    reached[2] = r89 + 0.022595 * r81 + 0.04519 * r82 - 0.085;
+    reached[3] = left_c5 * r47 - left_s5 * r49;
+    reached[4] = left_s5 * r53 - left_c5 * r51;
+    reached[5] = left_s5 * r57 - left_c5 * r55;
+    reached[6] = r132;
+    reached[7] = 0.5 * (left_c6 * r69) - left_s6 * r71;
+    reached[8] = 0.5 * (left_c6 * r73) - left_s6 * r75;
+    reached[9] = r78 - 0.7071067811865475 * r77;
+    reached[10] = 0.0 - (r80 + 0.5 * r79);
+    reached[11] = 0.0 - (r82 + 0.5 * r81);
+    reached[12] = 0.0 - (r257 + 0.04519 * r223);
+    reached[13] = 0.0 - r264;
+    reached[14] = r267;
+    reached[15] = right_c5 * r192 - right_s5 * r194;
+    reached[16] = right_c5 * r196 - right_s5 * r198;
+    reached[17] = right_s5 * r202 - right_c5 * r200;
+    reached[18] = r278;
+    reached[19] = right_s6 * r216 + 0.5 * (right_c6 * r214);
+    reached[20] = r281;
+    reached[21] = r223 + 0.7071067811865475 * r222;
+    reached[22] = r225 - 0.5 * r224;
+    reached[23] = 0.5 * r226 - r227;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -524,127 +498,165 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     const double left_c5 = cos(q[4]), left_s5 = sin(q[4]), left_c6 = cos(q[5]), left_s6 = sin(q[5]);
     const double right_c2 = cos(q[6]), right_s2 = sin(q[6]), right_c3 = cos(q[7]), right_s3 = sin(q[7]);
     const double right_c4 = cos(q[8]), right_s4 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
-    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = 0.7071067811865475 * left_s1;
-    const double r1 = 1.0 - left_c1, r2 = 0.0 - r0, r3 = 0.5 * r1, r4 = left_c1 + r3, r5 = -0.5 * r1;
-    const double r7 = -0.085 * r0, r8 = 0.05 * r0 + r7, r11 = 0.05 * r4 + -0.085 * r5, r13 = -0.085 * r4;
-    const double r14 = 0.05 * r5 + r13, r18 = 0.0 - r8 + r8, r19 = 0.05 - r11 + r11, r20 = -0.085 - r14 + r14;
-    const double r22 = left_c2 + (1.0 - left_c2), r23 = 0.0 - left_s2, r24 = left_c1 * r22, r25 = r2 * r22;
-    const double r26 = r0 * left_c2, r28 = r26 + r0 * left_s2, r29 = r4 * left_c2, r31 = r29 + r5 * left_s2;
-    const double r32 = r5 * left_c2, r34 = r32 + r4 * left_s2, r36 = r0 * r23 + r26, r38 = r4 * r23 + r32;
-    const double r40 = r5 * r23 + r29, r43 = 0.05 * r28 + -0.085 * r36, r46 = 0.05 * r31 + -0.085 * r38;
-    const double r49 = 0.05 * r34 + -0.085 * r40, r53 = r18 - r43 + r43, r54 = r19 - r46 + r46;
-    const double r55 = r20 - r49 + r49, r57 = 0.0 - left_s3, r58 = left_c3 + (1.0 - left_c3);
-    const double r61 = r24 * left_c3 + r36 * r57, r62 = r25 * left_c3, r64 = r62 + r38 * r57;
-    const double r66 = r62 + r40 * r57, r67 = r28 * r58, r68 = r31 * r58, r69 = r34 * r58;
-    const double r72 = r24 * left_s3 + r36 * left_c3, r73 = r25 * left_s3, r75 = r73 + r38 * left_c3;
-    const double r77 = r73 + r40 * left_c3, r78 = 0.05 * r67, r81 = 0.05 * r68, r84 = 0.05 * r69;
-    const double r96 = r53 - (r78 + -0.085 * r72) + (r78 + -0.185 * r72);
-    const double r97 = r54 - (r81 + -0.085 * r75) + (r81 + -0.185 * r75);
-    const double r98 = r55 - (r84 + -0.085 * r77) + (r84 + -0.185 * r77), r100 = 0.0 - left_s4;
-    const double r101 = left_c4 + (1.0 - left_c4), r104 = r61 * left_c4 + r72 * r100;
-    const double r107 = r64 * left_c4 + r75 * r100, r110 = r66 * left_c4 + r77 * r100, r111 = r67 * r101;
-    const double r112 = r68 * r101, r113 = r69 * r101, r116 = r61 * left_s4 + r72 * left_c4;
-    const double r119 = r64 * left_s4 + r75 * left_c4, r122 = r66 * left_s4 + r77 * left_c4, r123 = 0.05 * r111;
-    const double r126 = 0.05 * r112, r129 = 0.05 * r113;
-    const double r141 = r96 - (r123 + -0.185 * r116) + (r123 + -0.2879 * r116);
-    const double r142 = r97 - (r126 + -0.185 * r119) + (r126 + -0.2879 * r119);
-    const double r143 = r98 - (r129 + -0.185 * r122) + (r129 + -0.2879 * r122), r145 = 0.0 - left_s5;
-    const double r146 = left_c5 + (1.0 - left_c5), r149 = r104 * left_c5 + r116 * r145;
-    const double r152 = r107 * left_c5 + r119 * r145, r155 = r110 * left_c5 + r122 * r145, r156 = r111 * r146;
-    const double r157 = r112 * r146, r158 = r113 * r146, r161 = r104 * left_s5 + r116 * left_c5;
-    const double r164 = r107 * left_s5 + r119 * left_c5, r167 = r110 * left_s5 + r122 * left_c5;
-    const double r170 = 0.05 * r156 + -0.2879 * r161, r173 = 0.05 * r157 + -0.2879 * r164;
-    const double r176 = 0.05 * r158 + -0.2879 * r167, r180 = r141 - r170 + r170, r181 = r142 - r173 + r173;
-    const double r182 = r143 - r176 + r176, r184 = left_c6 + (1.0 - left_c6), r185 = 0.0 - left_s6;
-    const double r186 = r149 * r184, r187 = r152 * r184, r188 = r155 * r184;
-    const double r191 = r156 * left_c6 + r161 * left_s6, r194 = r157 * left_c6 + r164 * left_s6;
-    const double r197 = r158 * left_c6 + r167 * left_s6, r200 = r156 * r185 + r161 * left_c6;
-    const double r203 = r157 * r185 + r164 * left_c6, r206 = r158 * r185 + r167 * left_c6, r207 = 0.05 * r191;
-    const double r210 = 0.05 * r194, r213 = 0.05 * r197;
-    const double r225 = r180 - (r207 + -0.2879 * r200) + (r207 + -0.33309 * r200);
-    const double r226 = r181 - (r210 + -0.2879 * r203) + (r210 + -0.33309 * r203);
-    const double r227 = r182 - (r213 + -0.2879 * r206) + (r213 + -0.33309 * r206);
-    const double r232 = 0.7071067811865475 * (r227 + 0.085) - -0.7071067811865475 * (r226 - 0.05);
-    const double r237 = r226 - r19, r238 = r227 - r20, r242 = r2 * (r225 - r18), r247 = r225 - r53;
-    const double r248 = r226 - r54, r249 = r227 - r55, r259 = r225 - r96, r260 = r226 - r97, r261 = r227 - r98;
-    const double r271 = r225 - r141, r272 = r226 - r142, r273 = r227 - r143, r283 = r225 - r180;
-    const double r284 = r226 - r181, r285 = r227 - r182;
-    const double r300 = 0.7071067811865475 * r188 - -0.7071067811865475 * r187, r307 = r2 * r186;
-    const double r353 = 0.7071067811865475 * r197 - -0.7071067811865475 * r194, r360 = r2 * r191;
-    const double r406 = 0.7071067811865475 * r206 - -0.7071067811865475 * r203, r413 = r2 * r200;
-    const double r458 = -0.05 * r2 + r7, r461 = -0.05 * r4 + -0.085 * r3, r463 = -0.05 * r3 + r13;
-    const double r467 = 0.0 - r458 + r458, r468 = -0.05 - r461 + r461, r469 = -0.085 - r463 + r463;
-    const double r471 = right_c2 + (1.0 - right_c2), r472 = 0.0 - right_s2, r473 = left_c1 * r471;
-    const double r474 = r0 * r471, r475 = r2 * r471, r478 = r2 * right_c2 + r0 * right_s2, r479 = r4 * right_c2;
-    const double r481 = r479 + r3 * right_s2, r482 = r3 * right_c2, r484 = r482 + r4 * right_s2;
-    const double r487 = r2 * r472 + r0 * right_c2, r489 = r4 * r472 + r482, r491 = r3 * r472 + r479;
-    const double r494 = -0.05 * r478 + -0.085 * r487, r497 = -0.05 * r481 + -0.085 * r489;
-    const double r500 = -0.05 * r484 + -0.085 * r491, r504 = r467 - r494 + r494, r505 = r468 - r497 + r497;
-    const double r506 = r469 - r500 + r500, r508 = 0.0 - right_s3, r509 = right_c3 + (1.0 - right_c3);
-    const double r512 = r473 * right_c3 + r487 * r508, r515 = r474 * right_c3 + r489 * r508;
-    const double r518 = r475 * right_c3 + r491 * r508, r519 = r478 * r509, r520 = r481 * r509;
-    const double r521 = r484 * r509, r524 = r473 * right_s3 + r487 * right_c3;
-    const double r527 = r474 * right_s3 + r489 * right_c3, r530 = r475 * right_s3 + r491 * right_c3;
-    const double r531 = -0.05 * r519, r534 = -0.05 * r520, r537 = -0.05 * r521;
-    const double r549 = r504 - (r531 + -0.085 * r524) + (r531 + -0.185 * r524);
-    const double r550 = r505 - (r534 + -0.085 * r527) + (r534 + -0.185 * r527);
-    const double r551 = r506 - (r537 + -0.085 * r530) + (r537 + -0.185 * r530), r553 = 0.0 - right_s4;
-    const double r554 = right_c4 + (1.0 - right_c4), r557 = r512 * right_c4 + r524 * r553;
-    const double r560 = r515 * right_c4 + r527 * r553, r563 = r518 * right_c4 + r530 * r553, r564 = r519 * r554;
-    const double r565 = r520 * r554, r566 = r521 * r554, r569 = r512 * right_s4 + r524 * right_c4;
-    const double r572 = r515 * right_s4 + r527 * right_c4, r575 = r518 * right_s4 + r530 * right_c4;
-    const double r576 = -0.05 * r564, r579 = -0.05 * r565, r582 = -0.05 * r566;
-    const double r594 = r549 - (r576 + -0.185 * r569) + (r576 + -0.2879 * r569);
-    const double r595 = r550 - (r579 + -0.185 * r572) + (r579 + -0.2879 * r572);
-    const double r596 = r551 - (r582 + -0.185 * r575) + (r582 + -0.2879 * r575), r598 = 0.0 - right_s5;
-    const double r599 = right_c5 + (1.0 - right_c5), r602 = r557 * right_c5 + r569 * r598;
-    const double r605 = r560 * right_c5 + r572 * r598, r608 = r563 * right_c5 + r575 * r598, r609 = r564 * r599;
-    const double r610 = r565 * r599, r611 = r566 * r599, r614 = r557 * right_s5 + r569 * right_c5;
-    const double r617 = r560 * right_s5 + r572 * right_c5, r620 = r563 * right_s5 + r575 * right_c5;
-    const double r623 = -0.05 * r609 + -0.2879 * r614, r626 = -0.05 * r610 + -0.2879 * r617;
-    const double r629 = -0.05 * r611 + -0.2879 * r620, r633 = r594 - r623 + r623, r634 = r595 - r626 + r626;
-    const double r635 = r596 - r629 + r629, r637 = right_c6 + (1.0 - right_c6), r638 = 0.0 - right_s6;
-    const double r639 = r602 * r637, r640 = r605 * r637, r641 = r608 * r637;
-    const double r644 = r609 * right_c6 + r614 * right_s6, r647 = r610 * right_c6 + r617 * right_s6;
-    const double r650 = r611 * right_c6 + r620 * right_s6, r653 = r609 * r638 + r614 * right_c6;
-    const double r656 = r610 * r638 + r617 * right_c6, r659 = r611 * r638 + r620 * right_c6, r660 = -0.05 * r644;
-    const double r663 = -0.05 * r647, r666 = -0.05 * r650;
-    const double r678 = r633 - (r660 + -0.2879 * r653) + (r660 + -0.33309 * r653);
-    const double r679 = r634 - (r663 + -0.2879 * r656) + (r663 + -0.33309 * r656);
-    const double r680 = r635 - (r666 + -0.2879 * r659) + (r666 + -0.33309 * r659);
-    const double r685 = 0.7071067811865475 * (r680 + 0.085) - 0.7071067811865475 * (r679 + 0.05);
-    const double r686 = 0.7071067811865475 * r678, r688 = r678 - r467, r689 = r679 - r468, r690 = r680 - r469;
-    const double r700 = r678 - r504, r701 = r679 - r505, r702 = r680 - r506, r712 = r678 - r549;
-    const double r713 = r679 - r550, r714 = r680 - r551, r724 = r678 - r594, r725 = r679 - r595;
-    const double r726 = r680 - r596, r736 = r678 - r633, r737 = r679 - r634, r738 = r680 - r635;
-    const double r753 = 0.7071067811865475 * r641 - 0.7071067811865475 * r640, r754 = 0.7071067811865475 * r639;
-    const double r806 = 0.7071067811865475 * r650 - 0.7071067811865475 * r647, r807 = 0.7071067811865475 * r644;
-    const double r859 = 0.7071067811865475 * r659 - 0.7071067811865475 * r656, r860 = 0.7071067811865475 * r653;
+    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
+    const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4, r6 = left_c2 * r4;
+    const double r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = left_c1 * left_s3;
+    const double r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12, r20 = left_c3 * r14;
+    const double r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    const double r25 = r16 - 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    const double r29 = r27 - 0.5 * (left_s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19;
+    const double r36 = r27 - 0.5 * (left_s3 * r14), r39 = r31 + 0.5 * r20, r41 = left_s4 * r22;
+    const double r42 = left_c4 * r25, r43 = left_s4 * r29, r44 = left_c4 * r33, r45 = left_s4 * r36;
+    const double r46 = left_c4 * r39, r47 = left_c4 * r22 - left_s4 * r25, r49 = r41 + r42;
+    const double r51 = left_c4 * r29 - left_s4 * r33, r52 = left_c5 * r51, r53 = r43 + r44, r54 = left_s5 * r53;
+    const double r55 = left_c4 * r36 - left_s4 * r39, r57 = r45 + r46, r65 = r0 + r1, r66 = left_c6 * r65;
+    const double r67 = left_s5 * r47 + left_c5 * r49, r68 = left_s6 * r67, r69 = r3 + r5, r70 = left_c6 * r69;
+    const double r71 = left_s5 * r51 + left_c5 * r53, r72 = left_s6 * r71, r73 = r6 + r7, r74 = left_c6 * r73;
+    const double r75 = left_s5 * r55 + left_c5 * r57, r76 = left_s6 * r75, r77 = left_s6 * r65;
+    const double r78 = left_c6 * r67, r79 = left_s6 * r69, r80 = left_c6 * r71, r81 = left_s6 * r73;
+    const double r82 = left_c6 * r75, r83 = 0.07071067811865475 * r18, r86 = 0.1029 * r45, r88 = 0.1029 * r46;
+    const double r90 = 0.022595 * r81, r92 = 0.04519 * r82, r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92;
+    const double r96 = 0.1029 * r43, r98 = 0.1029 * r44, r100 = 0.022595 * r79, r102 = 0.04519 * r80;
+    const double r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102, r107 = 0.1029 * r41, r109 = 0.1029 * r42;
+    const double r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109, r111 = 0.03195415544182008 * r77;
+    const double r113 = 0.04519 * r78, r114 = r110 - r111 + r113, r115 = left_c5 * r47 - left_s5 * r49;
+    const double r128 = 0.5 * r74 - r76, r130 = 0.5 * r70 - r72, r132 = r68 + 0.7071067811865475 * r66;
+    const double r137 = r82 + 0.5 * r81, r139 = r80 + 0.5 * r79, r147 = left_s1 * right_c2;
+    const double r148 = left_s1 * right_s2, r149 = right_c2 * r2, r150 = right_s2 * r4, r151 = right_c2 * r4;
+    const double r152 = right_s2 * r2, r154 = r147 + r148, r157 = r151 + r152, r159 = r149 + r150;
+    const double r161 = left_c1 * right_s3, r162 = right_c3 * r154, r163 = left_s1 * right_s3;
+    const double r164 = right_c3 * r157, r165 = right_c3 * r159;
+    const double r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
+    const double r170 = r161 + 0.7071067811865475 * r162, r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    const double r174 = r172 + 0.5 * (right_s3 * r157), r176 = 0.7071067811865475 * r163;
+    const double r178 = r176 - 0.5 * r164, r181 = r172 + 0.5 * (right_s3 * r159), r184 = r176 - 0.5 * r165;
+    const double r186 = right_s4 * r167, r187 = right_c4 * r170, r188 = right_s4 * r174, r189 = right_c4 * r178;
+    const double r190 = right_s4 * r181, r191 = right_c4 * r184, r192 = right_c4 * r167 - right_s4 * r170;
+    const double r194 = r186 + r187, r196 = right_c4 * r174 - right_s4 * r178, r197 = right_c5 * r196;
+    const double r198 = r188 + r189, r199 = right_s5 * r198, r200 = right_c4 * r181 - right_s4 * r184;
+    const double r202 = r190 + r191, r210 = r147 - r148, r211 = right_c6 * r210;
+    const double r212 = right_s5 * r192 + right_c5 * r194, r213 = right_s6 * r212, r214 = r149 - r150;
+    const double r215 = right_c6 * r214, r216 = right_s5 * r196 + right_c5 * r198, r217 = right_s6 * r216;
+    const double r218 = r151 - r152, r219 = right_c6 * r218, r220 = right_s5 * r200 + right_c5 * r202;
+    const double r221 = right_s6 * r220, r222 = right_s6 * r210, r223 = right_c6 * r212, r224 = right_s6 * r214;
+    const double r225 = right_c6 * r216, r226 = right_s6 * r218, r227 = right_c6 * r220;
+    const double r228 = 0.07071067811865475 * r163, r231 = 0.1029 * r190, r233 = 0.1029 * r191;
+    const double r235 = 0.022595 * r226, r237 = 0.04519 * r227;
+    const double r238 = r228 - 0.05 * r165 + r231 + r233 - r235 + r237, r241 = 0.1029 * r188;
+    const double r243 = 0.1029 * r189, r245 = 0.022595 * r224, r247 = 0.04519 * r225;
+    const double r248 = r228 - 0.05 * r164 + r241 + r243 - r245 + r247, r252 = 0.1029 * r186;
+    const double r253 = 0.1 * r161 + 0.07071067811865475 * r162 + r252, r254 = 0.1029 * r187;
+    const double r256 = 0.03195415544182008 * r222, r258 = 0.04519 * r223, r259 = r253 + r254 + r256 + r258;
+    const double r260 = r197 - r199, r261 = right_c5 * r192 - right_s5 * r194, r274 = r221 + 0.5 * r219;
+    const double r276 = r217 + 0.5 * r215, r284 = 0.5 * r226 - r227, r287 = r223 + 0.7071067811865475 * r222;
+    const double r307 = r92 + (r90 + (r86 + r88)), r311 = r102 + (r100 + (r96 + r98));
+    const double r315 = r113 + (r107 + r109 - r111), r320 = r90 + r92, r322 = r100 + r102, r324 = r111 - r113;
+    const double r329 = r52 - r54, r331 = left_c5 * r55 - left_s5 * r57;
+    const double r339 = 0.09999999999999998 * r18 + 0.035355339059327376 * r20;
+    const double r343 = r339 + 0.07276128778409574 * r45 + 0.07276128778409574 * r46;
+    const double r347 = r343 + 0.01597707772091004 * r81 + 0.03195415544182008 * r82;
+    const double r351 = r347 + 0.035355339059327376 * r19 + 0.07276128778409574 * r43;
+    const double r355 = r351 + 0.07276128778409574 * r44 + 0.01597707772091004 * r79;
+    const double r359 = 0.7071067811865475 * (left_s1 * r93 - left_s1 * r103);
+    const double r370 = 0.07071067811865475 * r16 - 0.04999999999999999 * r17;
+    const double r374 = r370 + 0.07276128778409574 * r41 + 0.07276128778409574 * r42;
+    const double r378 = r374 - 0.022594999999999997 * r77 + 0.03195415544182008 * r78;
+    const double r379 = 0.7071067811865475 * (left_s1 * r114);
+    const double r383 = 0.5 * (r73 * r114) + 0.7071067811865475 * (r65 * r93);
+    const double r387 = 0.5 * (r73 * r315) + 0.7071067811865475 * (r65 * r307);
+    const double r391 = 0.5 * (r73 * r324) - 0.7071067811865475 * (r65 * r320);
+    const double r397 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
+    const double r400 = 0.7071067811865475 * (r65 * r311) + 0.5 * (r69 * r315);
+    const double r403 = 0.7071067811865475 * (r65 * r322) - 0.5 * (r69 * r324);
+    const double r419 = 0.0 - 0.7071067811865475 * (r52 + r331 - r54);
+    const double r421 = 0.7071067811865475 * (left_s1 * r331 - left_s1 * r329);
+    const double r424 = 0.0 - 0.5 * (r69 * r331 - r73 * r329), r426 = 0.0 - 0.7071067811865475 * r115;
+    const double r427 = 0.7071067811865475 * (left_s1 * r115);
+    const double r431 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r331);
+    const double r435 = 0.7071067811865475 * (r65 * r329) + 0.5 * (r69 * r115), r436 = 0.0 - r435;
+    const double r456 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
+    const double r460 = r456 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
+    const double r462 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
+    const double r465 = 0.5 * (r69 * r128 - r73 * r130);
+    const double r469 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68, r470 = 0.0 - r469;
+    const double r471 = 0.7071067811865475 * (left_s1 * r132);
+    const double r476 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
+    const double r482 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
+    const double r486 = 0.7071067811865475 * r77 - r78;
+    const double r504 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
+    const double r508 = r504 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
+    const double r511 = 0.7071067811865475 * (left_s1 * r137 - left_s1 * r139);
+    const double r514 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
+    const double r518 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
+    const double r519 = 0.7071067811865475 * (left_s1 * r486);
+    const double r523 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r486);
+    const double r529 = 0.5 * (r69 * r486) - 0.7071067811865475 * (r65 * r139);
+    const double r546 = r237 + (r231 + r233 - r235), r550 = r247 + (r241 + r243 - r245);
+    const double r554 = r258 + (r256 + (r252 + r254)), r559 = r235 - r237, r561 = r245 - r247;
+    const double r563 = r256 + r258, r569 = right_c5 * r200 - right_s5 * r202;
+    const double r577 = 0.09999999999999998 * r163 - 0.035355339059327376 * r165;
+    const double r581 = r577 + 0.07276128778409574 * r190 + 0.07276128778409574 * r191;
+    const double r585 = r581 - 0.01597707772091004 * r226 + 0.03195415544182008 * r227;
+    const double r589 = r585 - 0.035355339059327376 * r164 + 0.07276128778409574 * r188;
+    const double r593 = r589 + 0.07276128778409574 * r189 - 0.01597707772091004 * r224;
+    const double r597 = 0.7071067811865475 * (left_s1 * r238 - left_s1 * r248);
+    const double r608 = 0.07071067811865475 * r161 + 0.04999999999999999 * r162;
+    const double r612 = r608 + 0.07276128778409574 * r186 + 0.07276128778409574 * r187;
+    const double r616 = r612 + 0.022594999999999997 * r222 + 0.03195415544182008 * r223;
+    const double r618 = 0.7071067811865475 * (left_s1 * r259);
+    const double r622 = 0.5 * (r218 * r259) + 0.7071067811865475 * (r210 * r238);
+    const double r625 = 0.5 * (r218 * r554) + 0.7071067811865475 * (r210 * r546);
+    const double r628 = 0.5 * (r218 * r563) - 0.7071067811865475 * (r210 * r559);
+    const double r633 = 0.7071067811865475 * (r210 * r248) + 0.5 * (r214 * r259);
+    const double r636 = 0.7071067811865475 * (r210 * r550) + 0.5 * (r214 * r554);
+    const double r639 = 0.5 * (r214 * r563) - 0.7071067811865475 * (r210 * r561);
+    const double r655 = 0.0 - 0.7071067811865475 * (r197 + r569 - r199);
+    const double r657 = 0.7071067811865475 * (left_s1 * r569 - left_s1 * r260);
+    const double r661 = 0.0 - 0.5 * (r214 * r569 - r218 * r260), r662 = 0.7071067811865475 * r261;
+    const double r663 = 0.7071067811865475 * (left_s1 * r261);
+    const double r667 = 0.5 * (r218 * r261) + 0.7071067811865475 * (r210 * r569), r668 = 0.0 - r667;
+    const double r673 = 0.7071067811865475 * (r210 * r260) + 0.5 * (r214 * r261), r674 = 0.0 - r673;
+    const double r677 = 0.7071067811865475 * r211 - r213;
+    const double r695 = 0.35355339059327373 * r219 + 0.7071067811865475 * r221;
+    const double r699 = r695 + 0.35355339059327373 * r215 + 0.7071067811865475 * r217;
+    const double r702 = 0.7071067811865475 * (left_s1 * r274 - left_s1 * r276);
+    const double r706 = 0.0 - 0.5 * (r214 * r274 - r218 * r276), r708 = 0.4999999999999999 * r211;
+    const double r709 = 0.7071067811865475 * r213, r712 = 0.7071067811865475 * (left_s1 * r677);
+    const double r716 = 0.5 * (r218 * r677) - 0.7071067811865475 * (r210 * r274);
+    const double r721 = 0.5 * (r214 * r677) - 0.7071067811865475 * (r210 * r276), r724 = 0.5 * r224 - r225;
+    const double r743 = 0.35355339059327373 * r226 - 0.7071067811865475 * r227;
+    const double r747 = r743 + 0.35355339059327373 * r224 - 0.7071067811865475 * r225;
+    const double r749 = 0.7071067811865475 * (left_s1 * r284 - left_s1 * r724);
+    const double r751 = 0.5 * (r214 * r284 - r218 * r724);
+    const double r755 = 0.4999999999999999 * r222 + 0.7071067811865475 * r223;
+    const double r756 = 0.7071067811865475 * (left_s1 * r287);
+    const double r761 = 0.7071067811865475 * (r210 * r284) - 0.5 * (r218 * r287);
+    const double r769 = 0.7071067811865475 * (r210 * r724) - 0.5 * (r214 * r287);
     const Jacobian result = { {
-        {r232, r2 * r238 - r2 * r237, r31 * r249 - r34 * r248, r68 * r261 - r69 * r260, r112 * r273 - r113 * r272, r152 * r285 - r155 * r284, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {-0.7071067811865475 * r225, r242 - left_c1 * r238, r34 * r247 - r28 * r249, r69 * r259 - r67 * r261, r113 * r271 - r111 * r273, r155 * r283 - r149 * r285, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - 0.7071067811865475 * r225, left_c1 * r237 - r242, r28 * r248 - r31 * r247, r67 * r260 - r68 * r259, r111 * r272 - r112 * r271, r149 * r284 - r152 * r283, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r300, r2 * r188 - r2 * r187, r31 * r188 - r34 * r187, r68 * r188 - r69 * r187, r112 * r188 - r113 * r187, r152 * r188 - r155 * r187, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {-0.7071067811865475 * r186, r307 - left_c1 * r188, r34 * r186 - r28 * r188, r69 * r186 - r67 * r188, r113 * r186 - r111 * r188, r155 * r186 - r149 * r188, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - 0.7071067811865475 * r186, left_c1 * r187 - r307, r28 * r187 - r31 * r186, r67 * r187 - r68 * r186, r111 * r187 - r112 * r186, r149 * r187 - r152 * r186, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r353, r2 * r197 - r2 * r194, r31 * r197 - r34 * r194, r68 * r197 - r69 * r194, r112 * r197 - r113 * r194, r152 * r197 - r155 * r194, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {-0.7071067811865475 * r191, r360 - left_c1 * r197, r34 * r191 - r28 * r197, r69 * r191 - r67 * r197, r113 * r191 - r111 * r197, r155 * r191 - r149 * r197, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - 0.7071067811865475 * r191, left_c1 * r194 - r360, r28 * r194 - r31 * r191, r67 * r194 - r68 * r191, r111 * r194 - r112 * r191, r149 * r194 - r152 * r191, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r406, r2 * r206 - r2 * r203, r31 * r206 - r34 * r203, r68 * r206 - r69 * r203, r112 * r206 - r113 * r203, r152 * r206 - r155 * r203, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {-0.7071067811865475 * r200, r413 - left_c1 * r206, r34 * r200 - r28 * r206, r69 * r200 - r67 * r206, r113 * r200 - r111 * r206, r155 * r200 - r149 * r206, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - 0.7071067811865475 * r200, left_c1 * r203 - r413, r28 * r203 - r31 * r200, r67 * r203 - r68 * r200, r111 * r203 - r112 * r200, r149 * r203 - r152 * r200, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r685, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r690 - r2 * r689, r481 * r702 - r484 * r701, r520 * r714 - r521 * r713, r565 * r726 - r566 * r725, r605 * r738 - r608 * r737},
-        {r686, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r688 - left_c1 * r690, r484 * r700 - r478 * r702, r521 * r712 - r519 * r714, r566 * r724 - r564 * r726, r608 * r736 - r602 * r738},
-        {0.0 - r686, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r689 - r0 * r688, r478 * r701 - r481 * r700, r519 * r713 - r520 * r712, r564 * r725 - r565 * r724, r602 * r737 - r605 * r736},
-        {r753, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r641 - r2 * r640, r481 * r641 - r484 * r640, r520 * r641 - r521 * r640, r565 * r641 - r566 * r640, r605 * r641 - r608 * r640},
-        {r754, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r639 - left_c1 * r641, r484 * r639 - r478 * r641, r521 * r639 - r519 * r641, r566 * r639 - r564 * r641, r608 * r639 - r602 * r641},
-        {0.0 - r754, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r640 - r0 * r639, r478 * r640 - r481 * r639, r519 * r640 - r520 * r639, r564 * r640 - r565 * r639, r602 * r640 - r605 * r639},
-        {r806, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r650 - r2 * r647, r481 * r650 - r484 * r647, r520 * r650 - r521 * r647, r565 * r650 - r566 * r647, r605 * r650 - r608 * r647},
-        {r807, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r644 - left_c1 * r650, r484 * r644 - r478 * r650, r521 * r644 - r519 * r650, r566 * r644 - r564 * r650, r608 * r644 - r602 * r650},
-        {0.0 - r807, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r647 - r0 * r644, r478 * r647 - r481 * r644, r519 * r647 - r520 * r644, r564 * r647 - r565 * r644, r602 * r647 - r605 * r644},
-        {r859, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r659 - r2 * r656, r481 * r659 - r484 * r656, r520 * r659 - r521 * r656, r565 * r659 - r566 * r656, r605 * r659 - r608 * r656},
-        {r860, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r653 - left_c1 * r659, r484 * r653 - r478 * r659, r521 * r653 - r519 * r659, r566 * r653 - r564 * r659, r608 * r653 - r602 * r659},
-        {0.0 - r860, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r656 - r0 * r653, r478 * r656 - r481 * r653, r519 * r656 - r520 * r653, r564 * r656 - r565 * r653, r602 * r656 - r605 * r653},
+        {r355 + 0.03195415544182008 * r80, 0.0 - r359, 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r307 - r73 * r311), 0.5 * (r69 * r320 - r73 * r322), r322 * r331 - r320 * r329, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r378, r379 - left_c1 * r93, 0.0 - r383, 0.0 - r387, r391, 0.0 - (r324 * r331 + r320 * r115), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r378, left_c1 * r103 - r379, r397, r400, r403, r322 * r115 + r324 * r329, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r419, r421, r424, r424, r424, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r426, left_c1 * r331 - r427, r431, r431, r431, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r426, r427 - left_c1 * r329, r436, r436, r436, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r460, 0.0 - r462, r465, r465, r465, r331 * r130 - r329 * r128, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r470, 0.0 - (left_c1 * r128 + r471), r476, r476, r476, 0.0 - (r331 * r132 + r115 * r128), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r470, left_c1 * r130 + r471, r482, r482, r482, r115 * r130 + r329 * r132, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0 - r508, r511, r514, r514, r514, r329 * r137 - r331 * r139, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r518, left_c1 * r137 + r519, r523, r523, r523, r331 * r486 + r115 * r137, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r518, 0.0 - (left_c1 * r139 + r519), r529, r529, r529, 0.0 - (r115 * r139 + r329 * r486), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r593 + 0.03195415544182008 * r225, 0.0, 0.0, 0.0, 0.0, 0.0, r597, 0.5 * (r214 * r238 - r218 * r248), 0.5 * (r214 * r546 - r218 * r550), 0.0 - 0.5 * (r214 * r559 - r218 * r561), r561 * r569 - r559 * r260},
+        {0.0 - r616, 0.0, 0.0, 0.0, 0.0, 0.0, r618 - left_c1 * r238, r622, r625, r628, r563 * r569 + r559 * r261},
+        {r616, 0.0, 0.0, 0.0, 0.0, 0.0, r618 - left_c1 * r248, r633, r636, r639, r561 * r261 + r563 * r260},
+        {r655, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - r657, r661, r661, r661, 0.0},
+        {r662, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r569 - r663, r668, r668, r668, 0.0},
+        {0.0 - r662, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r260 - r663, r674, r674, r674, 0.0},
+        {0.0 - r699, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - r702, r706, r706, r706, r569 * r276 - r260 * r274},
+        {r709 - r708, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r274 + r712, r716, r716, r716, r569 * r677 + r261 * r274},
+        {r708 - r709, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r276 + r712, r721, r721, r721, r261 * r276 + r260 * r677},
+        {r747, 0.0, 0.0, 0.0, 0.0, 0.0, r749, r751, r751, r751, r260 * r284 - r569 * r724},
+        {r755, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r284 + r756), r761, r761, r761, 0.0 - (r569 * r287 + r261 * r284)},
+        {0.0 - r755, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r724 + r756), r769, r769, r769, 0.0 - (r261 * r724 + r260 * r287)},
     } };
     return result;
 }
@@ -1367,18 +1379,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 11 share. */
 typedef struct {
-    double r113;
-    double r114;
+    double r59;
+    double r62;
 } Shared11;
 
 /* Chart 1 of block 11: generic.
  */
 static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r135 = (0.0 - 0.1 * shared->r113) / 0.010000000000000002;
-    const double r139 = (0.0 - (-0.0 - 0.1 * shared->r114)) / 0.010000000000000002;
-    const double r143 = sqrt(fmax(r139 * r139 + r135 * r135, 0.0)), right_c3 = r139 / r143;
-    const double right_s3 = r135 / r143;
+    const double r64 = 0.1 * shared->r59 / 0.010000000000000002, r66 = 0.1 * shared->r62 / 0.010000000000000002;
+    const double r70 = sqrt(fmax(r66 * r66 + r64 * r64, 0.0)), right_c3 = r66 / r70, right_s3 = 0.0 - r64 / r70;
     const double q[JOINTS] = {
         angle(known->left_c1, known->left_s1),
         angle(known->left_c2, known->left_s2),
@@ -1398,41 +1408,40 @@ static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *
 /* Block 11: HipPitch. */
 static void block_11(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s1, r1 = -0.1029 * known->right_s5;
-    const double r4 = 0.1029 * known->right_c5 - 0.2879 + 0.2879, r11 = r1 + (r1 - r1) * known->right_c6;
-    const double r14 = (0.0 - (0.0 - r4)) * known->right_s6 - 0.05 + 0.05;
-    const double r15 = r4 * known->right_c6 - 0.2879 + 0.33309;
-    const double r20 = r11 * p->right_r11 + r14 * p->right_r12 + r15 * p->right_r13;
-    const double r25 = r11 * p->right_r21 + r14 * p->right_r22 + r15 * p->right_r23;
-    const double r30 = r11 * p->right_r31 + r14 * p->right_r32 + r15 * p->right_r33;
-    const double r41 = p->right_pz + r30 + 0.085 - (p->right_py + r25 + 0.05);
-    const double r47 = (p->right_px + r20) * known->left_c1 + (0.0 - r41) * r0, r59 = 0.0 - known->right_c4;
-    const double r60 = 0.0 - known->right_s4, r66 = r59 * known->right_c5 + (0.0 - r60) * known->right_s5;
-    const double r69 = r60 * known->right_c5 + (0.0 - (0.0 - r59)) * known->right_s5;
-    const double r74 = (0.0 - (0.0 - r69)) * known->right_s6, r75 = r69 * known->right_c6;
-    const double r76 = r66 + (r66 - r66) * known->right_c6;
-    const double r81 = r76 * p->right_r11 + r74 * p->right_r12 + r75 * p->right_r13;
-    const double r86 = r76 * p->right_r21 + r74 * p->right_r22 + r75 * p->right_r23;
-    const double r91 = r76 * p->right_r31 + r74 * p->right_r32 + r75 * p->right_r33;
-    const double r103 = r81 * known->left_c1 + (0.0 - (r91 - r86)) * r0, r113 = 0.0 - (0.0 - r47);
-    const double r114 = 0.1 * (0.0 - r103);
-    const Shared11 own = { r113, r114 };
+    const double r0 = known->right_c5 * known->right_s6;
+    const double r5 = 0.1029 * (known->right_c5 * known->right_c6) + 0.04519;
+    const double r14 = p->right_px - 0.1029 * (p->right_r11 * known->right_s5);
+    const double r17 = p->right_r13 * r5 + (r14 + 0.1029 * (p->right_r12 * r0));
+    const double r20 = p->right_pz - 0.1029 * (p->right_r31 * known->right_s5);
+    const double r23 = p->right_r33 * r5 + (r20 + 0.1029 * (p->right_r32 * r0));
+    const double r26 = r23 - p->right_py + 0.1029 * (p->right_r21 * known->right_s5);
+    const double r29 = r26 - 0.1029 * (p->right_r22 * r0) - p->right_r23 * r5;
+    const double r36 = known->right_s4 * known->right_c5 + known->right_c4 * known->right_s5;
+    const double r37 = known->right_s6 * r36, r38 = known->right_c6 * r36;
+    const double r39 = known->right_c4 * known->right_c5 - known->right_s4 * known->right_s5;
+    const double r50 = p->right_r13 * r38 + (p->right_r11 * r39 + p->right_r12 * r37);
+    const double r53 = p->right_r33 * r38 + (p->right_r31 * r39 + p->right_r32 * r37);
+    const double r55 = r53 - p->right_r21 * r39 - p->right_r22 * r37;
+    const double r58 = 0.7071067811865475 * (known->left_s1 * (r29 + 0.035)), r59 = known->left_c1 * r17 - r58;
+    const double r61 = 0.07071067811865475 * (known->left_s1 * (r55 - p->right_r23 * r38));
+    const double r62 = 0.1 * (known->left_c1 * r50) - r61;
+    const Shared11 own = { r59, r62 };
     const Shared11 *const shared = &own;
     chart_11_1(p, known, shared, answers);
 }
 
 /* What the charts of block 10 share. */
 typedef struct {
-    double r34;
-    double r35;
+    double r26;
+    double r29;
 } Shared10;
 
 /* Chart 1 of block 10: generic.
  */
 static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
-    const double r37 = 0.0 - (0.0 - shared->r34), r40 = 0.0 - (-0.0 - (0.0 - shared->r35));
-    const double r44 = sqrt(fmax(r40 * r40 + r37 * r37, 0.0)), right_c2 = r40 / r44, right_s2 = r37 / r44;
+    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r33 = sqrt(fmax(r32, 0.0));
+    const double right_c2 = shared->r29 / r33, right_s2 = shared->r26 / r33;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1444,27 +1453,28 @@ static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *
 /* Block 10: HipRoll. */
 static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s1, r1 = 0.0 - known->right_s6;
-    const double r4 = known->right_c6 * p->right_r12 + r1 * p->right_r13;
-    const double r7 = known->right_c6 * p->right_r22 + r1 * p->right_r23;
-    const double r10 = known->right_c6 * p->right_r32 + r1 * p->right_r33, r13 = 0.5 * r7 + 0.5 * r10;
-    const double r17 = 0.0 - r4, r28 = (r10 - r13) * known->left_c1 + (0.0 - r17) * r0;
-    const double r29 = r13 + ((r7 - r13) * known->left_c1 + r17 * r0), r34 = 0.0 - (0.0 - (r13 + r28));
-    const double r35 = 0.0 - (0.0 - (0.0 - r29));
-    const Shared10 own = { r34, r35 };
+    const double r2 = p->right_r22 * known->right_c6, r3 = p->right_r23 * known->right_s6;
+    const double r4 = p->right_r32 * known->right_c6, r5 = p->right_r33 * known->right_s6;
+    const double r6 = p->right_r12 * known->right_c6 - p->right_r13 * known->right_s6;
+    const double r22 = 0.5 * r2 - 0.5 * r3 + 0.5 * r4 - 0.5 * r5;
+    const double r23 = 0.5 * (known->left_c1 * (r3 + (r4 - r5 - r2)));
+    const double r25 = 0.7071067811865475 * (known->left_s1 * r6), r26 = r22 + r23 + r25;
+    const double r27 = 0.5 * (known->left_c1 * (r5 + (r2 - r3 - r4))), r29 = r22 + r27 - r25;
+    const Shared10 own = { r26, r29 };
     const Shared10 *const shared = &own;
     chart_10_1(p, known, shared, answers);
 }
 
 /* What the charts of block 9 share. */
 typedef struct {
-    double r89;
-    double r136;
-    double r137;
-    double r138;
-    double r184;
-    double r185;
-    double r186;
+    double r41;
+    double r50;
+    double r67;
+    double r68;
+    double r69;
+    double r83;
+    double r84;
+    double r85;
 } Shared9;
 
 /* Chart 1 of block 9: generic.
@@ -1472,15 +1482,14 @@ typedef struct {
  */
 static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
-    const double r189 = shared->r89 * shared->r89 + shared->r136 * shared->r136;
-    const double r192 = shared->r184 * shared->r184 + shared->r185 * shared->r185;
-    if (!is_away(r189, 10000.0 * r192)) {
+    const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
+    const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
+    if (!is_away(r88, 10000.0 * r91)) {
         return;
     }
-    const double r196 = shared->r136 * shared->r137 - shared->r89 * shared->r138, r198 = (0.0 - r196) / r189;
-    const double r202 = 0.0 - shared->r89 * shared->r137 - shared->r136 * shared->r138;
-    const double r204 = (0.0 - r202) / r189, r208 = sqrt(fmax(r204 * r204 + r198 * r198, 0.0));
-    const double right_c5 = r204 / r208, right_s5 = r198 / r208;
+    const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67), r97 = r96 / r88;
+    const double r100 = shared->r50 * shared->r68 - shared->r41 * shared->r67, r101 = r100 / r88;
+    const double r105 = sqrt(fmax(r101 * r101 + r97 * r97, 0.0)), right_c5 = r101 / r105, right_s5 = r97 / r105;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1495,9 +1504,9 @@ static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *sh
  */
 static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
-    const double r189 = shared->r89 * shared->r89 + shared->r136 * shared->r136;
-    const double r192 = shared->r184 * shared->r184 + shared->r185 * shared->r185;
-    if (!(is_near(r189, 1.0000000000000001e-7 * r192) && is_near(shared->r138, 0.00055566) && is_near(shared->r137, 0.01 * shared->r186))) {
+    const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
+    const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
+    if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1515,34 +1524,28 @@ static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *sh
 /* Block 9: AnklePitch. */
 static void block_9(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.1029 * known->right_s6, r2 = 0.1029 * known->right_c6, r3 = -0.05 * r1;
-    const double r5 = r3 + -0.2879 * r2, r12 = -0.1029 * p->right_r21;
-    const double r16 = r1 * p->right_r22 + r2 * p->right_r23, r17 = -0.1029 * p->right_r31;
-    const double r21 = r1 * p->right_r32 + r2 * p->right_r33, r23 = p->right_py + 0.04519 * p->right_r23;
-    const double r24 = p->right_pz + 0.04519 * p->right_r33, r26 = r3 + -0.33309 * r2;
-    const double r29 = p->right_px * (p->right_px + 0.04519 * p->right_r13);
-    const double r30 = p->right_px * (r1 * p->right_r12 + r2 * p->right_r13);
-    const double r40 = p->right_px * (-0.1029 * p->right_r11) + p->right_py * r12;
-    const double r41 = r29 + p->right_py * r23 + p->right_pz * r24;
-    const double r42 = r30 + p->right_py * r16 + p->right_pz * r21, r43 = r40 + p->right_pz * r17;
-    const double r50 = p->right_px * p->right_px + p->right_py * p->right_py;
-    const double r52 = r41 + r41 - (r50 + p->right_pz * p->right_pz);
-    const double r70 = -0.05 * (-0.05 - r23) + -0.085 * (-0.085 - r24);
-    const double r83 = r5 + r5 - (r26 + r26) + (r42 + r42) + (-0.05 * (0.0 - r16) + -0.085 * (0.0 - r21));
-    const double r84 = r43 + r43 + (-0.05 * (0.0 - r12) + -0.085 * (0.0 - r17));
-    const double r85 = r52 + 0.0126305461 + r70 - (-0.05 * r23 + -0.085 * r24);
-    const double r89 = 0.0 - (r83 - (-0.05 * r16 + -0.085 * r21));
-    const double r94 = -0.085 * known->right_s4 - -0.185 * known->right_s4;
-    const double r136 = 0.0 - (0.0 - (r84 - (-0.05 * r12 + -0.085 * r17))), r137 = 0.0 - (0.01 - r85);
-    const double r138 = -0.2058 * r94, r139 = p->magnitude + 2.27259, r140 = p->magnitude * r139;
-    const double r141 = 1.3458 * p->magnitude, r142 = 1.4187 * p->magnitude, r146 = r140 + r140 + r140;
-    const double r147 = r141 + r141 + r141, r148 = r142 + r142 + r142, r152 = p->magnitude * p->magnitude;
-    const double r156 = r146 + r146 + (r152 + r152 + r152) + 2.4510423541;
-    const double r162 = 0.05 * (r139 + 0.05) + 0.085 * (r139 + 0.085);
-    const double r170 = r147 + r147 + 1.554899982 + 0.181683 + 0.181683;
-    const double r172 = r156 + r162 + (0.05 * r139 + 0.085 * r139) + 0.0829, r184 = fabs(r170);
-    const double r185 = fabs(0.0 - (r148 + r148 + 0.1915245 + 0.1915245)), r186 = fabs(0.0 - r172);
-    const Shared9 own = { r89, r136, r137, r138, r184, r185, r186 };
+    const double r2 = p->right_r22 * known->right_s6, r3 = p->right_r23 * known->right_c6;
+    const double r4 = p->right_r32 * known->right_s6, r5 = p->right_r33 * known->right_c6;
+    const double r8 = p->right_px * (p->right_px + 0.04519 * p->right_r13);
+    const double r9 = p->right_r12 * known->right_s6 + p->right_r13 * known->right_c6;
+    const double r14 = p->right_py * (p->right_py + 0.04519 * p->right_r23);
+    const double r20 = p->right_pz * (p->right_pz + 0.04519 * p->right_r33);
+    const double r29 = 0.009300102 * known->right_c6 + 0.2058 * (p->right_px * r9);
+    const double r33 = r29 + 0.2058 * (p->right_py * (r2 + r3)) + 0.2058 * (p->right_pz * (r4 + r5));
+    const double r39 = r33 + 0.01029 * r2 + 0.01029 * r3 + 0.017493 * r4, r41 = r39 + 0.017493 * r5;
+    const double r44 = 0.2058 * (p->right_px * p->right_r11) + 0.2058 * (p->right_py * p->right_r21);
+    const double r48 = r44 + 0.2058 * (p->right_pz * p->right_r31) + 0.01029 * p->right_r21;
+    const double r50 = r48 + 0.017493 * p->right_r31;
+    const double r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p->right_px * p->right_px;
+    const double r58 = r56 - p->right_py * p->right_py - p->right_pz * p->right_pz;
+    const double r62 = r58 + 0.1 * p->right_py + 0.004519 * p->right_r23;
+    const double r66 = r62 + 0.17 * p->right_pz + 0.0076823 * p->right_r33, r67 = r66 + 0.0123555461;
+    const double r68 = 0.02058 * known->right_s4, r69 = 0.0 - r68;
+    const double r77 = 6.0 * (p->magnitude * (p->magnitude + 2.27259));
+    const double r81 = r77 + 3.0 * (p->magnitude * p->magnitude) + 0.27 * p->magnitude;
+    const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
+    const double r85 = fabs(r81 + 3.1572666541);
+    const Shared9 own = { r41, r50, r67, r68, r69, r83, r84, r85 };
     const Shared9 *const shared = &own;
     chart_9_1(p, known, shared, answers);
     chart_9_2(p, known, shared, answers);
@@ -1550,18 +1553,17 @@ static void block_9(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 8 share. */
 typedef struct {
-    double r23;
+    double r17;
     double r24;
-    double r65;
-    double r66;
-    double r73;
-    double r74;
-    double r75;
-    double r76;
-    double r77;
-    double r78;
-    double r79;
-    double r81;
+    double r26;
+    double r28;
+    double r32;
+    double r33;
+    double r34;
+    double r36;
+    double r37;
+    double r40;
+    double r41;
 } Shared8;
 
 /* Chart 1 of block 8: generic.
@@ -1569,12 +1571,10 @@ typedef struct {
  */
 static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r82 = shared->r76 - shared->r75;
-    if (!is_away(r82, 10000.0 * (shared->r79 + shared->r78))) {
+    if (!is_away(shared->r36 - shared->r34, 10000.0 * shared->r40)) {
         return;
     }
-    const double r85 = -0.0 / r82, r86 = r85 * r85, r89 = r85 / sqrt(fmax(r86 + r86, 0.0)), right_c6 = r89;
-    const double right_s6 = r89;
+    const double right_c6 = -0.0, right_s6 = -0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
@@ -1588,17 +1588,17 @@ static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *sh
  */
 static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r82 = shared->r23 * shared->r23, r83 = shared->r24 * shared->r24, r84 = r82 + r83;
-    const double r87 = shared->r73 * shared->r73 + shared->r74 * shared->r74;
-    if (!(is_near(shared->r77, shared->r81) && is_away(r84, 10000.0 * r87))) {
+    const double r42 = shared->r17 * shared->r17, r43 = shared->r24 * shared->r24, r44 = r42 + r43;
+    const double r47 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
+    if (!(is_near(shared->r37, shared->r41) && is_away(r44, 10000.0 * r47))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r82 - r83, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r87, 0.0)));
+    const double choice0_0[3] = {0.0 - r42 - r43, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r47, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w6 = roots0.values[i0], r95 = (0.0 - (0.0 - shared->r23 * right_w6)) / r84;
-        const double r98 = (0.0 - shared->r24 * right_w6) / r84, r102 = sqrt(fmax(r98 * r98 + r95 * r95, 0.0));
-        const double right_c6 = r98 / r102, right_s6 = r95 / r102;
+        const double right_w6 = roots0.values[i0], r53 = right_w6 * shared->r17 / r44;
+        const double r55 = right_w6 * shared->r24 / r44, r59 = sqrt(fmax(r55 * r55 + r53 * r53, 0.0));
+        const double right_c6 = r55 / r59, right_s6 = r53 / r59;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -1614,9 +1614,9 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
  */
 static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r84 = shared->r23 * shared->r23 + shared->r24 * shared->r24;
-    const double r87 = shared->r73 * shared->r73 + shared->r74 * shared->r74;
-    if (!(is_near(shared->r77, shared->r81) && is_near(r84, 1.0000000000000001e-7 * r87))) {
+    const double r44 = shared->r17 * shared->r17 + shared->r24 * shared->r24;
+    const double r47 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
+    if (!(is_near(shared->r37, shared->r41) && is_near(r44, 1.0000000000000001e-7 * r47))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1636,16 +1636,16 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
  */
 static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r82 = shared->r65 * shared->r65, r83 = shared->r66 * shared->r66, r84 = r82 + r83;
-    if (!(is_near(shared->r77, shared->r81) && is_away(r84, 180000.0))) {
+    const double r42 = shared->r26 * shared->r26, r43 = shared->r28 * shared->r28, r44 = r42 + r43;
+    if (!(is_near(shared->r37, shared->r41) && is_away(r44, 180000.0))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r82 - r83, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r42 - r43, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 4.242640687119285);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w6 = roots0.values[i0], r90 = (0.0 - (0.0 - shared->r65 * right_w6)) / r84;
-        const double r93 = (0.0 - shared->r66 * right_w6) / r84, r97 = sqrt(fmax(r93 * r93 + r90 * r90, 0.0));
-        const double right_c6 = r93 / r97, right_s6 = r90 / r97;
+        const double right_w6 = roots0.values[i0], r48 = right_w6 * shared->r26 / r44;
+        const double r50 = right_w6 * shared->r28 / r44, r54 = sqrt(fmax(r50 * r50 + r48 * r48, 0.0));
+        const double right_c6 = 0.0 - r50 / r54, right_s6 = r48 / r54;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
@@ -1661,8 +1661,8 @@ static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *sh
  */
 static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r84 = shared->r65 * shared->r65 + shared->r66 * shared->r66;
-    if (!(is_near(shared->r77, shared->r81) && is_near(r84, 1.8000000000000001e-6))) {
+    const double r44 = shared->r26 * shared->r26 + shared->r28 * shared->r28;
+    if (!(is_near(shared->r37, shared->r41) && is_near(r44, 1.8000000000000001e-6))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1680,17 +1680,17 @@ static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *sh
 /* Block 8: AnkleRoll. */
 static void block_8(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s1, r1 = 0.0 - p->right_r13, r2 = 0.0 - p->right_r23;
-    const double r3 = 0.0 - p->right_r33, r10 = p->right_px * p->right_r12 + p->right_py * p->right_r22;
-    const double r13 = p->right_px * r1 + p->right_py * r2 + p->right_pz * r3;
-    const double r21 = -0.05 * p->right_r22 + -0.085 * p->right_r32 - (r10 + p->right_pz * p->right_r32);
-    const double r23 = 0.0 - r21, r24 = 0.0 - (-0.05 * r2 + -0.085 * r3 - (r13 - 0.04519));
-    const double r47 = p->right_r12 * known->left_c1 + (0.0 - (p->right_r32 - p->right_r22)) * r0;
-    const double r65 = 0.0 - r47, r66 = 0.0 - (r1 * known->left_c1 + (0.0 - (r3 - r2)) * r0);
-    const double r68 = p->magnitude + p->magnitude + p->magnitude, r73 = fabs(r68 + 0.1 + 0.135);
-    const double r74 = fabs(r68 + 0.62099 + 0.135), r75 = r23 * r66, r76 = r24 * r65, r77 = r75 - r76;
-    const double r78 = 3.0 * r73, r79 = 3.0 * r74, r81 = 0.001 * (r78 + r79);
-    const Shared8 own = { r23, r24, r65, r66, r73, r74, r75, r76, r77, r78, r79, r81 };
+    const double r9 = known->left_s1 * (p->right_r32 - p->right_r22);
+    const double r11 = known->left_s1 * (p->right_r33 - p->right_r23);
+    const double r15 = p->right_px * p->right_r12 + (0.05 * p->right_r22 + 0.085 * p->right_r32);
+    const double r17 = p->right_pz * p->right_r32 + (p->right_py * p->right_r22 + r15);
+    const double r21 = p->right_px * p->right_r13 + (0.05 * p->right_r23 + 0.085 * p->right_r33);
+    const double r23 = p->right_pz * p->right_r33 + (p->right_py * p->right_r23 + r21), r24 = r23 + 0.04519;
+    const double r26 = 0.7071067811865475 * r9 - p->right_r12 * known->left_c1;
+    const double r28 = p->right_r13 * known->left_c1 - 0.7071067811865475 * r11, r29 = 3.0 * p->magnitude;
+    const double r32 = fabs(r29 + 0.235), r33 = fabs(r29 + 0.75599), r34 = r17 * r28, r35 = r24 * r26;
+    const double r36 = 0.0 - r35, r37 = r34 + r35, r40 = 3.0 * r32 + 3.0 * r33, r41 = 0.001 * r40;
+    const Shared8 own = { r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41 };
     const Shared8 *const shared = &own;
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, answers);
@@ -1701,21 +1701,21 @@ static void block_8(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 7 share. */
 typedef struct {
-    double r31;
+    double r28;
 } Shared7;
 
 /* Chart 1 of block 7: generic.
  */
 static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
-    const double r33 = shared->r31 * shared->r31 - 0.00042353640000000005;
-    const double choice0_0[3] = {r33, 0.0, 1.0};
+    const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
+    const double choice0_0[3] = {r30, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w4 = roots0.values[i0];
-        const double r37 = (0.0 - (0.0 - 0.02058 * right_w4)) / 0.00042353640000000005;
-        const double r40 = (0.0 - 0.02058 * shared->r31) / 0.00042353640000000005;
-        const double r44 = sqrt(fmax(r40 * r40 + r37 * r37, 0.0)), right_c4 = r40 / r44, right_s4 = r37 / r44;
+        const double right_w4 = roots0.values[i0], r32 = 0.02058 * right_w4 / 0.00042353640000000005;
+        const double r34 = 0.02058 * shared->r28 / 0.00042353640000000005;
+        const double r38 = sqrt(fmax(r34 * r34 + r32 * r32, 0.0)), right_c4 = 0.0 - r34 / r38;
+        const double right_s4 = r32 / r38;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1728,31 +1728,30 @@ static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *sh
 /* Block 7: KneePitch. */
 static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = p->right_py + 0.04519 * p->right_r23, r6 = p->right_pz + 0.04519 * p->right_r33;
-    const double r7 = p->right_px * (p->right_px + 0.04519 * p->right_r13);
-    const double r11 = r7 + p->right_py * r5 + p->right_pz * r6;
-    const double r16 = p->right_px * p->right_px + p->right_py * p->right_py;
-    const double r18 = r11 + r11 - (r16 + p->right_pz * p->right_pz);
-    const double r25 = -0.05 * (-0.05 - r5) + -0.085 * (-0.085 - r6);
-    const double r30 = r18 + 0.0020421361 + r25 - (-0.05 * r5 + -0.085 * r6), r31 = 0.02058841 - r30;
-    const Shared7 own = { r31 };
+    const double r2 = p->right_px * (p->right_px + 0.04519 * p->right_r13);
+    const double r5 = p->right_py * (p->right_py + 0.04519 * p->right_r23);
+    const double r8 = p->right_pz * (p->right_pz + 0.04519 * p->right_r33);
+    const double r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p->right_px * p->right_px;
+    const double r19 = r17 - p->right_py * p->right_py - p->right_pz * p->right_pz;
+    const double r23 = r19 + 0.1 * p->right_py + 0.004519 * p->right_r23;
+    const double r27 = r23 + 0.17 * p->right_pz + 0.0076823 * p->right_r33, r28 = 0.0088212739 - r27;
+    const Shared7 own = { r28 };
     const Shared7 *const shared = &own;
     chart_7_1(p, known, shared, answers);
 }
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r115;
-    double r116;
+    double r59;
+    double r62;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r137 = (0.0 - 0.1 * shared->r115) / 0.010000000000000002;
-    const double r141 = (0.0 - (-0.0 - 0.1 * shared->r116)) / 0.010000000000000002;
-    const double r145 = sqrt(fmax(r141 * r141 + r137 * r137, 0.0)), left_c3 = r141 / r145, left_s3 = r137 / r145;
+    const double r64 = 0.1 * shared->r59 / 0.010000000000000002, r66 = 0.1 * shared->r62 / 0.010000000000000002;
+    const double r70 = sqrt(fmax(r66 * r66 + r64 * r64, 0.0)), left_c3 = r66 / r70, left_s3 = 0.0 - r64 / r70;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1764,41 +1763,39 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: HipPitch. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s1, r1 = -0.1029 * known->left_s5;
-    const double r4 = 0.1029 * known->left_c5 - 0.2879 + 0.2879, r11 = r1 + (r1 - r1) * known->left_c6;
-    const double r14 = (0.0 - (0.0 - r4)) * known->left_s6 + 0.05 - 0.05;
-    const double r15 = r4 * known->left_c6 - 0.2879 + 0.33309;
-    const double r20 = r11 * p->left_r11 + r14 * p->left_r12 + r15 * p->left_r13;
-    const double r25 = r11 * p->left_r21 + r14 * p->left_r22 + r15 * p->left_r23;
-    const double r30 = r11 * p->left_r31 + r14 * p->left_r32 + r15 * p->left_r33;
-    const double r43 = p->left_pz + r30 + 0.085 - (0.0 - (p->left_py + r25 - 0.05));
-    const double r49 = (p->left_px + r20) * known->left_c1 + (0.0 - r43) * r0, r60 = 0.0 - known->left_c4;
-    const double r61 = 0.0 - known->left_s4, r67 = r60 * known->left_c5 + (0.0 - r61) * known->left_s5;
-    const double r70 = r61 * known->left_c5 + (0.0 - (0.0 - r60)) * known->left_s5;
-    const double r75 = (0.0 - (0.0 - r70)) * known->left_s6, r76 = r70 * known->left_c6;
-    const double r77 = r67 + (r67 - r67) * known->left_c6;
-    const double r82 = r77 * p->left_r11 + r75 * p->left_r12 + r76 * p->left_r13;
-    const double r87 = r77 * p->left_r21 + r75 * p->left_r22 + r76 * p->left_r23;
-    const double r92 = r77 * p->left_r31 + r75 * p->left_r32 + r76 * p->left_r33;
-    const double r106 = r82 * known->left_c1 + (0.0 - (r92 - (0.0 - r87))) * r0, r115 = 0.0 - (0.0 - r49);
-    const double r116 = 0.1 * (0.0 - r106);
-    const Shared6 own = { r115, r116 };
+    const double r0 = known->left_c5 * known->left_s6, r5 = 0.1029 * (known->left_c5 * known->left_c6) + 0.04519;
+    const double r14 = p->left_px - 0.1029 * (p->left_r11 * known->left_s5);
+    const double r17 = p->left_r13 * r5 + (r14 + 0.1029 * (p->left_r12 * r0));
+    const double r20 = p->left_pz - 0.1029 * (p->left_r31 * known->left_s5);
+    const double r23 = p->left_r33 * r5 + (r20 + 0.1029 * (p->left_r32 * r0));
+    const double r26 = p->left_py + r23 - 0.1029 * (p->left_r21 * known->left_s5);
+    const double r29 = p->left_r23 * r5 + (r26 + 0.1029 * (p->left_r22 * r0));
+    const double r36 = known->left_s4 * known->left_c5 + known->left_c4 * known->left_s5;
+    const double r37 = known->left_s6 * r36, r38 = known->left_c6 * r36;
+    const double r39 = known->left_c4 * known->left_c5 - known->left_s4 * known->left_s5;
+    const double r50 = p->left_r13 * r38 + (p->left_r11 * r39 + p->left_r12 * r37);
+    const double r53 = p->left_r33 * r38 + (p->left_r31 * r39 + p->left_r32 * r37);
+    const double r55 = p->left_r22 * r37 + (p->left_r21 * r39 + r53);
+    const double r58 = 0.7071067811865475 * (known->left_s1 * (r29 + 0.035)), r59 = known->left_c1 * r17 - r58;
+    const double r61 = 0.07071067811865475 * (known->left_s1 * (p->left_r23 * r38 + r55));
+    const double r62 = 0.1 * (known->left_c1 * r50) - r61;
+    const Shared6 own = { r59, r62 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r35;
-    double r36;
+    double r26;
+    double r29;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r38 = 0.0 - (0.0 - shared->r35), r41 = 0.0 - (-0.0 - (0.0 - shared->r36));
-    const double r45 = sqrt(fmax(r41 * r41 + r38 * r38, 0.0)), left_c2 = r41 / r45, left_s2 = r38 / r45;
+    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r33 = sqrt(fmax(r32, 0.0));
+    const double left_c2 = shared->r29 / r33, left_s2 = shared->r26 / r33;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1810,27 +1807,28 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: HipRoll. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - known->left_s6, r4 = known->left_c6 * p->left_r12 + r1 * p->left_r13;
-    const double r7 = known->left_c6 * p->left_r22 + r1 * p->left_r23;
-    const double r10 = known->left_c6 * p->left_r32 + r1 * p->left_r33, r13 = 0.5 * r7 + -0.5 * r10;
-    const double r14 = 0.0 - r13, r26 = (0.0 - (0.0 - r4)) * (0.7071067811865475 * known->left_s1);
-    const double r32 = 0.0 - (r14 + ((r10 - r14) * known->left_c1 + r26));
-    const double r33 = 0.0 - (r13 + ((r7 - r13) * known->left_c1 + r26)), r35 = 0.0 - r32;
-    const double r36 = 0.0 - (0.0 - r33);
-    const Shared5 own = { r35, r36 };
+    const double r2 = p->left_r22 * known->left_c6, r3 = p->left_r23 * known->left_s6;
+    const double r4 = p->left_r32 * known->left_c6, r5 = p->left_r33 * known->left_s6;
+    const double r6 = p->left_r12 * known->left_c6 - p->left_r13 * known->left_s6;
+    const double r22 = 0.5 * r2 - 0.5 * r3 - 0.5 * r4 + 0.5 * r5;
+    const double r23 = 0.5 * (known->left_c1 * (r2 + (r4 - r5) - r3));
+    const double r25 = 0.7071067811865475 * (known->left_s1 * r6), r26 = r25 - (r22 - r23);
+    const double r27 = 0.5 * (known->left_c1 * (r4 + (r2 - r3) - r5)), r29 = r25 + (r22 + r27);
+    const Shared5 own = { r26, r29 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r89;
-    double r136;
-    double r137;
-    double r138;
-    double r184;
-    double r185;
-    double r186;
+    double r41;
+    double r50;
+    double r67;
+    double r68;
+    double r69;
+    double r83;
+    double r84;
+    double r85;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1838,15 +1836,14 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r189 = shared->r89 * shared->r89 + shared->r136 * shared->r136;
-    const double r192 = shared->r184 * shared->r184 + shared->r185 * shared->r185;
-    if (!is_away(r189, 10000.0 * r192)) {
+    const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
+    const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
+    if (!is_away(r88, 10000.0 * r91)) {
         return;
     }
-    const double r196 = shared->r136 * shared->r137 - shared->r89 * shared->r138, r198 = (0.0 - r196) / r189;
-    const double r202 = 0.0 - shared->r89 * shared->r137 - shared->r136 * shared->r138;
-    const double r204 = (0.0 - r202) / r189, r208 = sqrt(fmax(r204 * r204 + r198 * r198, 0.0));
-    const double left_c5 = r204 / r208, left_s5 = r198 / r208;
+    const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67), r97 = r96 / r88;
+    const double r100 = shared->r50 * shared->r68 - shared->r41 * shared->r67, r101 = r100 / r88;
+    const double r105 = sqrt(fmax(r101 * r101 + r97 * r97, 0.0)), left_c5 = r101 / r105, left_s5 = r97 / r105;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1861,9 +1858,9 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r189 = shared->r89 * shared->r89 + shared->r136 * shared->r136;
-    const double r192 = shared->r184 * shared->r184 + shared->r185 * shared->r185;
-    if (!(is_near(r189, 1.0000000000000001e-7 * r192) && is_near(shared->r138, 0.00055566) && is_near(shared->r137, 0.01 * shared->r186))) {
+    const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
+    const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
+    if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1881,33 +1878,28 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: AnklePitch. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.1029 * known->left_s6, r2 = 0.1029 * known->left_c6, r3 = 0.05 * r1;
-    const double r5 = r3 + -0.2879 * r2, r12 = -0.1029 * p->left_r21, r16 = r1 * p->left_r22 + r2 * p->left_r23;
-    const double r17 = -0.1029 * p->left_r31, r21 = r1 * p->left_r32 + r2 * p->left_r33;
-    const double r23 = p->left_py + 0.04519 * p->left_r23, r24 = p->left_pz + 0.04519 * p->left_r33;
-    const double r26 = r3 + -0.33309 * r2, r29 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
-    const double r30 = p->left_px * (r1 * p->left_r12 + r2 * p->left_r13);
-    const double r40 = p->left_px * (-0.1029 * p->left_r11) + p->left_py * r12;
-    const double r41 = r29 + p->left_py * r23 + p->left_pz * r24;
-    const double r42 = r30 + p->left_py * r16 + p->left_pz * r21, r43 = r40 + p->left_pz * r17;
-    const double r50 = p->left_px * p->left_px + p->left_py * p->left_py;
-    const double r53 = r41 + r41 - (r50 + p->left_pz * p->left_pz) + 0.0126305461;
-    const double r70 = 0.05 * (0.05 - r23) + -0.085 * (-0.085 - r24);
-    const double r83 = r5 + r5 - (r26 + r26) + (r42 + r42) + (0.05 * (0.0 - r16) + -0.085 * (0.0 - r21));
-    const double r84 = r43 + r43 + (0.05 * (0.0 - r12) + -0.085 * (0.0 - r17));
-    const double r88 = 0.01 - (r53 + r70 - (0.05 * r23 + -0.085 * r24));
-    const double r89 = 0.0 - (r83 - (0.05 * r16 + -0.085 * r21));
-    const double r94 = -0.085 * known->left_s4 - -0.185 * known->left_s4;
-    const double r136 = 0.0 - (0.0 - (r84 - (0.05 * r12 + -0.085 * r17))), r137 = 0.0 - r88;
-    const double r138 = -0.2058 * r94, r139 = p->magnitude + 2.27259, r140 = p->magnitude * r139;
-    const double r141 = 1.3458 * p->magnitude, r142 = 1.4187 * p->magnitude, r146 = r140 + r140 + r140;
-    const double r147 = r141 + r141 + r141, r148 = r142 + r142 + r142, r152 = p->magnitude * p->magnitude;
-    const double r156 = r146 + r146 + (r152 + r152 + r152) + 2.4510423541;
-    const double r162 = 0.05 * (r139 + 0.05) + 0.085 * (r139 + 0.085);
-    const double r170 = r147 + r147 + 1.554899982 + 0.181683 + 0.181683;
-    const double r172 = r156 + r162 + (0.05 * r139 + 0.085 * r139) + 0.0829, r184 = fabs(r170);
-    const double r185 = fabs(0.0 - (r148 + r148 + 0.1915245 + 0.1915245)), r186 = fabs(0.0 - r172);
-    const Shared4 own = { r89, r136, r137, r138, r184, r185, r186 };
+    const double r2 = p->left_r22 * known->left_s6, r3 = p->left_r23 * known->left_c6;
+    const double r4 = p->left_r32 * known->left_s6, r5 = p->left_r33 * known->left_c6;
+    const double r8 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
+    const double r9 = p->left_r12 * known->left_s6 + p->left_r13 * known->left_c6;
+    const double r14 = p->left_py * (p->left_py + 0.04519 * p->left_r23);
+    const double r20 = p->left_pz * (p->left_pz + 0.04519 * p->left_r33);
+    const double r29 = 0.009300102 * known->left_c6 + 0.2058 * (p->left_px * r9);
+    const double r33 = r29 + 0.2058 * (p->left_py * (r2 + r3)) + 0.2058 * (p->left_pz * (r4 + r5));
+    const double r39 = r33 - 0.01029 * r2 - 0.01029 * r3 + 0.017493 * r4, r41 = r39 + 0.017493 * r5;
+    const double r44 = 0.2058 * (p->left_px * p->left_r11) + 0.2058 * (p->left_py * p->left_r21);
+    const double r48 = r44 + 0.2058 * (p->left_pz * p->left_r31) - 0.01029 * p->left_r21;
+    const double r50 = r48 + 0.017493 * p->left_r31;
+    const double r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p->left_px * p->left_px;
+    const double r58 = r56 - p->left_py * p->left_py - p->left_pz * p->left_pz;
+    const double r62 = r58 - 0.1 * p->left_py - 0.004519 * p->left_r23;
+    const double r66 = r62 + 0.17 * p->left_pz + 0.0076823 * p->left_r33, r67 = r66 + 0.0123555461;
+    const double r68 = 0.02058 * known->left_s4, r69 = 0.0 - r68;
+    const double r77 = 6.0 * (p->magnitude * (p->magnitude + 2.27259));
+    const double r81 = r77 + 3.0 * (p->magnitude * p->magnitude) + 0.27 * p->magnitude;
+    const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
+    const double r85 = fabs(r81 + 3.1572666541);
+    const Shared4 own = { r41, r50, r67, r68, r69, r83, r84, r85 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1915,18 +1907,17 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r23;
+    double r17;
     double r24;
-    double r67;
-    double r68;
-    double r75;
-    double r76;
-    double r77;
-    double r78;
-    double r79;
-    double r80;
-    double r81;
-    double r83;
+    double r26;
+    double r28;
+    double r32;
+    double r33;
+    double r34;
+    double r35;
+    double r36;
+    double r39;
+    double r40;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1934,12 +1925,10 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r84 = shared->r78 - shared->r77;
-    if (!is_away(r84, 10000.0 * (shared->r81 + shared->r80))) {
+    if (!is_away(shared->r35 - shared->r34, 10000.0 * shared->r39)) {
         return;
     }
-    const double r87 = -0.0 / r84, r88 = r87 * r87, r91 = r87 / sqrt(fmax(r88 + r88, 0.0)), left_c6 = r91;
-    const double left_s6 = r91;
+    const double left_c6 = -0.0, left_s6 = -0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
@@ -1953,17 +1942,17 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r84 = shared->r23 * shared->r23, r85 = shared->r24 * shared->r24, r86 = r84 + r85;
-    const double r89 = shared->r75 * shared->r75 + shared->r76 * shared->r76;
-    if (!(is_near(shared->r79, shared->r83) && is_away(r86, 10000.0 * r89))) {
+    const double r41 = shared->r17 * shared->r17, r42 = shared->r24 * shared->r24, r43 = r41 + r42;
+    const double r46 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
+    if (!(is_near(shared->r36, shared->r40) && is_away(r43, 10000.0 * r46))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r84 - r85, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r89, 0.0)));
+    const double choice0_0[3] = {0.0 - r41 - r42, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r46, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w6 = roots0.values[i0], r97 = (0.0 - (0.0 - shared->r23 * left_w6)) / r86;
-        const double r100 = (0.0 - shared->r24 * left_w6) / r86, r104 = sqrt(fmax(r100 * r100 + r97 * r97, 0.0));
-        const double left_c6 = r100 / r104, left_s6 = r97 / r104;
+        const double left_w6 = roots0.values[i0], r52 = left_w6 * shared->r17 / r43;
+        const double r54 = left_w6 * shared->r24 / r43, r58 = sqrt(fmax(r54 * r54 + r52 * r52, 0.0));
+        const double left_c6 = 0.0 - r54 / r58, left_s6 = r52 / r58;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -1979,9 +1968,9 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r86 = shared->r23 * shared->r23 + shared->r24 * shared->r24;
-    const double r89 = shared->r75 * shared->r75 + shared->r76 * shared->r76;
-    if (!(is_near(shared->r79, shared->r83) && is_near(r86, 1.0000000000000001e-7 * r89))) {
+    const double r43 = shared->r17 * shared->r17 + shared->r24 * shared->r24;
+    const double r46 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
+    if (!(is_near(shared->r36, shared->r40) && is_near(r43, 1.0000000000000001e-7 * r46))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2001,16 +1990,16 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r84 = shared->r67 * shared->r67, r85 = shared->r68 * shared->r68, r86 = r84 + r85;
-    if (!(is_near(shared->r79, shared->r83) && is_away(r86, 180000.0))) {
+    const double r41 = shared->r26 * shared->r26, r42 = shared->r28 * shared->r28, r43 = r41 + r42;
+    if (!(is_near(shared->r36, shared->r40) && is_away(r43, 180000.0))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r84 - r85, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r41 - r42, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 4.242640687119285);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w6 = roots0.values[i0], r92 = (0.0 - (0.0 - shared->r67 * left_w6)) / r86;
-        const double r95 = (0.0 - shared->r68 * left_w6) / r86, r99 = sqrt(fmax(r95 * r95 + r92 * r92, 0.0));
-        const double left_c6 = r95 / r99, left_s6 = r92 / r99;
+        const double left_w6 = roots0.values[i0], r47 = left_w6 * shared->r26 / r43;
+        const double r49 = left_w6 * shared->r28 / r43, r53 = sqrt(fmax(r49 * r49 + r47 * r47, 0.0));
+        const double left_c6 = 0.0 - r49 / r53, left_s6 = r47 / r53;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
@@ -2026,8 +2015,8 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r86 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
-    if (!(is_near(shared->r79, shared->r83) && is_near(r86, 1.8000000000000001e-6))) {
+    const double r43 = shared->r26 * shared->r26 + shared->r28 * shared->r28;
+    if (!(is_near(shared->r36, shared->r40) && is_near(r43, 1.8000000000000001e-6))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2045,18 +2034,17 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnkleRoll. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s1, r1 = 0.0 - p->left_r13, r2 = 0.0 - p->left_r23;
-    const double r3 = 0.0 - p->left_r33, r10 = p->left_px * p->left_r12 + p->left_py * p->left_r22;
-    const double r13 = p->left_px * r1 + p->left_py * r2 + p->left_pz * r3;
-    const double r21 = 0.05 * p->left_r22 + -0.085 * p->left_r32 - (r10 + p->left_pz * p->left_r32);
-    const double r23 = 0.0 - r21, r24 = 0.0 - (0.05 * r2 + -0.085 * r3 - (r13 - 0.04519));
-    const double r49 = (0.0 - (p->left_r32 - (0.0 - p->left_r22))) * r0;
-    const double r52 = r1 * known->left_c1 + (0.0 - (r3 - (0.0 - r2))) * r0;
-    const double r67 = 0.0 - (p->left_r12 * known->left_c1 + r49), r68 = 0.0 - r52;
-    const double r70 = p->magnitude + p->magnitude + p->magnitude, r75 = fabs(r70 + 0.1 + 0.135);
-    const double r76 = fabs(r70 + 0.62099 + 0.135), r77 = r23 * r68, r78 = r24 * r67, r79 = r77 - r78;
-    const double r80 = 3.0 * r75, r81 = 3.0 * r76, r83 = 0.001 * (r80 + r81);
-    const Shared3 own = { r23, r24, r67, r68, r75, r76, r77, r78, r79, r80, r81, r83 };
+    const double r15 = 0.05 * p->left_r22 - 0.085 * p->left_r32 - p->left_px * p->left_r12;
+    const double r17 = p->left_pz * p->left_r32 - (r15 - p->left_py * p->left_r22);
+    const double r21 = 0.05 * p->left_r23 - 0.085 * p->left_r33 - p->left_px * p->left_r13;
+    const double r23 = r21 - p->left_py * p->left_r23 - p->left_pz * p->left_r33, r24 = r23 - 0.04519;
+    const double r25 = 0.7071067811865475 * (known->left_s1 * (p->left_r22 + p->left_r32));
+    const double r26 = r25 - p->left_r12 * known->left_c1;
+    const double r27 = 0.7071067811865475 * (known->left_s1 * (p->left_r23 + p->left_r33));
+    const double r28 = p->left_r13 * known->left_c1 - r27, r29 = 3.0 * p->magnitude, r32 = fabs(r29 + 0.235);
+    const double r33 = fabs(r29 + 0.75599), r34 = r17 * r28, r35 = r24 * r26, r36 = r34 - r35;
+    const double r39 = 3.0 * r32 + 3.0 * r33, r40 = 0.001 * r39;
+    const Shared3 own = { r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -2067,21 +2055,21 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r31;
+    double r28;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r33 = shared->r31 * shared->r31 - 0.00042353640000000005;
-    const double choice0_0[3] = {r33, 0.0, 1.0};
+    const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
+    const double choice0_0[3] = {r30, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0];
-        const double r37 = (0.0 - (0.0 - 0.02058 * left_w4)) / 0.00042353640000000005;
-        const double r40 = (0.0 - 0.02058 * shared->r31) / 0.00042353640000000005;
-        const double r44 = sqrt(fmax(r40 * r40 + r37 * r37, 0.0)), left_c4 = r40 / r44, left_s4 = r37 / r44;
+        const double left_w4 = roots0.values[i0], r32 = 0.02058 * left_w4 / 0.00042353640000000005;
+        const double r34 = 0.02058 * shared->r28 / 0.00042353640000000005;
+        const double r38 = sqrt(fmax(r34 * r34 + r32 * r32, 0.0)), left_c4 = 0.0 - r34 / r38;
+        const double left_s4 = r32 / r38;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -2094,36 +2082,31 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: KneePitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = p->left_py + 0.04519 * p->left_r23, r6 = p->left_pz + 0.04519 * p->left_r33;
-    const double r7 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
-    const double r11 = r7 + p->left_py * r5 + p->left_pz * r6;
-    const double r16 = p->left_px * p->left_px + p->left_py * p->left_py;
-    const double r19 = r11 + r11 - (r16 + p->left_pz * p->left_pz) + 0.0020421361;
-    const double r29 = r19 + (0.05 * (0.05 - r5) + -0.085 * (-0.085 - r6));
-    const double r31 = 0.02058841 - (r29 - (0.05 * r5 + -0.085 * r6));
-    const Shared2 own = { r31 };
+    const double r2 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
+    const double r5 = p->left_py * (p->left_py + 0.04519 * p->left_r23);
+    const double r8 = p->left_pz * (p->left_pz + 0.04519 * p->left_r33);
+    const double r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p->left_px * p->left_px;
+    const double r19 = r17 - p->left_py * p->left_py - p->left_pz * p->left_pz;
+    const double r23 = r19 - 0.1 * p->left_py - 0.004519 * p->left_r23;
+    const double r27 = r23 + 0.17 * p->left_pz + 0.0076823 * p->left_r33, r28 = 0.0088212739 - r27;
+    const Shared2 own = { r28 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r74;
-    double r146;
-    double r148;
-    double r149;
-    double r150;
-    double r151;
-    double r172;
-    double r173;
-    double r174;
-    double r175;
-    double r176;
-    double r177;
-    double r178;
-    double r179;
-    double r180;
-    double r182;
+    double r19;
+    double r32;
+    double r41;
+    double r54;
+    double r59;
+    double r60;
+    double r61;
+    double r63;
+    double r64;
+    double r66;
+    double r67;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
@@ -2131,13 +2114,10 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r183 = shared->r177 - shared->r176;
-    if (!is_away(r183, 10000.0 * (shared->r180 + shared->r179))) {
+    if (!is_away(shared->r63 - shared->r61, 10000.0 * shared->r66)) {
         return;
     }
-    const double r188 = shared->r74 * shared->r151 - shared->r146 * shared->r150, r190 = (0.0 - r188) / r183;
-    const double r193 = shared->r149 * shared->r150 - shared->r148 * shared->r151, r195 = (0.0 - r193) / r183;
-    const double r199 = sqrt(fmax(r195 * r195 + r190 * r190, 0.0)), left_c1 = r195 / r199, left_s1 = r190 / r199;
+    const double left_c1 = -0.0, left_s1 = -0.0;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
@@ -2151,18 +2131,17 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
  */
 static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r183 = shared->r74 * shared->r74, r184 = shared->r148 * shared->r148, r185 = r183 + r184;
-    const double r188 = shared->r172 * shared->r172 + shared->r173 * shared->r173;
-    if (!(is_near(shared->r178, shared->r182) && is_away(r185, 10000.0 * r188))) {
+    const double r68 = shared->r19 * shared->r19, r69 = shared->r32 * shared->r32, r70 = r68 + r69;
+    const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
+    if (!(is_near(shared->r64, shared->r67) && is_away(r70, 10000.0 * r73))) {
         return;
     }
-    const double choice0_0[3] = {shared->r174 * shared->r174 - r183 - r184, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r188, 0.0)));
+    const double choice0_0[3] = {0.0 - r68 - r69, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r73, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r196 = shared->r148 * shared->r174 - shared->r74 * left_w1;
-        const double r198 = (0.0 - r196) / r185, r201 = shared->r148 * left_w1 + shared->r74 * shared->r174;
-        const double r203 = (0.0 - r201) / r185, r207 = sqrt(fmax(r203 * r203 + r198 * r198, 0.0));
-        const double left_c1 = r203 / r207, left_s1 = r198 / r207;
+        const double left_w1 = roots0.values[i0], r80 = left_w1 * shared->r19 / r70;
+        const double r83 = left_w1 * shared->r32 / r70, r87 = sqrt(fmax(r83 * r83 + r80 * r80, 0.0));
+        const double left_c1 = r83 / r87, left_s1 = r80 / r87;
         Known next = NOTHING_KNOWN;
         next.branch = 1 + i0;
         next.last = 3;
@@ -2173,14 +2152,14 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 }
 
 /* Chart 3 of block 1: A = 0, B = 0, C = 0.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero and C is near zero.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch.
  */
 static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r185 = shared->r74 * shared->r74 + shared->r148 * shared->r148;
-    const double r188 = shared->r172 * shared->r172 + shared->r173 * shared->r173;
-    if (!(is_near(shared->r178, shared->r182) && is_near(r185, 1.0000000000000001e-7 * r188) && is_near(shared->r174, 0.0027))) {
+    const double r70 = shared->r19 * shared->r19 + shared->r32 * shared->r32;
+    const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
+    if (!(is_near(shared->r64, shared->r67) && is_near(r70, 1.0000000000000001e-7 * r73))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2200,18 +2179,17 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
  */
 static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r183 = shared->r146 * shared->r146, r184 = shared->r149 * shared->r149, r185 = r183 + r184;
-    const double r188 = shared->r172 * shared->r172 + shared->r173 * shared->r173;
-    if (!(is_near(shared->r178, shared->r182) && is_away(r185, 10000.0 * r188))) {
+    const double r68 = shared->r41 * shared->r41, r69 = shared->r54 * shared->r54, r70 = r68 + r69;
+    const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
+    if (!(is_near(shared->r64, shared->r67) && is_away(r70, 10000.0 * r73))) {
         return;
     }
-    const double choice0_0[3] = {shared->r175 * shared->r175 - r183 - r184, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r188, 0.0)));
+    const double choice0_0[3] = {0.0 - r68 - r69, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r73, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r196 = shared->r149 * shared->r175 - shared->r146 * left_w1;
-        const double r198 = (0.0 - r196) / r185, r201 = shared->r149 * left_w1 + shared->r146 * shared->r175;
-        const double r203 = (0.0 - r201) / r185, r207 = sqrt(fmax(r203 * r203 + r198 * r198, 0.0));
-        const double left_c1 = r203 / r207, left_s1 = r198 / r207;
+        const double left_w1 = roots0.values[i0], r80 = left_w1 * shared->r41 / r70;
+        const double r83 = left_w1 * shared->r54 / r70, r88 = sqrt(fmax(r83 * r83 + r80 * r80, 0.0));
+        const double left_c1 = 0.0 - r83 / r88, left_s1 = r80 / r88;
         Known next = NOTHING_KNOWN;
         next.branch = 4 + i0;
         next.last = 6;
@@ -2222,14 +2200,14 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
 }
 
 /* Chart 5 of block 1: A = 0, B = 0, C = 0.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero and C is near zero.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch.
  */
 static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r185 = shared->r146 * shared->r146 + shared->r149 * shared->r149;
-    const double r188 = shared->r172 * shared->r172 + shared->r173 * shared->r173;
-    if (!(is_near(shared->r178, shared->r182) && is_near(r185, 1.0000000000000001e-7 * r188) && is_near(shared->r175, 0.0027))) {
+    const double r70 = shared->r41 * shared->r41 + shared->r54 * shared->r54;
+    const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
+    if (!(is_near(shared->r64, shared->r67) && is_near(r70, 1.0000000000000001e-7 * r73))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2247,38 +2225,28 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: HipYawPitch. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r5 = p->left_py * p->left_r31 - p->left_pz * p->left_r21;
-    const double r8 = p->left_pz * p->left_r11 - p->left_px * p->left_r31;
-    const double r11 = p->left_px * p->left_r21 - p->left_py * p->left_r11;
-    const double r17 = 0.5 * p->left_r21 + -0.5 * p->left_r31, r18 = 0.0 - r17, r19 = p->left_r21 - r17;
-    const double r25 = 0.0 - (0.0 - p->left_r11);
-    const double r32 = r5 + 0.04519 * p->left_r12 - (0.05 * p->left_r31 - -0.085 * p->left_r21);
-    const double r33 = r8 + 0.04519 * p->left_r22 - -0.085 * p->left_r11;
-    const double r34 = r11 + 0.04519 * p->left_r32 - (0.0 - 0.05 * p->left_r11), r46 = 0.05 * r18;
-    const double r47 = 0.05 * (p->left_r31 - r18), r48 = 0.05 * r25;
-    const double r59 = r48 - -0.085 * r25 + (0.0 - (r34 - (0.0 - r33)));
-    const double r71 = 0.085 * r19 + r47 - (r47 - -0.085 * r19 + r32);
-    const double r73 = 0.0 - (0.085 * r17 + r46 - (r46 - -0.085 * r17)), r74 = 0.0 - r71;
-    const double r81 = p->right_py * p->right_r31 - p->right_pz * p->right_r21;
-    const double r84 = p->right_pz * p->right_r11 - p->right_px * p->right_r31;
-    const double r87 = p->right_px * p->right_r21 - p->right_py * p->right_r11;
-    const double r93 = 0.5 * p->right_r21 + 0.5 * p->right_r31, r94 = p->right_r21 - r93;
-    const double r97 = 0.0 - p->right_r11;
-    const double r106 = r81 + 0.04519 * p->right_r12 - (-0.05 * p->right_r31 - -0.085 * p->right_r21);
-    const double r107 = r84 + 0.04519 * p->right_r22 - -0.085 * p->right_r11;
-    const double r108 = r87 + 0.04519 * p->right_r32 - (0.0 - -0.05 * p->right_r11), r118 = -0.05 * r93;
-    const double r119 = -0.05 * (p->right_r31 - r93), r120 = -0.05 * (0.0 - r97);
-    const double r143 = 0.085 * r94 + r119 - (r119 - -0.085 * r94 + r106);
-    const double r144 = 0.085 * r97 + r120 - (r120 - -0.085 * r97 + (0.0 - (r108 - r107)));
-    const double r145 = 0.0 - (0.085 * r93 + r118 - (r118 - -0.085 * r93)), r146 = 0.0 - r143;
-    const double r148 = 0.7071067811865475 * (0.0 - (0.085 * r25 + r48 - r59));
-    const double r149 = 0.7071067811865475 * (0.0 - r144), r150 = 0.0 - r73, r151 = 0.0 - r145;
-    const double r153 = p->magnitude + p->magnitude + 0.72099;
-    const double r171 = 0.7071067811865475 * (r153 + 0.05 + (r153 + 0.085) + 0.135 + 0.135);
-    const double r172 = fabs(r153 + 0.135 + 0.27 + 0.27), r173 = fabs(r171), r174 = 0.0 - r150;
-    const double r175 = 0.0 - r151, r176 = r74 * r149, r177 = r148 * r146, r178 = r176 - r177;
-    const double r179 = r172 * r173, r180 = r173 * r172, r182 = 0.001 * (r179 + r180);
-    const Shared1 own = { r74, r146, r148, r149, r150, r151, r172, r173, r174, r175, r176, r177, r178, r179, r180, r182 };
+    const double r15 = 0.085 * p->left_r21 + 0.05 * p->left_r31 - p->left_py * p->left_r31;
+    const double r19 = 0.04519 * p->left_r12 - (p->left_pz * p->left_r21 + r15);
+    const double r21 = 0.7071067811865475 * (p->left_px * p->left_r21);
+    const double r23 = 0.7071067811865475 * (p->left_py * p->left_r11);
+    const double r24 = 0.09545941546018391 * p->left_r11 + r21 - r23;
+    const double r27 = 0.7071067811865475 * (p->left_pz * p->left_r11);
+    const double r28 = r24 + 0.03195415544182008 * p->left_r32 + r27;
+    const double r29 = 0.7071067811865475 * (p->left_px * p->left_r31);
+    const double r32 = r28 - r29 + 0.03195415544182008 * p->left_r22;
+    const double r37 = 0.085 * p->right_r21 - 0.05 * p->right_r31 - p->right_py * p->right_r31;
+    const double r41 = 0.04519 * p->right_r12 - (p->right_pz * p->right_r21 + r37);
+    const double r43 = 0.7071067811865475 * (p->right_px * p->right_r21);
+    const double r45 = 0.7071067811865475 * (p->right_py * p->right_r11);
+    const double r46 = 0.09545941546018391 * p->right_r11 - r43 + r45;
+    const double r49 = 0.7071067811865475 * (p->right_pz * p->right_r11);
+    const double r50 = r46 - 0.03195415544182008 * p->right_r32 + r49;
+    const double r51 = 0.7071067811865475 * (p->right_px * p->right_r31);
+    const double r54 = r50 - r51 + 0.03195415544182008 * p->right_r22;
+    const double r58 = 2.82842712474619 * p->magnitude + 1.3060120827159294;
+    const double r59 = fabs(2.0 * p->magnitude + 1.39599), r60 = fabs(r58), r61 = r19 * r54, r62 = r32 * r41;
+    const double r63 = 0.0 - r62, r64 = r61 + r62, r65 = r59 * r60, r66 = r65 + r65, r67 = 0.001 * r66;
+    const Shared1 own = { r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);

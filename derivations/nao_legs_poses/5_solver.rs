@@ -470,56 +470,34 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: HipYawPitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r5 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
-    let r8 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
-    let r11 = p.left_px * p.left_r21 - p.left_py * p.left_r11;
-    let r17 = 0.5 * p.left_r21 + -0.5 * p.left_r31;
-    let r18 = 0.0 - r17;
-    let r19 = p.left_r21 - r17;
-    let r25 = 0.0 - (0.0 - p.left_r11);
-    let r32 = r5 + 0.04519 * p.left_r12 - (0.05 * p.left_r31 - -0.085 * p.left_r21);
-    let r33 = r8 + 0.04519 * p.left_r22 - -0.085 * p.left_r11;
-    let r34 = r11 + 0.04519 * p.left_r32 - (0.0 - 0.05 * p.left_r11);
-    let r46 = 0.05 * r18;
-    let r47 = 0.05 * (p.left_r31 - r18);
-    let r48 = 0.05 * r25;
-    let r59 = r48 - -0.085 * r25 + (0.0 - (r34 - (0.0 - r33)));
-    let r71 = 0.085 * r19 + r47 - (r47 - -0.085 * r19 + r32);
-    let r73 = 0.0 - (0.085 * r17 + r46 - (r46 - -0.085 * r17));
-    let r74 = 0.0 - r71;
-    let r81 = p.right_py * p.right_r31 - p.right_pz * p.right_r21;
-    let r84 = p.right_pz * p.right_r11 - p.right_px * p.right_r31;
-    let r87 = p.right_px * p.right_r21 - p.right_py * p.right_r11;
-    let r93 = 0.5 * p.right_r21 + 0.5 * p.right_r31;
-    let r94 = p.right_r21 - r93;
-    let r97 = 0.0 - p.right_r11;
-    let r106 = r81 + 0.04519 * p.right_r12 - (-0.05 * p.right_r31 - -0.085 * p.right_r21);
-    let r107 = r84 + 0.04519 * p.right_r22 - -0.085 * p.right_r11;
-    let r108 = r87 + 0.04519 * p.right_r32 - (0.0 - -0.05 * p.right_r11);
-    let r118 = -0.05 * r93;
-    let r119 = -0.05 * (p.right_r31 - r93);
-    let r120 = -0.05 * (0.0 - r97);
-    let r143 = 0.085 * r94 + r119 - (r119 - -0.085 * r94 + r106);
-    let r144 = 0.085 * r97 + r120 - (r120 - -0.085 * r97 + (0.0 - (r108 - r107)));
-    let r145 = 0.0 - (0.085 * r93 + r118 - (r118 - -0.085 * r93));
-    let r146 = 0.0 - r143;
-    let r148 = 0.7071067811865475 * (0.0 - (0.085 * r25 + r48 - r59));
-    let r149 = 0.7071067811865475 * (0.0 - r144);
-    let r150 = 0.0 - r73;
-    let r151 = 0.0 - r145;
-    let r153 = p.magnitude + p.magnitude + 0.72099;
-    let r171 = 0.7071067811865475 * (r153 + 0.05 + (r153 + 0.085) + 0.135 + 0.135);
-    let r172 = f64::abs(r153 + 0.135 + 0.27 + 0.27);
-    let r173 = f64::abs(r171);
-    let r174 = 0.0 - r150;
-    let r175 = 0.0 - r151;
-    let r176 = r74 * r149;
-    let r177 = r148 * r146;
-    let r178 = r176 - r177;
-    let r179 = r172 * r173;
-    let r180 = r173 * r172;
-    let r182 = 0.001 * (r179 + r180);
-    let shared = &Shared1 { r74, r146, r148, r149, r150, r151, r172, r173, r174, r175, r176, r177, r178, r179, r180, r182 };
+    let r15 = 0.085 * p.left_r21 + 0.05 * p.left_r31 - p.left_py * p.left_r31;
+    let r19 = 0.04519 * p.left_r12 - (p.left_pz * p.left_r21 + r15);
+    let r21 = 0.7071067811865475 * (p.left_px * p.left_r21);
+    let r23 = 0.7071067811865475 * (p.left_py * p.left_r11);
+    let r26 = 0.09545941546018391 * p.left_r11 + r21 - r23 + 0.03195415544182008 * p.left_r32;
+    let r27 = 0.7071067811865475 * (p.left_pz * p.left_r11);
+    let r29 = 0.7071067811865475 * (p.left_px * p.left_r31);
+    let r32 = r26 + r27 - r29 + 0.03195415544182008 * p.left_r22;
+    let r37 = 0.085 * p.right_r21 - 0.05 * p.right_r31 - p.right_py * p.right_r31;
+    let r41 = 0.04519 * p.right_r12 - (p.right_pz * p.right_r21 + r37);
+    let r43 = 0.7071067811865475 * (p.right_px * p.right_r21);
+    let r45 = 0.7071067811865475 * (p.right_py * p.right_r11);
+    let r46 = 0.09545941546018391 * p.right_r11 - r43 + r45;
+    let r49 = 0.7071067811865475 * (p.right_pz * p.right_r11);
+    let r50 = r46 - 0.03195415544182008 * p.right_r32 + r49;
+    let r51 = 0.7071067811865475 * (p.right_px * p.right_r31);
+    let r54 = r50 - r51 + 0.03195415544182008 * p.right_r22;
+    let r58 = 2.82842712474619 * p.magnitude + 1.3060120827159294;
+    let r59 = f64::abs(2.0 * p.magnitude + 1.39599);
+    let r60 = f64::abs(r58);
+    let r61 = r19 * r54;
+    let r62 = r32 * r41;
+    let r63 = 0.0 - r62;
+    let r64 = r61 + r62;
+    let r65 = r59 * r60;
+    let r66 = r65 + r65;
+    let r67 = 0.001 * r66;
+    let shared = &Shared1 { r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67 };
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
     chart_1_3(p, shared, answers);
@@ -529,38 +507,27 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r74: f64,
-    r146: f64,
-    r148: f64,
-    r149: f64,
-    r150: f64,
-    r151: f64,
-    r172: f64,
-    r173: f64,
-    r174: f64,
-    r175: f64,
-    r176: f64,
-    r177: f64,
-    r178: f64,
-    r179: f64,
-    r180: f64,
-    r182: f64,
+    r19: f64,
+    r32: f64,
+    r41: f64,
+    r54: f64,
+    r59: f64,
+    r60: f64,
+    r61: f64,
+    r63: f64,
+    r64: f64,
+    r66: f64,
+    r67: f64,
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where B*E - A*F is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r183 = shared.r177 - shared.r176;
-    if !is_away(r183, 10000.0 * (shared.r180 + shared.r179)) {
+    if !is_away(shared.r63 - shared.r61, 10000.0 * shared.r66) {
         return;
     }
-    let r188 = shared.r74 * shared.r151 - shared.r146 * shared.r150;
-    let r190 = (0.0 - r188) / r183;
-    let r193 = shared.r149 * shared.r150 - shared.r148 * shared.r151;
-    let r195 = (0.0 - r193) / r183;
-    let r199 = f64::max(r195 * r195 + r190 * r190, 0.0).sqrt();
-    let left_c1 = r195 / r199;
-    let left_s1 = r190 / r199;
+    let left_c1 = -0.0;
+    let left_s1 = -0.0;
     let next = Known { branch: 0, last: 1, left_c1, left_s1, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
@@ -568,38 +535,32 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 2 of block 1: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r183 = shared.r74 * shared.r74;
-    let r184 = shared.r148 * shared.r148;
-    let r185 = r183 + r184;
-    let r188 = shared.r172 * shared.r172 + shared.r173 * shared.r173;
-    if !(is_near(shared.r178, shared.r182) && is_away(r185, 10000.0 * r188)) {
+    let r68 = shared.r19 * shared.r19;
+    let r69 = shared.r32 * shared.r32;
+    let r70 = r68 + r69;
+    let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
+    if !(is_near(shared.r64, shared.r67) && is_away(r70, 10000.0 * r73)) {
         return;
     }
-    let roots0 = real_roots(&[
-        shared.r174 * shared.r174 - r183 - r184,
-        0.0,
-        1.0,
-    ], f64::max(r188, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r68 - r69, 0.0, 1.0], f64::max(r73, 0.0).sqrt());
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r196 = shared.r148 * shared.r174 - shared.r74 * left_w1;
-        let r198 = (0.0 - r196) / r185;
-        let r201 = shared.r148 * left_w1 + shared.r74 * shared.r174;
-        let r203 = (0.0 - r201) / r185;
-        let r207 = f64::max(r203 * r203 + r198 * r198, 0.0).sqrt();
-        let left_c1 = r203 / r207;
-        let left_s1 = r198 / r207;
+        let r80 = left_w1 * shared.r19 / r70;
+        let r83 = left_w1 * shared.r32 / r70;
+        let r87 = f64::max(r83 * r83 + r80 * r80, 0.0).sqrt();
+        let left_c1 = r83 / r87;
+        let left_s1 = r80 / r87;
         let next = Known { branch: 1 + i0, last: 3, left_c1, left_s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
 }
 
 /// Chart 3 of block 1: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero and C is near zero.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
 fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r185 = shared.r74 * shared.r74 + shared.r148 * shared.r148;
-    let r188 = shared.r172 * shared.r172 + shared.r173 * shared.r173;
-    if !(is_near(shared.r178, shared.r182) && is_near(r185, 1.0000000000000001e-7 * r188) && is_near(shared.r174, 0.0027)) {
+    let r70 = shared.r19 * shared.r19 + shared.r32 * shared.r32;
+    let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
+    if !(is_near(shared.r64, shared.r67) && is_near(r70, 1.0000000000000001e-7 * r73)) {
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
@@ -611,38 +572,32 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 4 of block 1: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r183 = shared.r146 * shared.r146;
-    let r184 = shared.r149 * shared.r149;
-    let r185 = r183 + r184;
-    let r188 = shared.r172 * shared.r172 + shared.r173 * shared.r173;
-    if !(is_near(shared.r178, shared.r182) && is_away(r185, 10000.0 * r188)) {
+    let r68 = shared.r41 * shared.r41;
+    let r69 = shared.r54 * shared.r54;
+    let r70 = r68 + r69;
+    let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
+    if !(is_near(shared.r64, shared.r67) && is_away(r70, 10000.0 * r73)) {
         return;
     }
-    let roots0 = real_roots(&[
-        shared.r175 * shared.r175 - r183 - r184,
-        0.0,
-        1.0,
-    ], f64::max(r188, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r68 - r69, 0.0, 1.0], f64::max(r73, 0.0).sqrt());
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r196 = shared.r149 * shared.r175 - shared.r146 * left_w1;
-        let r198 = (0.0 - r196) / r185;
-        let r201 = shared.r149 * left_w1 + shared.r146 * shared.r175;
-        let r203 = (0.0 - r201) / r185;
-        let r207 = f64::max(r203 * r203 + r198 * r198, 0.0).sqrt();
-        let left_c1 = r203 / r207;
-        let left_s1 = r198 / r207;
+        let r80 = left_w1 * shared.r41 / r70;
+        let r83 = left_w1 * shared.r54 / r70;
+        let r88 = f64::max(r83 * r83 + r80 * r80, 0.0).sqrt();
+        let left_c1 = 0.0 - r83 / r88;
+        let left_s1 = r80 / r88;
         let next = Known { branch: 4 + i0, last: 6, left_c1, left_s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
 }
 
 /// Chart 5 of block 1: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero and C is near zero.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
 fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r185 = shared.r146 * shared.r146 + shared.r149 * shared.r149;
-    let r188 = shared.r172 * shared.r172 + shared.r173 * shared.r173;
-    if !(is_near(shared.r178, shared.r182) && is_near(r185, 1.0000000000000001e-7 * r188) && is_near(shared.r175, 0.0027)) {
+    let r70 = shared.r41 * shared.r41 + shared.r54 * shared.r54;
+    let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
+    if !(is_near(shared.r64, shared.r67) && is_near(r70, 1.0000000000000001e-7 * r73)) {
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
@@ -653,33 +608,33 @@ fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: KneePitch.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.left_py + 0.04519 * p.left_r23;
-    let r6 = p.left_pz + 0.04519 * p.left_r33;
-    let r7 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
-    let r11 = r7 + p.left_py * r5 + p.left_pz * r6;
-    let r16 = p.left_px * p.left_px + p.left_py * p.left_py;
-    let r19 = r11 + r11 - (r16 + p.left_pz * p.left_pz) + 0.0020421361;
-    let r29 = r19 + (0.05 * (0.05 - r5) + -0.085 * (-0.085 - r6));
-    let r31 = 0.02058841 - (r29 - (0.05 * r5 + -0.085 * r6));
-    let shared = &Shared2 { r31 };
+    let r2 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
+    let r5 = p.left_py * (p.left_py + 0.04519 * p.left_r23);
+    let r8 = p.left_pz * (p.left_pz + 0.04519 * p.left_r33);
+    let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.left_px * p.left_px;
+    let r19 = r17 - p.left_py * p.left_py - p.left_pz * p.left_pz;
+    let r23 = r19 - 0.1 * p.left_py - 0.004519 * p.left_r23;
+    let r27 = r23 + 0.17 * p.left_pz + 0.0076823 * p.left_r33;
+    let r28 = 0.0088212739 - r27;
+    let shared = &Shared2 { r28 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r31: f64,
+    r28: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r33 = shared.r31 * shared.r31 - 0.00042353640000000005;
-    let roots0 = real_roots(&[r33, 0.0, 1.0], 1.4142135623730951);
+    let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
+    let roots0 = real_roots(&[r30, 0.0, 1.0], 1.4142135623730951);
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r37 = (0.0 - (0.0 - 0.02058 * left_w4)) / 0.00042353640000000005;
-        let r40 = (0.0 - 0.02058 * shared.r31) / 0.00042353640000000005;
-        let r44 = f64::max(r40 * r40 + r37 * r37, 0.0).sqrt();
-        let left_c4 = r40 / r44;
-        let left_s4 = r37 / r44;
+        let r32 = 0.02058 * left_w4 / 0.00042353640000000005;
+        let r34 = 0.02058 * shared.r28 / 0.00042353640000000005;
+        let r38 = f64::max(r34 * r34 + r32 * r32, 0.0).sqrt();
+        let left_c4 = 0.0 - r34 / r38;
+        let left_s4 = r32 / r38;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, left_c4, left_s4, ..*known };
         block_3(p, &next, answers);
     }
@@ -687,29 +642,24 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: AnkleRoll.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s1;
-    let r1 = 0.0 - p.left_r13;
-    let r2 = 0.0 - p.left_r23;
-    let r3 = 0.0 - p.left_r33;
-    let r10 = p.left_px * p.left_r12 + p.left_py * p.left_r22;
-    let r13 = p.left_px * r1 + p.left_py * r2 + p.left_pz * r3;
-    let r21 = 0.05 * p.left_r22 + -0.085 * p.left_r32 - (r10 + p.left_pz * p.left_r32);
-    let r23 = 0.0 - r21;
-    let r24 = 0.0 - (0.05 * r2 + -0.085 * r3 - (r13 - 0.04519));
-    let r49 = (0.0 - (p.left_r32 - (0.0 - p.left_r22))) * r0;
-    let r52 = r1 * known.left_c1 + (0.0 - (r3 - (0.0 - r2))) * r0;
-    let r67 = 0.0 - (p.left_r12 * known.left_c1 + r49);
-    let r68 = 0.0 - r52;
-    let r70 = p.magnitude + p.magnitude + p.magnitude;
-    let r75 = f64::abs(r70 + 0.1 + 0.135);
-    let r76 = f64::abs(r70 + 0.62099 + 0.135);
-    let r77 = r23 * r68;
-    let r78 = r24 * r67;
-    let r79 = r77 - r78;
-    let r80 = 3.0 * r75;
-    let r81 = 3.0 * r76;
-    let r83 = 0.001 * (r80 + r81);
-    let shared = &Shared3 { r23, r24, r67, r68, r75, r76, r77, r78, r79, r80, r81, r83 };
+    let r15 = 0.05 * p.left_r22 - 0.085 * p.left_r32 - p.left_px * p.left_r12;
+    let r17 = p.left_pz * p.left_r32 - (r15 - p.left_py * p.left_r22);
+    let r21 = 0.05 * p.left_r23 - 0.085 * p.left_r33 - p.left_px * p.left_r13;
+    let r23 = r21 - p.left_py * p.left_r23 - p.left_pz * p.left_r33;
+    let r24 = r23 - 0.04519;
+    let r25 = 0.7071067811865475 * (known.left_s1 * (p.left_r22 + p.left_r32));
+    let r26 = r25 - p.left_r12 * known.left_c1;
+    let r27 = 0.7071067811865475 * (known.left_s1 * (p.left_r23 + p.left_r33));
+    let r28 = p.left_r13 * known.left_c1 - r27;
+    let r29 = 3.0 * p.magnitude;
+    let r32 = f64::abs(r29 + 0.235);
+    let r33 = f64::abs(r29 + 0.75599);
+    let r34 = r17 * r28;
+    let r35 = r24 * r26;
+    let r36 = r34 - r35;
+    let r39 = 3.0 * r32 + 3.0 * r33;
+    let r40 = 0.001 * r39;
+    let shared = &Shared3 { r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
     chart_3_3(p, known, shared, answers);
@@ -719,32 +669,27 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r23: f64,
+    r17: f64,
     r24: f64,
-    r67: f64,
-    r68: f64,
-    r75: f64,
-    r76: f64,
-    r77: f64,
-    r78: f64,
-    r79: f64,
-    r80: f64,
-    r81: f64,
-    r83: f64,
+    r26: f64,
+    r28: f64,
+    r32: f64,
+    r33: f64,
+    r34: f64,
+    r35: f64,
+    r36: f64,
+    r39: f64,
+    r40: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where B*E - A*F is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r84 = shared.r78 - shared.r77;
-    if !is_away(r84, 10000.0 * (shared.r81 + shared.r80)) {
+    if !is_away(shared.r35 - shared.r34, 10000.0 * shared.r39) {
         return;
     }
-    let r87 = -0.0 / r84;
-    let r88 = r87 * r87;
-    let r91 = r87 / f64::max(r88 + r88, 0.0).sqrt();
-    let left_c6 = r91;
-    let left_s6 = r91;
+    let left_c6 = -0.0;
+    let left_s6 = -0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, left_c6, left_s6, ..*known };
     block_4(p, &next, answers);
 }
@@ -752,20 +697,20 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r84 = shared.r23 * shared.r23;
-    let r85 = shared.r24 * shared.r24;
-    let r86 = r84 + r85;
-    let r89 = shared.r75 * shared.r75 + shared.r76 * shared.r76;
-    if !(is_near(shared.r79, shared.r83) && is_away(r86, 10000.0 * r89)) {
+    let r41 = shared.r17 * shared.r17;
+    let r42 = shared.r24 * shared.r24;
+    let r43 = r41 + r42;
+    let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
+    if !(is_near(shared.r36, shared.r40) && is_away(r43, 10000.0 * r46)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r84 - r85, 0.0, 1.0], f64::max(r89, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r41 - r42, 0.0, 1.0], f64::max(r46, 0.0).sqrt());
     for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r97 = (0.0 - (0.0 - shared.r23 * left_w6)) / r86;
-        let r100 = (0.0 - shared.r24 * left_w6) / r86;
-        let r104 = f64::max(r100 * r100 + r97 * r97, 0.0).sqrt();
-        let left_c6 = r100 / r104;
-        let left_s6 = r97 / r104;
+        let r52 = left_w6 * shared.r17 / r43;
+        let r54 = left_w6 * shared.r24 / r43;
+        let r58 = f64::max(r54 * r54 + r52 * r52, 0.0).sqrt();
+        let left_c6 = 0.0 - r54 / r58;
+        let left_s6 = r52 / r58;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, left_c6, left_s6, ..*known };
         block_4(p, &next, answers);
     }
@@ -775,9 +720,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
 fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r86 = shared.r23 * shared.r23 + shared.r24 * shared.r24;
-    let r89 = shared.r75 * shared.r75 + shared.r76 * shared.r76;
-    if !(is_near(shared.r79, shared.r83) && is_near(r86, 1.0000000000000001e-7 * r89)) {
+    let r43 = shared.r17 * shared.r17 + shared.r24 * shared.r24;
+    let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
+    if !(is_near(shared.r36, shared.r40) && is_near(r43, 1.0000000000000001e-7 * r46)) {
         return;
     }
     for [left_c6, left_s6] in SAMPLES_1 {
@@ -789,19 +734,19 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 4 of block 3: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r84 = shared.r67 * shared.r67;
-    let r85 = shared.r68 * shared.r68;
-    let r86 = r84 + r85;
-    if !(is_near(shared.r79, shared.r83) && is_away(r86, 180000.0)) {
+    let r41 = shared.r26 * shared.r26;
+    let r42 = shared.r28 * shared.r28;
+    let r43 = r41 + r42;
+    if !(is_near(shared.r36, shared.r40) && is_away(r43, 180000.0)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r84 - r85, 0.0, 1.0], 4.242640687119285);
+    let roots0 = real_roots(&[0.0 - r41 - r42, 0.0, 1.0], 4.242640687119285);
     for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r92 = (0.0 - (0.0 - shared.r67 * left_w6)) / r86;
-        let r95 = (0.0 - shared.r68 * left_w6) / r86;
-        let r99 = f64::max(r95 * r95 + r92 * r92, 0.0).sqrt();
-        let left_c6 = r95 / r99;
-        let left_s6 = r92 / r99;
+        let r47 = left_w6 * shared.r26 / r43;
+        let r49 = left_w6 * shared.r28 / r43;
+        let r53 = f64::max(r49 * r49 + r47 * r47, 0.0).sqrt();
+        let left_c6 = 0.0 - r49 / r53;
+        let left_s6 = r47 / r53;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, left_c6, left_s6, ..*known };
         block_4(p, &next, answers);
     }
@@ -811,8 +756,8 @@ fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
 fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r86 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
-    if !(is_near(shared.r79, shared.r83) && is_near(r86, 1.8000000000000001e-6)) {
+    let r43 = shared.r26 * shared.r26 + shared.r28 * shared.r28;
+    if !(is_near(shared.r36, shared.r40) && is_near(r43, 1.8000000000000001e-6)) {
         return;
     }
     for [left_c6, left_s6] in SAMPLES_1 {
@@ -823,80 +768,65 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: AnklePitch.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.1029 * known.left_s6;
-    let r2 = 0.1029 * known.left_c6;
-    let r3 = 0.05 * r1;
-    let r5 = r3 + -0.2879 * r2;
-    let r12 = -0.1029 * p.left_r21;
-    let r16 = r1 * p.left_r22 + r2 * p.left_r23;
-    let r17 = -0.1029 * p.left_r31;
-    let r21 = r1 * p.left_r32 + r2 * p.left_r33;
-    let r23 = p.left_py + 0.04519 * p.left_r23;
-    let r24 = p.left_pz + 0.04519 * p.left_r33;
-    let r26 = r3 + -0.33309 * r2;
-    let r29 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
-    let r30 = p.left_px * (r1 * p.left_r12 + r2 * p.left_r13);
-    let r40 = p.left_px * (-0.1029 * p.left_r11) + p.left_py * r12;
-    let r41 = r29 + p.left_py * r23 + p.left_pz * r24;
-    let r42 = r30 + p.left_py * r16 + p.left_pz * r21;
-    let r43 = r40 + p.left_pz * r17;
-    let r50 = p.left_px * p.left_px + p.left_py * p.left_py;
-    let r53 = r41 + r41 - (r50 + p.left_pz * p.left_pz) + 0.0126305461;
-    let r70 = 0.05 * (0.05 - r23) + -0.085 * (-0.085 - r24);
-    let r83 = r5 + r5 - (r26 + r26) + (r42 + r42) + (0.05 * (0.0 - r16) + -0.085 * (0.0 - r21));
-    let r84 = r43 + r43 + (0.05 * (0.0 - r12) + -0.085 * (0.0 - r17));
-    let r88 = 0.01 - (r53 + r70 - (0.05 * r23 + -0.085 * r24));
-    let r89 = 0.0 - (r83 - (0.05 * r16 + -0.085 * r21));
-    let r94 = -0.085 * known.left_s4 - -0.185 * known.left_s4;
-    let r136 = 0.0 - (0.0 - (r84 - (0.05 * r12 + -0.085 * r17)));
-    let r137 = 0.0 - r88;
-    let r138 = -0.2058 * r94;
-    let r139 = p.magnitude + 2.27259;
-    let r140 = p.magnitude * r139;
-    let r141 = 1.3458 * p.magnitude;
-    let r142 = 1.4187 * p.magnitude;
-    let r146 = r140 + r140 + r140;
-    let r147 = r141 + r141 + r141;
-    let r148 = r142 + r142 + r142;
-    let r152 = p.magnitude * p.magnitude;
-    let r156 = r146 + r146 + (r152 + r152 + r152) + 2.4510423541;
-    let r162 = 0.05 * (r139 + 0.05) + 0.085 * (r139 + 0.085);
-    let r170 = r147 + r147 + 1.554899982 + 0.181683 + 0.181683;
-    let r172 = r156 + r162 + (0.05 * r139 + 0.085 * r139) + 0.0829;
-    let r184 = f64::abs(r170);
-    let r185 = f64::abs(0.0 - (r148 + r148 + 0.1915245 + 0.1915245));
-    let r186 = f64::abs(0.0 - r172);
-    let shared = &Shared4 { r89, r136, r137, r138, r184, r185, r186 };
+    let r2 = p.left_r22 * known.left_s6;
+    let r3 = p.left_r23 * known.left_c6;
+    let r4 = p.left_r32 * known.left_s6;
+    let r5 = p.left_r33 * known.left_c6;
+    let r8 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
+    let r9 = p.left_r12 * known.left_s6 + p.left_r13 * known.left_c6;
+    let r14 = p.left_py * (p.left_py + 0.04519 * p.left_r23);
+    let r20 = p.left_pz * (p.left_pz + 0.04519 * p.left_r33);
+    let r29 = 0.009300102 * known.left_c6 + 0.2058 * (p.left_px * r9);
+    let r33 = r29 + 0.2058 * (p.left_py * (r2 + r3)) + 0.2058 * (p.left_pz * (r4 + r5));
+    let r39 = r33 - 0.01029 * r2 - 0.01029 * r3 + 0.017493 * r4;
+    let r41 = r39 + 0.017493 * r5;
+    let r44 = 0.2058 * (p.left_px * p.left_r11) + 0.2058 * (p.left_py * p.left_r21);
+    let r48 = r44 + 0.2058 * (p.left_pz * p.left_r31) - 0.01029 * p.left_r21;
+    let r50 = r48 + 0.017493 * p.left_r31;
+    let r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p.left_px * p.left_px;
+    let r58 = r56 - p.left_py * p.left_py - p.left_pz * p.left_pz;
+    let r62 = r58 - 0.1 * p.left_py - 0.004519 * p.left_r23;
+    let r66 = r62 + 0.17 * p.left_pz + 0.0076823 * p.left_r33;
+    let r67 = r66 + 0.0123555461;
+    let r68 = 0.02058 * known.left_s4;
+    let r69 = 0.0 - r68;
+    let r77 = 6.0 * (p.magnitude * (p.magnitude + 2.27259));
+    let r81 = r77 + 3.0 * (p.magnitude * p.magnitude) + 0.27 * p.magnitude;
+    let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
+    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049);
+    let r85 = f64::abs(r81 + 3.1572666541);
+    let shared = &Shared4 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r89: f64,
-    r136: f64,
-    r137: f64,
-    r138: f64,
-    r184: f64,
-    r185: f64,
-    r186: f64,
+    r41: f64,
+    r50: f64,
+    r67: f64,
+    r68: f64,
+    r69: f64,
+    r83: f64,
+    r84: f64,
+    r85: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r189 = shared.r89 * shared.r89 + shared.r136 * shared.r136;
-    let r192 = shared.r184 * shared.r184 + shared.r185 * shared.r185;
-    if !is_away(r189, 10000.0 * r192) {
+    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
+    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
+    if !is_away(r88, 10000.0 * r91) {
         return;
     }
-    let r196 = shared.r136 * shared.r137 - shared.r89 * shared.r138;
-    let r198 = (0.0 - r196) / r189;
-    let r202 = 0.0 - shared.r89 * shared.r137 - shared.r136 * shared.r138;
-    let r204 = (0.0 - r202) / r189;
-    let r208 = f64::max(r204 * r204 + r198 * r198, 0.0).sqrt();
-    let left_c5 = r204 / r208;
-    let left_s5 = r198 / r208;
+    let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
+    let r97 = r96 / r88;
+    let r100 = shared.r50 * shared.r68 - shared.r41 * shared.r67;
+    let r101 = r100 / r88;
+    let r105 = f64::max(r101 * r101 + r97 * r97, 0.0).sqrt();
+    let left_c5 = r101 / r105;
+    let left_s5 = r97 / r105;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, left_c5, left_s5, ..*known };
     block_5(p, &next, answers);
 }
@@ -905,9 +835,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r189 = shared.r89 * shared.r89 + shared.r136 * shared.r136;
-    let r192 = shared.r184 * shared.r184 + shared.r185 * shared.r185;
-    if !(is_near(r189, 1.0000000000000001e-7 * r192) && is_near(shared.r138, 0.00055566) && is_near(shared.r137, 0.01 * shared.r186)) {
+    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
+    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
+    if !(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared.r69, 0.00055566) && is_near(shared.r67, 0.01 * shared.r85)) {
         return;
     }
     for [left_c5, left_s5] in SAMPLES_1 {
@@ -918,114 +848,107 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: HipRoll.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - known.left_s6;
-    let r7 = known.left_c6 * p.left_r22 + r1 * p.left_r23;
-    let r10 = known.left_c6 * p.left_r32 + r1 * p.left_r33;
-    let r13 = 0.5 * r7 + -0.5 * r10;
-    let r14 = 0.0 - r13;
-    let r19 = 0.0 - (known.left_c6 * p.left_r12 + r1 * p.left_r13);
-    let r26 = (0.0 - r19) * (0.7071067811865475 * known.left_s1);
-    let r32 = 0.0 - (r14 + ((r10 - r14) * known.left_c1 + r26));
-    let r33 = 0.0 - (r13 + ((r7 - r13) * known.left_c1 + r26));
-    let r35 = 0.0 - r32;
-    let r36 = 0.0 - (0.0 - r33);
-    let shared = &Shared5 { r35, r36 };
+    let r2 = p.left_r22 * known.left_c6;
+    let r3 = p.left_r23 * known.left_s6;
+    let r4 = p.left_r32 * known.left_c6;
+    let r5 = p.left_r33 * known.left_s6;
+    let r6 = p.left_r12 * known.left_c6 - p.left_r13 * known.left_s6;
+    let r22 = 0.5 * r2 - 0.5 * r3 - 0.5 * r4 + 0.5 * r5;
+    let r23 = 0.5 * (known.left_c1 * (r2 + (r4 - r5) - r3));
+    let r25 = 0.7071067811865475 * (known.left_s1 * r6);
+    let r26 = r25 - (r22 - r23);
+    let r27 = 0.5 * (known.left_c1 * (r4 + (r2 - r3) - r5));
+    let r29 = r25 + (r22 + r27);
+    let shared = &Shared5 { r26, r29 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r35: f64,
-    r36: f64,
+    r26: f64,
+    r29: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r38 = 0.0 - (0.0 - shared.r35);
-    let r41 = 0.0 - (-0.0 - (0.0 - shared.r36));
-    let r45 = f64::max(r41 * r41 + r38 * r38, 0.0).sqrt();
-    let left_c2 = r41 / r45;
-    let left_s2 = r38 / r45;
+    let r32 = shared.r29 * shared.r29 + shared.r26 * shared.r26;
+    let r33 = f64::max(r32, 0.0).sqrt();
+    let left_c2 = shared.r29 / r33;
+    let left_s2 = shared.r26 / r33;
     let next = Known { branch: known.branch, last: known.last, left_c2, left_s2, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: HipPitch.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s1;
-    let r1 = -0.1029 * known.left_s5;
-    let r4 = 0.1029 * known.left_c5 - 0.2879 + 0.2879;
-    let r11 = r1 + (r1 - r1) * known.left_c6;
-    let r14 = (0.0 - (0.0 - r4)) * known.left_s6 + 0.05 - 0.05;
-    let r15 = r4 * known.left_c6 - 0.2879 + 0.33309;
-    let r20 = r11 * p.left_r11 + r14 * p.left_r12 + r15 * p.left_r13;
-    let r25 = r11 * p.left_r21 + r14 * p.left_r22 + r15 * p.left_r23;
-    let r30 = r11 * p.left_r31 + r14 * p.left_r32 + r15 * p.left_r33;
-    let r43 = p.left_pz + r30 + 0.085 - (0.0 - (p.left_py + r25 - 0.05));
-    let r49 = (p.left_px + r20) * known.left_c1 + (0.0 - r43) * r0;
-    let r60 = 0.0 - known.left_c4;
-    let r61 = 0.0 - known.left_s4;
-    let r67 = r60 * known.left_c5 + (0.0 - r61) * known.left_s5;
-    let r70 = r61 * known.left_c5 + (0.0 - (0.0 - r60)) * known.left_s5;
-    let r75 = (0.0 - (0.0 - r70)) * known.left_s6;
-    let r76 = r70 * known.left_c6;
-    let r77 = r67 + (r67 - r67) * known.left_c6;
-    let r82 = r77 * p.left_r11 + r75 * p.left_r12 + r76 * p.left_r13;
-    let r87 = r77 * p.left_r21 + r75 * p.left_r22 + r76 * p.left_r23;
-    let r92 = r77 * p.left_r31 + r75 * p.left_r32 + r76 * p.left_r33;
-    let r106 = r82 * known.left_c1 + (0.0 - (r92 - (0.0 - r87))) * r0;
-    let r115 = 0.0 - (0.0 - r49);
-    let r116 = 0.1 * (0.0 - r106);
-    let shared = &Shared6 { r115, r116 };
+    let r0 = known.left_c5 * known.left_s6;
+    let r5 = 0.1029 * (known.left_c5 * known.left_c6) + 0.04519;
+    let r14 = p.left_px - 0.1029 * (p.left_r11 * known.left_s5);
+    let r17 = p.left_r13 * r5 + (r14 + 0.1029 * (p.left_r12 * r0));
+    let r20 = p.left_pz - 0.1029 * (p.left_r31 * known.left_s5);
+    let r23 = p.left_r33 * r5 + (r20 + 0.1029 * (p.left_r32 * r0));
+    let r26 = p.left_py + r23 - 0.1029 * (p.left_r21 * known.left_s5);
+    let r29 = p.left_r23 * r5 + (r26 + 0.1029 * (p.left_r22 * r0));
+    let r36 = known.left_s4 * known.left_c5 + known.left_c4 * known.left_s5;
+    let r37 = known.left_s6 * r36;
+    let r38 = known.left_c6 * r36;
+    let r39 = known.left_c4 * known.left_c5 - known.left_s4 * known.left_s5;
+    let r50 = p.left_r13 * r38 + (p.left_r11 * r39 + p.left_r12 * r37);
+    let r53 = p.left_r33 * r38 + (p.left_r31 * r39 + p.left_r32 * r37);
+    let r56 = p.left_r23 * r38 + (p.left_r22 * r37 + (p.left_r21 * r39 + r53));
+    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035));
+    let r59 = known.left_c1 * r17 - r58;
+    let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
+    let shared = &Shared6 { r59, r62 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r115: f64,
-    r116: f64,
+    r59: f64,
+    r62: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r137 = (0.0 - 0.1 * shared.r115) / 0.010000000000000002;
-    let r141 = (0.0 - (-0.0 - 0.1 * shared.r116)) / 0.010000000000000002;
-    let r145 = f64::max(r141 * r141 + r137 * r137, 0.0).sqrt();
-    let left_c3 = r141 / r145;
-    let left_s3 = r137 / r145;
+    let r64 = 0.1 * shared.r59 / 0.010000000000000002;
+    let r66 = 0.1 * shared.r62 / 0.010000000000000002;
+    let r70 = f64::max(r66 * r66 + r64 * r64, 0.0).sqrt();
+    let left_c3 = r66 / r70;
+    let left_s3 = 0.0 - r64 / r70;
     let next = Known { branch: known.branch, last: known.last, left_c3, left_s3, ..*known };
     block_7(p, &next, answers);
 }
 
 /// Block 7: KneePitch.
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.right_py + 0.04519 * p.right_r23;
-    let r6 = p.right_pz + 0.04519 * p.right_r33;
-    let r7 = p.right_px * (p.right_px + 0.04519 * p.right_r13);
-    let r11 = r7 + p.right_py * r5 + p.right_pz * r6;
-    let r16 = p.right_px * p.right_px + p.right_py * p.right_py;
-    let r19 = r11 + r11 - (r16 + p.right_pz * p.right_pz) + 0.0020421361;
-    let r25 = -0.05 * (-0.05 - r5) + -0.085 * (-0.085 - r6);
-    let r31 = 0.02058841 - (r19 + r25 - (-0.05 * r5 + -0.085 * r6));
-    let shared = &Shared7 { r31 };
+    let r2 = p.right_px * (p.right_px + 0.04519 * p.right_r13);
+    let r5 = p.right_py * (p.right_py + 0.04519 * p.right_r23);
+    let r8 = p.right_pz * (p.right_pz + 0.04519 * p.right_r33);
+    let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.right_px * p.right_px;
+    let r19 = r17 - p.right_py * p.right_py - p.right_pz * p.right_pz;
+    let r23 = r19 + 0.1 * p.right_py + 0.004519 * p.right_r23;
+    let r27 = r23 + 0.17 * p.right_pz + 0.0076823 * p.right_r33;
+    let r28 = 0.0088212739 - r27;
+    let shared = &Shared7 { r28 };
     chart_7_1(p, known, shared, answers);
 }
 
 /// What the charts of block 7 share.
 struct Shared7 {
-    r31: f64,
+    r28: f64,
 }
 
 /// Chart 1 of block 7: generic.
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r33 = shared.r31 * shared.r31 - 0.00042353640000000005;
-    let roots0 = real_roots(&[r33, 0.0, 1.0], 1.4142135623730951);
+    let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
+    let roots0 = real_roots(&[r30, 0.0, 1.0], 1.4142135623730951);
     for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
-        let r37 = (0.0 - (0.0 - 0.02058 * right_w4)) / 0.00042353640000000005;
-        let r40 = (0.0 - 0.02058 * shared.r31) / 0.00042353640000000005;
-        let r44 = f64::max(r40 * r40 + r37 * r37, 0.0).sqrt();
-        let right_c4 = r40 / r44;
-        let right_s4 = r37 / r44;
+        let r32 = 0.02058 * right_w4 / 0.00042353640000000005;
+        let r34 = 0.02058 * shared.r28 / 0.00042353640000000005;
+        let r38 = f64::max(r34 * r34 + r32 * r32, 0.0).sqrt();
+        let right_c4 = 0.0 - r34 / r38;
+        let right_s4 = r32 / r38;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, right_c4, right_s4, ..*known };
         block_8(p, &next, answers);
     }
@@ -1033,28 +956,25 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
 
 /// Block 8: AnkleRoll.
 fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s1;
-    let r1 = 0.0 - p.right_r13;
-    let r2 = 0.0 - p.right_r23;
-    let r3 = 0.0 - p.right_r33;
-    let r10 = p.right_px * p.right_r12 + p.right_py * p.right_r22;
-    let r13 = p.right_px * r1 + p.right_py * r2 + p.right_pz * r3;
-    let r21 = -0.05 * p.right_r22 + -0.085 * p.right_r32 - (r10 + p.right_pz * p.right_r32);
-    let r23 = 0.0 - r21;
-    let r24 = 0.0 - (-0.05 * r2 + -0.085 * r3 - (r13 - 0.04519));
-    let r47 = p.right_r12 * known.left_c1 + (0.0 - (p.right_r32 - p.right_r22)) * r0;
-    let r65 = 0.0 - r47;
-    let r66 = 0.0 - (r1 * known.left_c1 + (0.0 - (r3 - r2)) * r0);
-    let r68 = p.magnitude + p.magnitude + p.magnitude;
-    let r73 = f64::abs(r68 + 0.1 + 0.135);
-    let r74 = f64::abs(r68 + 0.62099 + 0.135);
-    let r75 = r23 * r66;
-    let r76 = r24 * r65;
-    let r77 = r75 - r76;
-    let r78 = 3.0 * r73;
-    let r79 = 3.0 * r74;
-    let r81 = 0.001 * (r78 + r79);
-    let shared = &Shared8 { r23, r24, r65, r66, r73, r74, r75, r76, r77, r78, r79, r81 };
+    let r15 = p.right_px * p.right_r12 + (0.05 * p.right_r22 + 0.085 * p.right_r32);
+    let r17 = p.right_pz * p.right_r32 + (p.right_py * p.right_r22 + r15);
+    let r21 = p.right_px * p.right_r13 + (0.05 * p.right_r23 + 0.085 * p.right_r33);
+    let r23 = p.right_pz * p.right_r33 + (p.right_py * p.right_r23 + r21);
+    let r24 = r23 + 0.04519;
+    let r25 = 0.7071067811865475 * (known.left_s1 * (p.right_r32 - p.right_r22));
+    let r26 = r25 - p.right_r12 * known.left_c1;
+    let r27 = 0.7071067811865475 * (known.left_s1 * (p.right_r33 - p.right_r23));
+    let r28 = p.right_r13 * known.left_c1 - r27;
+    let r29 = 3.0 * p.magnitude;
+    let r32 = f64::abs(r29 + 0.235);
+    let r33 = f64::abs(r29 + 0.75599);
+    let r34 = r17 * r28;
+    let r35 = r24 * r26;
+    let r36 = 0.0 - r35;
+    let r37 = r34 + r35;
+    let r40 = 3.0 * r32 + 3.0 * r33;
+    let r41 = 0.001 * r40;
+    let shared = &Shared8 { r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41 };
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, answers);
     chart_8_3(p, known, shared, answers);
@@ -1064,32 +984,27 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 8 share.
 struct Shared8 {
-    r23: f64,
+    r17: f64,
     r24: f64,
-    r65: f64,
-    r66: f64,
-    r73: f64,
-    r74: f64,
-    r75: f64,
-    r76: f64,
-    r77: f64,
-    r78: f64,
-    r79: f64,
-    r81: f64,
+    r26: f64,
+    r28: f64,
+    r32: f64,
+    r33: f64,
+    r34: f64,
+    r36: f64,
+    r37: f64,
+    r40: f64,
+    r41: f64,
 }
 
 /// Chart 1 of block 8: generic.
 /// It runs where B*E - A*F is not zero.
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r82 = shared.r76 - shared.r75;
-    if !is_away(r82, 10000.0 * (shared.r79 + shared.r78)) {
+    if !is_away(shared.r36 - shared.r34, 10000.0 * shared.r40) {
         return;
     }
-    let r85 = -0.0 / r82;
-    let r86 = r85 * r85;
-    let r89 = r85 / f64::max(r86 + r86, 0.0).sqrt();
-    let right_c6 = r89;
-    let right_s6 = r89;
+    let right_c6 = -0.0;
+    let right_s6 = -0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, right_c6, right_s6, ..*known };
     block_9(p, &next, answers);
 }
@@ -1097,20 +1012,20 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// Chart 2 of block 8: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r82 = shared.r23 * shared.r23;
-    let r83 = shared.r24 * shared.r24;
-    let r84 = r82 + r83;
-    let r87 = shared.r73 * shared.r73 + shared.r74 * shared.r74;
-    if !(is_near(shared.r77, shared.r81) && is_away(r84, 10000.0 * r87)) {
+    let r42 = shared.r17 * shared.r17;
+    let r43 = shared.r24 * shared.r24;
+    let r44 = r42 + r43;
+    let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
+    if !(is_near(shared.r37, shared.r41) && is_away(r44, 10000.0 * r47)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r82 - r83, 0.0, 1.0], f64::max(r87, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r42 - r43, 0.0, 1.0], f64::max(r47, 0.0).sqrt());
     for (i0, &right_w6) in roots0.as_slice().iter().enumerate() {
-        let r95 = (0.0 - (0.0 - shared.r23 * right_w6)) / r84;
-        let r98 = (0.0 - shared.r24 * right_w6) / r84;
-        let r102 = f64::max(r98 * r98 + r95 * r95, 0.0).sqrt();
-        let right_c6 = r98 / r102;
-        let right_s6 = r95 / r102;
+        let r53 = right_w6 * shared.r17 / r44;
+        let r55 = right_w6 * shared.r24 / r44;
+        let r59 = f64::max(r55 * r55 + r53 * r53, 0.0).sqrt();
+        let right_c6 = r55 / r59;
+        let right_s6 = r53 / r59;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, right_c6, right_s6, ..*known };
         block_9(p, &next, answers);
     }
@@ -1120,9 +1035,9 @@ fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
 fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r84 = shared.r23 * shared.r23 + shared.r24 * shared.r24;
-    let r87 = shared.r73 * shared.r73 + shared.r74 * shared.r74;
-    if !(is_near(shared.r77, shared.r81) && is_near(r84, 1.0000000000000001e-7 * r87)) {
+    let r44 = shared.r17 * shared.r17 + shared.r24 * shared.r24;
+    let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
+    if !(is_near(shared.r37, shared.r41) && is_near(r44, 1.0000000000000001e-7 * r47)) {
         return;
     }
     for [right_c6, right_s6] in SAMPLES_1 {
@@ -1134,19 +1049,19 @@ fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// Chart 4 of block 8: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r82 = shared.r65 * shared.r65;
-    let r83 = shared.r66 * shared.r66;
-    let r84 = r82 + r83;
-    if !(is_near(shared.r77, shared.r81) && is_away(r84, 180000.0)) {
+    let r42 = shared.r26 * shared.r26;
+    let r43 = shared.r28 * shared.r28;
+    let r44 = r42 + r43;
+    if !(is_near(shared.r37, shared.r41) && is_away(r44, 180000.0)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r82 - r83, 0.0, 1.0], 4.242640687119285);
+    let roots0 = real_roots(&[0.0 - r42 - r43, 0.0, 1.0], 4.242640687119285);
     for (i0, &right_w6) in roots0.as_slice().iter().enumerate() {
-        let r90 = (0.0 - (0.0 - shared.r65 * right_w6)) / r84;
-        let r93 = (0.0 - shared.r66 * right_w6) / r84;
-        let r97 = f64::max(r93 * r93 + r90 * r90, 0.0).sqrt();
-        let right_c6 = r93 / r97;
-        let right_s6 = r90 / r97;
+        let r48 = right_w6 * shared.r26 / r44;
+        let r50 = right_w6 * shared.r28 / r44;
+        let r54 = f64::max(r50 * r50 + r48 * r48, 0.0).sqrt();
+        let right_c6 = 0.0 - r50 / r54;
+        let right_s6 = r48 / r54;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, right_c6, right_s6, ..*known };
         block_9(p, &next, answers);
     }
@@ -1156,8 +1071,8 @@ fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
 fn chart_8_5(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r84 = shared.r65 * shared.r65 + shared.r66 * shared.r66;
-    if !(is_near(shared.r77, shared.r81) && is_near(r84, 1.8000000000000001e-6)) {
+    let r44 = shared.r26 * shared.r26 + shared.r28 * shared.r28;
+    if !(is_near(shared.r37, shared.r41) && is_near(r44, 1.8000000000000001e-6)) {
         return;
     }
     for [right_c6, right_s6] in SAMPLES_1 {
@@ -1168,80 +1083,65 @@ fn chart_8_5(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 
 /// Block 9: AnklePitch.
 fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.1029 * known.right_s6;
-    let r2 = 0.1029 * known.right_c6;
-    let r3 = -0.05 * r1;
-    let r5 = r3 + -0.2879 * r2;
-    let r12 = -0.1029 * p.right_r21;
-    let r16 = r1 * p.right_r22 + r2 * p.right_r23;
-    let r17 = -0.1029 * p.right_r31;
-    let r21 = r1 * p.right_r32 + r2 * p.right_r33;
-    let r23 = p.right_py + 0.04519 * p.right_r23;
-    let r24 = p.right_pz + 0.04519 * p.right_r33;
-    let r26 = r3 + -0.33309 * r2;
-    let r29 = p.right_px * (p.right_px + 0.04519 * p.right_r13);
-    let r30 = p.right_px * (r1 * p.right_r12 + r2 * p.right_r13);
-    let r40 = p.right_px * (-0.1029 * p.right_r11) + p.right_py * r12;
-    let r41 = r29 + p.right_py * r23 + p.right_pz * r24;
-    let r42 = r30 + p.right_py * r16 + p.right_pz * r21;
-    let r43 = r40 + p.right_pz * r17;
-    let r50 = p.right_px * p.right_px + p.right_py * p.right_py;
-    let r53 = r41 + r41 - (r50 + p.right_pz * p.right_pz) + 0.0126305461;
-    let r70 = -0.05 * (-0.05 - r23) + -0.085 * (-0.085 - r24);
-    let r83 = r5 + r5 - (r26 + r26) + (r42 + r42) + (-0.05 * (0.0 - r16) + -0.085 * (0.0 - r21));
-    let r84 = r43 + r43 + (-0.05 * (0.0 - r12) + -0.085 * (0.0 - r17));
-    let r88 = 0.01 - (r53 + r70 - (-0.05 * r23 + -0.085 * r24));
-    let r89 = 0.0 - (r83 - (-0.05 * r16 + -0.085 * r21));
-    let r94 = -0.085 * known.right_s4 - -0.185 * known.right_s4;
-    let r136 = 0.0 - (0.0 - (r84 - (-0.05 * r12 + -0.085 * r17)));
-    let r137 = 0.0 - r88;
-    let r138 = -0.2058 * r94;
-    let r139 = p.magnitude + 2.27259;
-    let r140 = p.magnitude * r139;
-    let r141 = 1.3458 * p.magnitude;
-    let r142 = 1.4187 * p.magnitude;
-    let r146 = r140 + r140 + r140;
-    let r147 = r141 + r141 + r141;
-    let r148 = r142 + r142 + r142;
-    let r152 = p.magnitude * p.magnitude;
-    let r156 = r146 + r146 + (r152 + r152 + r152) + 2.4510423541;
-    let r162 = 0.05 * (r139 + 0.05) + 0.085 * (r139 + 0.085);
-    let r170 = r147 + r147 + 1.554899982 + 0.181683 + 0.181683;
-    let r172 = r156 + r162 + (0.05 * r139 + 0.085 * r139) + 0.0829;
-    let r184 = f64::abs(r170);
-    let r185 = f64::abs(0.0 - (r148 + r148 + 0.1915245 + 0.1915245));
-    let r186 = f64::abs(0.0 - r172);
-    let shared = &Shared9 { r89, r136, r137, r138, r184, r185, r186 };
+    let r2 = p.right_r22 * known.right_s6;
+    let r3 = p.right_r23 * known.right_c6;
+    let r4 = p.right_r32 * known.right_s6;
+    let r5 = p.right_r33 * known.right_c6;
+    let r8 = p.right_px * (p.right_px + 0.04519 * p.right_r13);
+    let r9 = p.right_r12 * known.right_s6 + p.right_r13 * known.right_c6;
+    let r14 = p.right_py * (p.right_py + 0.04519 * p.right_r23);
+    let r20 = p.right_pz * (p.right_pz + 0.04519 * p.right_r33);
+    let r29 = 0.009300102 * known.right_c6 + 0.2058 * (p.right_px * r9);
+    let r33 = r29 + 0.2058 * (p.right_py * (r2 + r3)) + 0.2058 * (p.right_pz * (r4 + r5));
+    let r39 = r33 + 0.01029 * r2 + 0.01029 * r3 + 0.017493 * r4;
+    let r41 = r39 + 0.017493 * r5;
+    let r44 = 0.2058 * (p.right_px * p.right_r11) + 0.2058 * (p.right_py * p.right_r21);
+    let r48 = r44 + 0.2058 * (p.right_pz * p.right_r31) + 0.01029 * p.right_r21;
+    let r50 = r48 + 0.017493 * p.right_r31;
+    let r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p.right_px * p.right_px;
+    let r58 = r56 - p.right_py * p.right_py - p.right_pz * p.right_pz;
+    let r62 = r58 + 0.1 * p.right_py + 0.004519 * p.right_r23;
+    let r66 = r62 + 0.17 * p.right_pz + 0.0076823 * p.right_r33;
+    let r67 = r66 + 0.0123555461;
+    let r68 = 0.02058 * known.right_s4;
+    let r69 = 0.0 - r68;
+    let r77 = 6.0 * (p.magnitude * (p.magnitude + 2.27259));
+    let r81 = r77 + 3.0 * (p.magnitude * p.magnitude) + 0.27 * p.magnitude;
+    let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
+    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049);
+    let r85 = f64::abs(r81 + 3.1572666541);
+    let shared = &Shared9 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_9_1(p, known, shared, answers);
     chart_9_2(p, known, shared, answers);
 }
 
 /// What the charts of block 9 share.
 struct Shared9 {
-    r89: f64,
-    r136: f64,
-    r137: f64,
-    r138: f64,
-    r184: f64,
-    r185: f64,
-    r186: f64,
+    r41: f64,
+    r50: f64,
+    r67: f64,
+    r68: f64,
+    r69: f64,
+    r83: f64,
+    r84: f64,
+    r85: f64,
 }
 
 /// Chart 1 of block 9: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
-    let r189 = shared.r89 * shared.r89 + shared.r136 * shared.r136;
-    let r192 = shared.r184 * shared.r184 + shared.r185 * shared.r185;
-    if !is_away(r189, 10000.0 * r192) {
+    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
+    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
+    if !is_away(r88, 10000.0 * r91) {
         return;
     }
-    let r196 = shared.r136 * shared.r137 - shared.r89 * shared.r138;
-    let r198 = (0.0 - r196) / r189;
-    let r202 = 0.0 - shared.r89 * shared.r137 - shared.r136 * shared.r138;
-    let r204 = (0.0 - r202) / r189;
-    let r208 = f64::max(r204 * r204 + r198 * r198, 0.0).sqrt();
-    let right_c5 = r204 / r208;
-    let right_s5 = r198 / r208;
+    let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
+    let r97 = r96 / r88;
+    let r100 = shared.r50 * shared.r68 - shared.r41 * shared.r67;
+    let r101 = r100 / r88;
+    let r105 = f64::max(r101 * r101 + r97 * r97, 0.0).sqrt();
+    let right_c5 = r101 / r105;
+    let right_s5 = r97 / r105;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, right_c5, right_s5, ..*known };
     block_10(p, &next, answers);
 }
@@ -1250,9 +1150,9 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_AnklePitch.
 fn chart_9_2(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
-    let r189 = shared.r89 * shared.r89 + shared.r136 * shared.r136;
-    let r192 = shared.r184 * shared.r184 + shared.r185 * shared.r185;
-    if !(is_near(r189, 1.0000000000000001e-7 * r192) && is_near(shared.r138, 0.00055566) && is_near(shared.r137, 0.01 * shared.r186)) {
+    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
+    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
+    if !(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared.r69, 0.00055566) && is_near(shared.r67, 0.01 * shared.r85)) {
         return;
     }
     for [right_c5, right_s5] in SAMPLES_1 {
@@ -1263,81 +1163,74 @@ fn chart_9_2(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
 
 /// Block 10: HipRoll.
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s1;
-    let r1 = 0.0 - known.right_s6;
-    let r4 = known.right_c6 * p.right_r12 + r1 * p.right_r13;
-    let r7 = known.right_c6 * p.right_r22 + r1 * p.right_r23;
-    let r10 = known.right_c6 * p.right_r32 + r1 * p.right_r33;
-    let r13 = 0.5 * r7 + 0.5 * r10;
-    let r17 = 0.0 - r4;
-    let r28 = (r10 - r13) * known.left_c1 + (0.0 - r17) * r0;
-    let r29 = r13 + ((r7 - r13) * known.left_c1 + r17 * r0);
-    let r34 = 0.0 - (0.0 - (r13 + r28));
-    let r35 = 0.0 - (0.0 - (0.0 - r29));
-    let shared = &Shared10 { r34, r35 };
+    let r2 = p.right_r22 * known.right_c6;
+    let r3 = p.right_r23 * known.right_s6;
+    let r4 = p.right_r32 * known.right_c6;
+    let r5 = p.right_r33 * known.right_s6;
+    let r6 = p.right_r12 * known.right_c6 - p.right_r13 * known.right_s6;
+    let r22 = 0.5 * r2 - 0.5 * r3 + 0.5 * r4 - 0.5 * r5;
+    let r23 = 0.5 * (known.left_c1 * (r3 + (r4 - r5 - r2)));
+    let r25 = 0.7071067811865475 * (known.left_s1 * r6);
+    let r26 = r22 + r23 + r25;
+    let r27 = 0.5 * (known.left_c1 * (r5 + (r2 - r3 - r4)));
+    let r29 = r22 + r27 - r25;
+    let shared = &Shared10 { r26, r29 };
     chart_10_1(p, known, shared, answers);
 }
 
 /// What the charts of block 10 share.
 struct Shared10 {
-    r34: f64,
-    r35: f64,
+    r26: f64,
+    r29: f64,
 }
 
 /// Chart 1 of block 10: generic.
 fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r37 = 0.0 - (0.0 - shared.r34);
-    let r40 = 0.0 - (-0.0 - (0.0 - shared.r35));
-    let r44 = f64::max(r40 * r40 + r37 * r37, 0.0).sqrt();
-    let right_c2 = r40 / r44;
-    let right_s2 = r37 / r44;
+    let r32 = shared.r29 * shared.r29 + shared.r26 * shared.r26;
+    let r33 = f64::max(r32, 0.0).sqrt();
+    let right_c2 = shared.r29 / r33;
+    let right_s2 = shared.r26 / r33;
     let next = Known { branch: known.branch, last: known.last, right_c2, right_s2, ..*known };
     block_11(p, &next, answers);
 }
 
 /// Block 11: HipPitch.
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s1;
-    let r1 = -0.1029 * known.right_s5;
-    let r4 = 0.1029 * known.right_c5 - 0.2879 + 0.2879;
-    let r11 = r1 + (r1 - r1) * known.right_c6;
-    let r14 = (0.0 - (0.0 - r4)) * known.right_s6 - 0.05 + 0.05;
-    let r15 = r4 * known.right_c6 - 0.2879 + 0.33309;
-    let r20 = r11 * p.right_r11 + r14 * p.right_r12 + r15 * p.right_r13;
-    let r25 = r11 * p.right_r21 + r14 * p.right_r22 + r15 * p.right_r23;
-    let r30 = r11 * p.right_r31 + r14 * p.right_r32 + r15 * p.right_r33;
-    let r41 = p.right_pz + r30 + 0.085 - (p.right_py + r25 + 0.05);
-    let r47 = (p.right_px + r20) * known.left_c1 + (0.0 - r41) * r0;
-    let r59 = 0.0 - known.right_c4;
-    let r60 = 0.0 - known.right_s4;
-    let r66 = r59 * known.right_c5 + (0.0 - r60) * known.right_s5;
-    let r69 = r60 * known.right_c5 + (0.0 - (0.0 - r59)) * known.right_s5;
-    let r74 = (0.0 - (0.0 - r69)) * known.right_s6;
-    let r75 = r69 * known.right_c6;
-    let r76 = r66 + (r66 - r66) * known.right_c6;
-    let r81 = r76 * p.right_r11 + r74 * p.right_r12 + r75 * p.right_r13;
-    let r86 = r76 * p.right_r21 + r74 * p.right_r22 + r75 * p.right_r23;
-    let r91 = r76 * p.right_r31 + r74 * p.right_r32 + r75 * p.right_r33;
-    let r103 = r81 * known.left_c1 + (0.0 - (r91 - r86)) * r0;
-    let r113 = 0.0 - (0.0 - r47);
-    let r114 = 0.1 * (0.0 - r103);
-    let shared = &Shared11 { r113, r114 };
+    let r0 = known.right_c5 * known.right_s6;
+    let r5 = 0.1029 * (known.right_c5 * known.right_c6) + 0.04519;
+    let r14 = p.right_px - 0.1029 * (p.right_r11 * known.right_s5);
+    let r17 = p.right_r13 * r5 + (r14 + 0.1029 * (p.right_r12 * r0));
+    let r20 = p.right_pz - 0.1029 * (p.right_r31 * known.right_s5);
+    let r23 = p.right_r33 * r5 + (r20 + 0.1029 * (p.right_r32 * r0));
+    let r26 = r23 - p.right_py + 0.1029 * (p.right_r21 * known.right_s5);
+    let r29 = r26 - 0.1029 * (p.right_r22 * r0) - p.right_r23 * r5;
+    let r36 = known.right_s4 * known.right_c5 + known.right_c4 * known.right_s5;
+    let r37 = known.right_s6 * r36;
+    let r38 = known.right_c6 * r36;
+    let r39 = known.right_c4 * known.right_c5 - known.right_s4 * known.right_s5;
+    let r50 = p.right_r13 * r38 + (p.right_r11 * r39 + p.right_r12 * r37);
+    let r53 = p.right_r33 * r38 + (p.right_r31 * r39 + p.right_r32 * r37);
+    let r56 = r53 - p.right_r21 * r39 - p.right_r22 * r37 - p.right_r23 * r38;
+    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035));
+    let r59 = known.left_c1 * r17 - r58;
+    let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
+    let shared = &Shared11 { r59, r62 };
     chart_11_1(p, known, shared, answers);
 }
 
 /// What the charts of block 11 share.
 struct Shared11 {
-    r113: f64,
-    r114: f64,
+    r59: f64,
+    r62: f64,
 }
 
 /// Chart 1 of block 11: generic.
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r135 = (0.0 - 0.1 * shared.r113) / 0.010000000000000002;
-    let r139 = (0.0 - (-0.0 - 0.1 * shared.r114)) / 0.010000000000000002;
-    let r143 = f64::max(r139 * r139 + r135 * r135, 0.0).sqrt();
-    let right_c3 = r139 / r143;
-    let right_s3 = r135 / r143;
+    let r64 = 0.1 * shared.r59 / 0.010000000000000002;
+    let r66 = 0.1 * shared.r62 / 0.010000000000000002;
+    let r70 = f64::max(r66 * r66 + r64 * r64, 0.0).sqrt();
+    let right_c3 = r66 / r70;
+    let right_s3 = 0.0 - r64 / r70;
     let q = [
         angle(known.left_c1, known.left_s1),
         angle(known.left_c2, known.left_s2),
@@ -1381,197 +1274,140 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let right_s5 = q[9].sin();
     let right_c6 = q[10].cos();
     let right_s6 = q[10].sin();
-    let r0 = 0.7071067811865475 * left_s1;
-    let r1 = 1.0 - left_c1;
-    let r2 = 0.0 - r0;
-    let r3 = 0.5 * r1;
-    let r4 = left_c1 + r3;
-    let r5 = -0.5 * r1;
-    let r7 = -0.085 * r0;
-    let r8 = 0.05 * r0 + r7;
-    let r11 = 0.05 * r4 + -0.085 * r5;
-    let r13 = -0.085 * r4;
-    let r14 = 0.05 * r5 + r13;
-    let r22 = left_c2 + (1.0 - left_c2);
-    let r23 = 0.0 - left_s2;
-    let r24 = left_c1 * r22;
-    let r25 = r2 * r22;
-    let r26 = r0 * left_c2;
-    let r28 = r26 + r0 * left_s2;
-    let r29 = r4 * left_c2;
-    let r31 = r29 + r5 * left_s2;
-    let r32 = r5 * left_c2;
-    let r34 = r32 + r4 * left_s2;
-    let r36 = r0 * r23 + r26;
-    let r38 = r4 * r23 + r32;
-    let r40 = r5 * r23 + r29;
-    let r43 = 0.05 * r28 + -0.085 * r36;
-    let r46 = 0.05 * r31 + -0.085 * r38;
-    let r49 = 0.05 * r34 + -0.085 * r40;
-    let r57 = 0.0 - left_s3;
-    let r58 = left_c3 + (1.0 - left_c3);
-    let r61 = r24 * left_c3 + r36 * r57;
-    let r62 = r25 * left_c3;
-    let r64 = r62 + r38 * r57;
-    let r66 = r62 + r40 * r57;
-    let r67 = r28 * r58;
-    let r68 = r31 * r58;
-    let r69 = r34 * r58;
-    let r72 = r24 * left_s3 + r36 * left_c3;
-    let r73 = r25 * left_s3;
-    let r75 = r73 + r38 * left_c3;
-    let r77 = r73 + r40 * left_c3;
-    let r78 = 0.05 * r67;
-    let r81 = 0.05 * r68;
-    let r84 = 0.05 * r69;
-    let r87 = 0.0 - r8 + r8 - r43 + r43 - (r78 + -0.085 * r72);
-    let r88 = 0.05 - r11 + r11 - r46 + r46 - (r81 + -0.085 * r75);
-    let r89 = -0.085 - r14 + r14 - r49 + r49 - (r84 + -0.085 * r77);
-    let r100 = 0.0 - left_s4;
-    let r101 = left_c4 + (1.0 - left_c4);
-    let r104 = r61 * left_c4 + r72 * r100;
-    let r107 = r64 * left_c4 + r75 * r100;
-    let r110 = r66 * left_c4 + r77 * r100;
-    let r111 = r67 * r101;
-    let r112 = r68 * r101;
-    let r113 = r69 * r101;
-    let r116 = r61 * left_s4 + r72 * left_c4;
-    let r119 = r64 * left_s4 + r75 * left_c4;
-    let r122 = r66 * left_s4 + r77 * left_c4;
-    let r123 = 0.05 * r111;
-    let r126 = 0.05 * r112;
-    let r129 = 0.05 * r113;
-    let r132 = r87 + (r78 + -0.185 * r72) - (r123 + -0.185 * r116);
-    let r133 = r88 + (r81 + -0.185 * r75) - (r126 + -0.185 * r119);
-    let r134 = r89 + (r84 + -0.185 * r77) - (r129 + -0.185 * r122);
-    let r145 = 0.0 - left_s5;
-    let r146 = left_c5 + (1.0 - left_c5);
-    let r156 = r111 * r146;
-    let r157 = r112 * r146;
-    let r158 = r113 * r146;
-    let r161 = r104 * left_s5 + r116 * left_c5;
-    let r164 = r107 * left_s5 + r119 * left_c5;
-    let r167 = r110 * left_s5 + r122 * left_c5;
-    let r170 = 0.05 * r156 + -0.2879 * r161;
-    let r173 = 0.05 * r157 + -0.2879 * r164;
-    let r176 = 0.05 * r158 + -0.2879 * r167;
-    let r184 = left_c6 + (1.0 - left_c6);
-    let r185 = 0.0 - left_s6;
-    let r191 = r156 * left_c6 + r161 * left_s6;
-    let r194 = r157 * left_c6 + r164 * left_s6;
-    let r197 = r158 * left_c6 + r167 * left_s6;
-    let r200 = r156 * r185 + r161 * left_c6;
-    let r203 = r157 * r185 + r164 * left_c6;
-    let r206 = r158 * r185 + r167 * left_c6;
-    let r207 = 0.05 * r191;
-    let r210 = 0.05 * r194;
-    let r213 = 0.05 * r197;
-    let r216 = r132 + (r123 + -0.2879 * r116) - r170 + r170 - (r207 + -0.2879 * r200);
-    let r217 = r133 + (r126 + -0.2879 * r119) - r173 + r173 - (r210 + -0.2879 * r203);
-    let r218 = r134 + (r129 + -0.2879 * r122) - r176 + r176 - (r213 + -0.2879 * r206);
-    let r458 = -0.05 * r2 + r7;
-    let r461 = -0.05 * r4 + -0.085 * r3;
-    let r463 = -0.05 * r3 + r13;
-    let r471 = right_c2 + (1.0 - right_c2);
-    let r472 = 0.0 - right_s2;
-    let r473 = left_c1 * r471;
-    let r474 = r0 * r471;
-    let r475 = r2 * r471;
-    let r478 = r2 * right_c2 + r0 * right_s2;
-    let r479 = r4 * right_c2;
-    let r481 = r479 + r3 * right_s2;
-    let r482 = r3 * right_c2;
-    let r484 = r482 + r4 * right_s2;
-    let r487 = r2 * r472 + r0 * right_c2;
-    let r489 = r4 * r472 + r482;
-    let r491 = r3 * r472 + r479;
-    let r494 = -0.05 * r478 + -0.085 * r487;
-    let r497 = -0.05 * r481 + -0.085 * r489;
-    let r500 = -0.05 * r484 + -0.085 * r491;
-    let r508 = 0.0 - right_s3;
-    let r509 = right_c3 + (1.0 - right_c3);
-    let r512 = r473 * right_c3 + r487 * r508;
-    let r515 = r474 * right_c3 + r489 * r508;
-    let r518 = r475 * right_c3 + r491 * r508;
-    let r519 = r478 * r509;
-    let r520 = r481 * r509;
-    let r521 = r484 * r509;
-    let r524 = r473 * right_s3 + r487 * right_c3;
-    let r527 = r474 * right_s3 + r489 * right_c3;
-    let r530 = r475 * right_s3 + r491 * right_c3;
-    let r531 = -0.05 * r519;
-    let r534 = -0.05 * r520;
-    let r537 = -0.05 * r521;
-    let r540 = 0.0 - r458 + r458 - r494 + r494 - (r531 + -0.085 * r524);
-    let r541 = -0.05 - r461 + r461 - r497 + r497 - (r534 + -0.085 * r527);
-    let r542 = -0.085 - r463 + r463 - r500 + r500 - (r537 + -0.085 * r530);
-    let r553 = 0.0 - right_s4;
-    let r554 = right_c4 + (1.0 - right_c4);
-    let r557 = r512 * right_c4 + r524 * r553;
-    let r560 = r515 * right_c4 + r527 * r553;
-    let r563 = r518 * right_c4 + r530 * r553;
-    let r564 = r519 * r554;
-    let r565 = r520 * r554;
-    let r566 = r521 * r554;
-    let r569 = r512 * right_s4 + r524 * right_c4;
-    let r572 = r515 * right_s4 + r527 * right_c4;
-    let r575 = r518 * right_s4 + r530 * right_c4;
-    let r576 = -0.05 * r564;
-    let r579 = -0.05 * r565;
-    let r582 = -0.05 * r566;
-    let r585 = r540 + (r531 + -0.185 * r524) - (r576 + -0.185 * r569);
-    let r586 = r541 + (r534 + -0.185 * r527) - (r579 + -0.185 * r572);
-    let r587 = r542 + (r537 + -0.185 * r530) - (r582 + -0.185 * r575);
-    let r598 = 0.0 - right_s5;
-    let r599 = right_c5 + (1.0 - right_c5);
-    let r609 = r564 * r599;
-    let r610 = r565 * r599;
-    let r611 = r566 * r599;
-    let r614 = r557 * right_s5 + r569 * right_c5;
-    let r617 = r560 * right_s5 + r572 * right_c5;
-    let r620 = r563 * right_s5 + r575 * right_c5;
-    let r623 = -0.05 * r609 + -0.2879 * r614;
-    let r626 = -0.05 * r610 + -0.2879 * r617;
-    let r629 = -0.05 * r611 + -0.2879 * r620;
-    let r637 = right_c6 + (1.0 - right_c6);
-    let r638 = 0.0 - right_s6;
-    let r644 = r609 * right_c6 + r614 * right_s6;
-    let r647 = r610 * right_c6 + r617 * right_s6;
-    let r650 = r611 * right_c6 + r620 * right_s6;
-    let r653 = r609 * r638 + r614 * right_c6;
-    let r656 = r610 * r638 + r617 * right_c6;
-    let r659 = r611 * r638 + r620 * right_c6;
-    let r660 = -0.05 * r644;
-    let r663 = -0.05 * r647;
-    let r666 = -0.05 * r650;
-    let r669 = r585 + (r576 + -0.2879 * r569) - r623 + r623 - (r660 + -0.2879 * r653);
-    let r670 = r586 + (r579 + -0.2879 * r572) - r626 + r626 - (r663 + -0.2879 * r656);
-    let r671 = r587 + (r582 + -0.2879 * r575) - r629 + r629 - (r666 + -0.2879 * r659);
+    let r0 = left_s1 * left_c2;
+    let r1 = left_s1 * left_s2;
+    let r2 = left_c1 + 1.0;
+    let r3 = left_c2 * r2;
+    let r4 = left_c1 - 1.0;
+    let r5 = left_s2 * r4;
+    let r6 = left_c2 * r4;
+    let r7 = left_s2 * r2;
+    let r9 = r1 - r0;
+    let r12 = r7 - r6;
+    let r14 = r5 - r3;
+    let r16 = left_c1 * left_s3;
+    let r17 = left_c3 * r9;
+    let r18 = left_s1 * left_s3;
+    let r19 = left_c3 * r12;
+    let r20 = left_c3 * r14;
+    let r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    let r25 = r16 - 0.7071067811865475 * r17;
+    let r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    let r29 = r27 - 0.5 * (left_s3 * r12);
+    let r31 = 0.7071067811865475 * r18;
+    let r33 = r31 + 0.5 * r19;
+    let r36 = r27 - 0.5 * (left_s3 * r14);
+    let r39 = r31 + 0.5 * r20;
+    let r41 = left_s4 * r22;
+    let r42 = left_c4 * r25;
+    let r43 = left_s4 * r29;
+    let r44 = left_c4 * r33;
+    let r45 = left_s4 * r36;
+    let r46 = left_c4 * r39;
+    let r47 = left_c4 * r22 - left_s4 * r25;
+    let r49 = r41 + r42;
+    let r51 = left_c4 * r29 - left_s4 * r33;
+    let r53 = r43 + r44;
+    let r55 = left_c4 * r36 - left_s4 * r39;
+    let r57 = r45 + r46;
+    let r65 = r0 + r1;
+    let r67 = left_s5 * r47 + left_c5 * r49;
+    let r69 = r3 + r5;
+    let r71 = left_s5 * r51 + left_c5 * r53;
+    let r73 = r6 + r7;
+    let r75 = left_s5 * r55 + left_c5 * r57;
+    let r77 = left_s6 * r65;
+    let r78 = left_c6 * r67;
+    let r79 = left_s6 * r69;
+    let r80 = left_c6 * r71;
+    let r81 = left_s6 * r73;
+    let r82 = left_c6 * r75;
+    let r83 = 0.07071067811865475 * r18;
+    let r89 = r83 + 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
+    let r99 = r83 + 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
+    let r108 = 0.1 * r16 - 0.07071067811865475 * r17 + 0.1029 * r41;
+    let r112 = r108 + 0.1029 * r42 - 0.03195415544182008 * r77;
+    let r132 = left_s6 * r67 + 0.7071067811865475 * (left_c6 * r65);
+    let r147 = left_s1 * right_c2;
+    let r148 = left_s1 * right_s2;
+    let r149 = right_c2 * r2;
+    let r150 = right_s2 * r4;
+    let r151 = right_c2 * r4;
+    let r152 = right_s2 * r2;
+    let r154 = r147 + r148;
+    let r157 = r151 + r152;
+    let r159 = r149 + r150;
+    let r161 = left_c1 * right_s3;
+    let r162 = right_c3 * r154;
+    let r163 = left_s1 * right_s3;
+    let r164 = right_c3 * r157;
+    let r165 = right_c3 * r159;
+    let r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
+    let r170 = r161 + 0.7071067811865475 * r162;
+    let r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    let r174 = r172 + 0.5 * (right_s3 * r157);
+    let r176 = 0.7071067811865475 * r163;
+    let r178 = r176 - 0.5 * r164;
+    let r181 = r172 + 0.5 * (right_s3 * r159);
+    let r184 = r176 - 0.5 * r165;
+    let r186 = right_s4 * r167;
+    let r187 = right_c4 * r170;
+    let r188 = right_s4 * r174;
+    let r189 = right_c4 * r178;
+    let r190 = right_s4 * r181;
+    let r191 = right_c4 * r184;
+    let r192 = right_c4 * r167 - right_s4 * r170;
+    let r194 = r186 + r187;
+    let r196 = right_c4 * r174 - right_s4 * r178;
+    let r198 = r188 + r189;
+    let r200 = right_c4 * r181 - right_s4 * r184;
+    let r202 = r190 + r191;
+    let r210 = r147 - r148;
+    let r212 = right_s5 * r192 + right_c5 * r194;
+    let r214 = r149 - r150;
+    let r216 = right_s5 * r196 + right_c5 * r198;
+    let r218 = r151 - r152;
+    let r220 = right_s5 * r200 + right_c5 * r202;
+    let r222 = right_s6 * r210;
+    let r223 = right_c6 * r212;
+    let r224 = right_s6 * r214;
+    let r225 = right_c6 * r216;
+    let r226 = right_s6 * r218;
+    let r227 = right_c6 * r220;
+    let r228 = 0.07071067811865475 * r163;
+    let r234 = r228 - 0.05 * r165 + 0.1029 * r190 + 0.1029 * r191;
+    let r244 = r228 - 0.05 * r164 + 0.1029 * r188 + 0.1029 * r189;
+    let r253 = 0.1 * r161 + 0.07071067811865475 * r162 + 0.1029 * r186;
+    let r257 = r253 + 0.1029 * r187 + 0.03195415544182008 * r222;
+    let r264 = r244 - 0.022595 * r224 + 0.04519 * r225 + 0.05;
+    let r267 = r234 - 0.022595 * r226 + 0.04519 * r227 - 0.085;
+    let r278 = right_s6 * r212 - 0.7071067811865475 * (right_c6 * r210);
+    let r281 = 0.0 - (right_s6 * r220 + 0.5 * (right_c6 * r218));
     [
-        r216 + (r207 + -0.33309 * r200),
-        r217 + (r210 + -0.33309 * r203),
-        r218 + (r213 + -0.33309 * r206),
-        (r104 * left_c5 + r116 * r145) * r184,
-        (r107 * left_c5 + r119 * r145) * r184,
-        (r110 * left_c5 + r122 * r145) * r184,
-        r191,
-        r194,
-        r197,
-        r200,
-        r203,
-        r206,
-        r669 + (r660 + -0.33309 * r653),
-        r670 + (r663 + -0.33309 * r656),
-        r671 + (r666 + -0.33309 * r659),
-        (r557 * right_c5 + r569 * r598) * r637,
-        (r560 * right_c5 + r572 * r598) * r637,
-        (r563 * right_c5 + r575 * r598) * r637,
-        r644,
-        r647,
-        r650,
-        r653,
-        r656,
-        r659,
+        0.0 - (r112 + 0.04519 * r78),
+        r99 + 0.022595 * r79 + 0.04519 * r80 + 0.05,
+        r89 + 0.022595 * r81 + 0.04519 * r82 - 0.085,
+        left_c5 * r47 - left_s5 * r49,
+        left_s5 * r53 - left_c5 * r51,
+        left_s5 * r57 - left_c5 * r55,
+        r132,
+        0.5 * (left_c6 * r69) - left_s6 * r71,
+        0.5 * (left_c6 * r73) - left_s6 * r75,
+        r78 - 0.7071067811865475 * r77,
+        0.0 - (r80 + 0.5 * r79),
+        0.0 - (r82 + 0.5 * r81),
+        0.0 - (r257 + 0.04519 * r223),
+        0.0 - r264,
+        r267,
+        right_c5 * r192 - right_s5 * r194,
+        right_c5 * r196 - right_s5 * r198,
+        right_s5 * r202 - right_c5 * r200,
+        r278,
+        right_s6 * r216 + 0.5 * (right_c6 * r214),
+        r281,
+        r223 + 0.7071067811865475 * r222,
+        r225 - 0.5 * r224,
+        0.5 * r226 - r227,
     ]
 }
 
@@ -1663,272 +1499,288 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let right_s5 = q[9].sin();
     let right_c6 = q[10].cos();
     let right_s6 = q[10].sin();
-    let r0 = 0.7071067811865475 * left_s1;
-    let r1 = 1.0 - left_c1;
-    let r2 = 0.0 - r0;
-    let r3 = 0.5 * r1;
-    let r4 = left_c1 + r3;
-    let r5 = -0.5 * r1;
-    let r7 = -0.085 * r0;
-    let r8 = 0.05 * r0 + r7;
-    let r11 = 0.05 * r4 + -0.085 * r5;
-    let r13 = -0.085 * r4;
-    let r14 = 0.05 * r5 + r13;
-    let r18 = 0.0 - r8 + r8;
-    let r19 = 0.05 - r11 + r11;
-    let r20 = -0.085 - r14 + r14;
-    let r22 = left_c2 + (1.0 - left_c2);
-    let r23 = 0.0 - left_s2;
-    let r24 = left_c1 * r22;
-    let r25 = r2 * r22;
-    let r26 = r0 * left_c2;
-    let r28 = r26 + r0 * left_s2;
-    let r29 = r4 * left_c2;
-    let r31 = r29 + r5 * left_s2;
-    let r32 = r5 * left_c2;
-    let r34 = r32 + r4 * left_s2;
-    let r36 = r0 * r23 + r26;
-    let r38 = r4 * r23 + r32;
-    let r40 = r5 * r23 + r29;
-    let r43 = 0.05 * r28 + -0.085 * r36;
-    let r46 = 0.05 * r31 + -0.085 * r38;
-    let r49 = 0.05 * r34 + -0.085 * r40;
-    let r53 = r18 - r43 + r43;
-    let r54 = r19 - r46 + r46;
-    let r55 = r20 - r49 + r49;
-    let r57 = 0.0 - left_s3;
-    let r58 = left_c3 + (1.0 - left_c3);
-    let r61 = r24 * left_c3 + r36 * r57;
-    let r62 = r25 * left_c3;
-    let r64 = r62 + r38 * r57;
-    let r66 = r62 + r40 * r57;
-    let r67 = r28 * r58;
-    let r68 = r31 * r58;
-    let r69 = r34 * r58;
-    let r72 = r24 * left_s3 + r36 * left_c3;
-    let r73 = r25 * left_s3;
-    let r75 = r73 + r38 * left_c3;
-    let r77 = r73 + r40 * left_c3;
-    let r78 = 0.05 * r67;
-    let r81 = 0.05 * r68;
-    let r84 = 0.05 * r69;
-    let r96 = r53 - (r78 + -0.085 * r72) + (r78 + -0.185 * r72);
-    let r97 = r54 - (r81 + -0.085 * r75) + (r81 + -0.185 * r75);
-    let r98 = r55 - (r84 + -0.085 * r77) + (r84 + -0.185 * r77);
-    let r100 = 0.0 - left_s4;
-    let r101 = left_c4 + (1.0 - left_c4);
-    let r104 = r61 * left_c4 + r72 * r100;
-    let r107 = r64 * left_c4 + r75 * r100;
-    let r110 = r66 * left_c4 + r77 * r100;
-    let r111 = r67 * r101;
-    let r112 = r68 * r101;
-    let r113 = r69 * r101;
-    let r116 = r61 * left_s4 + r72 * left_c4;
-    let r119 = r64 * left_s4 + r75 * left_c4;
-    let r122 = r66 * left_s4 + r77 * left_c4;
-    let r123 = 0.05 * r111;
-    let r126 = 0.05 * r112;
-    let r129 = 0.05 * r113;
-    let r141 = r96 - (r123 + -0.185 * r116) + (r123 + -0.2879 * r116);
-    let r142 = r97 - (r126 + -0.185 * r119) + (r126 + -0.2879 * r119);
-    let r143 = r98 - (r129 + -0.185 * r122) + (r129 + -0.2879 * r122);
-    let r145 = 0.0 - left_s5;
-    let r146 = left_c5 + (1.0 - left_c5);
-    let r149 = r104 * left_c5 + r116 * r145;
-    let r152 = r107 * left_c5 + r119 * r145;
-    let r155 = r110 * left_c5 + r122 * r145;
-    let r156 = r111 * r146;
-    let r157 = r112 * r146;
-    let r158 = r113 * r146;
-    let r161 = r104 * left_s5 + r116 * left_c5;
-    let r164 = r107 * left_s5 + r119 * left_c5;
-    let r167 = r110 * left_s5 + r122 * left_c5;
-    let r170 = 0.05 * r156 + -0.2879 * r161;
-    let r173 = 0.05 * r157 + -0.2879 * r164;
-    let r176 = 0.05 * r158 + -0.2879 * r167;
-    let r180 = r141 - r170 + r170;
-    let r181 = r142 - r173 + r173;
-    let r182 = r143 - r176 + r176;
-    let r184 = left_c6 + (1.0 - left_c6);
-    let r185 = 0.0 - left_s6;
-    let r186 = r149 * r184;
-    let r187 = r152 * r184;
-    let r188 = r155 * r184;
-    let r191 = r156 * left_c6 + r161 * left_s6;
-    let r194 = r157 * left_c6 + r164 * left_s6;
-    let r197 = r158 * left_c6 + r167 * left_s6;
-    let r200 = r156 * r185 + r161 * left_c6;
-    let r203 = r157 * r185 + r164 * left_c6;
-    let r206 = r158 * r185 + r167 * left_c6;
-    let r207 = 0.05 * r191;
-    let r210 = 0.05 * r194;
-    let r213 = 0.05 * r197;
-    let r225 = r180 - (r207 + -0.2879 * r200) + (r207 + -0.33309 * r200);
-    let r226 = r181 - (r210 + -0.2879 * r203) + (r210 + -0.33309 * r203);
-    let r227 = r182 - (r213 + -0.2879 * r206) + (r213 + -0.33309 * r206);
-    let r232 = 0.7071067811865475 * (r227 + 0.085) - -0.7071067811865475 * (r226 - 0.05);
-    let r237 = r226 - r19;
-    let r238 = r227 - r20;
-    let r242 = r2 * (r225 - r18);
-    let r247 = r225 - r53;
-    let r248 = r226 - r54;
-    let r249 = r227 - r55;
-    let r259 = r225 - r96;
-    let r260 = r226 - r97;
-    let r261 = r227 - r98;
-    let r271 = r225 - r141;
-    let r272 = r226 - r142;
-    let r273 = r227 - r143;
-    let r283 = r225 - r180;
-    let r284 = r226 - r181;
-    let r285 = r227 - r182;
-    let r300 = 0.7071067811865475 * r188 - -0.7071067811865475 * r187;
-    let r307 = r2 * r186;
-    let r353 = 0.7071067811865475 * r197 - -0.7071067811865475 * r194;
-    let r360 = r2 * r191;
-    let r406 = 0.7071067811865475 * r206 - -0.7071067811865475 * r203;
-    let r413 = r2 * r200;
-    let r458 = -0.05 * r2 + r7;
-    let r461 = -0.05 * r4 + -0.085 * r3;
-    let r463 = -0.05 * r3 + r13;
-    let r467 = 0.0 - r458 + r458;
-    let r468 = -0.05 - r461 + r461;
-    let r469 = -0.085 - r463 + r463;
-    let r471 = right_c2 + (1.0 - right_c2);
-    let r472 = 0.0 - right_s2;
-    let r473 = left_c1 * r471;
-    let r474 = r0 * r471;
-    let r475 = r2 * r471;
-    let r478 = r2 * right_c2 + r0 * right_s2;
-    let r479 = r4 * right_c2;
-    let r481 = r479 + r3 * right_s2;
-    let r482 = r3 * right_c2;
-    let r484 = r482 + r4 * right_s2;
-    let r487 = r2 * r472 + r0 * right_c2;
-    let r489 = r4 * r472 + r482;
-    let r491 = r3 * r472 + r479;
-    let r494 = -0.05 * r478 + -0.085 * r487;
-    let r497 = -0.05 * r481 + -0.085 * r489;
-    let r500 = -0.05 * r484 + -0.085 * r491;
-    let r504 = r467 - r494 + r494;
-    let r505 = r468 - r497 + r497;
-    let r506 = r469 - r500 + r500;
-    let r508 = 0.0 - right_s3;
-    let r509 = right_c3 + (1.0 - right_c3);
-    let r512 = r473 * right_c3 + r487 * r508;
-    let r515 = r474 * right_c3 + r489 * r508;
-    let r518 = r475 * right_c3 + r491 * r508;
-    let r519 = r478 * r509;
-    let r520 = r481 * r509;
-    let r521 = r484 * r509;
-    let r524 = r473 * right_s3 + r487 * right_c3;
-    let r527 = r474 * right_s3 + r489 * right_c3;
-    let r530 = r475 * right_s3 + r491 * right_c3;
-    let r531 = -0.05 * r519;
-    let r534 = -0.05 * r520;
-    let r537 = -0.05 * r521;
-    let r549 = r504 - (r531 + -0.085 * r524) + (r531 + -0.185 * r524);
-    let r550 = r505 - (r534 + -0.085 * r527) + (r534 + -0.185 * r527);
-    let r551 = r506 - (r537 + -0.085 * r530) + (r537 + -0.185 * r530);
-    let r553 = 0.0 - right_s4;
-    let r554 = right_c4 + (1.0 - right_c4);
-    let r557 = r512 * right_c4 + r524 * r553;
-    let r560 = r515 * right_c4 + r527 * r553;
-    let r563 = r518 * right_c4 + r530 * r553;
-    let r564 = r519 * r554;
-    let r565 = r520 * r554;
-    let r566 = r521 * r554;
-    let r569 = r512 * right_s4 + r524 * right_c4;
-    let r572 = r515 * right_s4 + r527 * right_c4;
-    let r575 = r518 * right_s4 + r530 * right_c4;
-    let r576 = -0.05 * r564;
-    let r579 = -0.05 * r565;
-    let r582 = -0.05 * r566;
-    let r594 = r549 - (r576 + -0.185 * r569) + (r576 + -0.2879 * r569);
-    let r595 = r550 - (r579 + -0.185 * r572) + (r579 + -0.2879 * r572);
-    let r596 = r551 - (r582 + -0.185 * r575) + (r582 + -0.2879 * r575);
-    let r598 = 0.0 - right_s5;
-    let r599 = right_c5 + (1.0 - right_c5);
-    let r602 = r557 * right_c5 + r569 * r598;
-    let r605 = r560 * right_c5 + r572 * r598;
-    let r608 = r563 * right_c5 + r575 * r598;
-    let r609 = r564 * r599;
-    let r610 = r565 * r599;
-    let r611 = r566 * r599;
-    let r614 = r557 * right_s5 + r569 * right_c5;
-    let r617 = r560 * right_s5 + r572 * right_c5;
-    let r620 = r563 * right_s5 + r575 * right_c5;
-    let r623 = -0.05 * r609 + -0.2879 * r614;
-    let r626 = -0.05 * r610 + -0.2879 * r617;
-    let r629 = -0.05 * r611 + -0.2879 * r620;
-    let r633 = r594 - r623 + r623;
-    let r634 = r595 - r626 + r626;
-    let r635 = r596 - r629 + r629;
-    let r637 = right_c6 + (1.0 - right_c6);
-    let r638 = 0.0 - right_s6;
-    let r639 = r602 * r637;
-    let r640 = r605 * r637;
-    let r641 = r608 * r637;
-    let r644 = r609 * right_c6 + r614 * right_s6;
-    let r647 = r610 * right_c6 + r617 * right_s6;
-    let r650 = r611 * right_c6 + r620 * right_s6;
-    let r653 = r609 * r638 + r614 * right_c6;
-    let r656 = r610 * r638 + r617 * right_c6;
-    let r659 = r611 * r638 + r620 * right_c6;
-    let r660 = -0.05 * r644;
-    let r663 = -0.05 * r647;
-    let r666 = -0.05 * r650;
-    let r678 = r633 - (r660 + -0.2879 * r653) + (r660 + -0.33309 * r653);
-    let r679 = r634 - (r663 + -0.2879 * r656) + (r663 + -0.33309 * r656);
-    let r680 = r635 - (r666 + -0.2879 * r659) + (r666 + -0.33309 * r659);
-    let r685 = 0.7071067811865475 * (r680 + 0.085) - 0.7071067811865475 * (r679 + 0.05);
-    let r686 = 0.7071067811865475 * r678;
-    let r688 = r678 - r467;
-    let r689 = r679 - r468;
-    let r690 = r680 - r469;
-    let r700 = r678 - r504;
-    let r701 = r679 - r505;
-    let r702 = r680 - r506;
-    let r712 = r678 - r549;
-    let r713 = r679 - r550;
-    let r714 = r680 - r551;
-    let r724 = r678 - r594;
-    let r725 = r679 - r595;
-    let r726 = r680 - r596;
-    let r736 = r678 - r633;
-    let r737 = r679 - r634;
-    let r738 = r680 - r635;
-    let r753 = 0.7071067811865475 * r641 - 0.7071067811865475 * r640;
-    let r754 = 0.7071067811865475 * r639;
-    let r806 = 0.7071067811865475 * r650 - 0.7071067811865475 * r647;
-    let r807 = 0.7071067811865475 * r644;
-    let r859 = 0.7071067811865475 * r659 - 0.7071067811865475 * r656;
-    let r860 = 0.7071067811865475 * r653;
+    let r0 = left_s1 * left_c2;
+    let r1 = left_s1 * left_s2;
+    let r2 = left_c1 + 1.0;
+    let r3 = left_c2 * r2;
+    let r4 = left_c1 - 1.0;
+    let r5 = left_s2 * r4;
+    let r6 = left_c2 * r4;
+    let r7 = left_s2 * r2;
+    let r9 = r1 - r0;
+    let r12 = r7 - r6;
+    let r14 = r5 - r3;
+    let r16 = left_c1 * left_s3;
+    let r17 = left_c3 * r9;
+    let r18 = left_s1 * left_s3;
+    let r19 = left_c3 * r12;
+    let r20 = left_c3 * r14;
+    let r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    let r25 = r16 - 0.7071067811865475 * r17;
+    let r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    let r29 = r27 - 0.5 * (left_s3 * r12);
+    let r31 = 0.7071067811865475 * r18;
+    let r33 = r31 + 0.5 * r19;
+    let r36 = r27 - 0.5 * (left_s3 * r14);
+    let r39 = r31 + 0.5 * r20;
+    let r41 = left_s4 * r22;
+    let r42 = left_c4 * r25;
+    let r43 = left_s4 * r29;
+    let r44 = left_c4 * r33;
+    let r45 = left_s4 * r36;
+    let r46 = left_c4 * r39;
+    let r47 = left_c4 * r22 - left_s4 * r25;
+    let r49 = r41 + r42;
+    let r51 = left_c4 * r29 - left_s4 * r33;
+    let r52 = left_c5 * r51;
+    let r53 = r43 + r44;
+    let r54 = left_s5 * r53;
+    let r55 = left_c4 * r36 - left_s4 * r39;
+    let r57 = r45 + r46;
+    let r65 = r0 + r1;
+    let r66 = left_c6 * r65;
+    let r67 = left_s5 * r47 + left_c5 * r49;
+    let r68 = left_s6 * r67;
+    let r69 = r3 + r5;
+    let r70 = left_c6 * r69;
+    let r71 = left_s5 * r51 + left_c5 * r53;
+    let r72 = left_s6 * r71;
+    let r73 = r6 + r7;
+    let r74 = left_c6 * r73;
+    let r75 = left_s5 * r55 + left_c5 * r57;
+    let r76 = left_s6 * r75;
+    let r77 = left_s6 * r65;
+    let r78 = left_c6 * r67;
+    let r79 = left_s6 * r69;
+    let r80 = left_c6 * r71;
+    let r81 = left_s6 * r73;
+    let r82 = left_c6 * r75;
+    let r83 = 0.07071067811865475 * r18;
+    let r86 = 0.1029 * r45;
+    let r88 = 0.1029 * r46;
+    let r90 = 0.022595 * r81;
+    let r92 = 0.04519 * r82;
+    let r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92;
+    let r96 = 0.1029 * r43;
+    let r98 = 0.1029 * r44;
+    let r100 = 0.022595 * r79;
+    let r102 = 0.04519 * r80;
+    let r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102;
+    let r107 = 0.1029 * r41;
+    let r109 = 0.1029 * r42;
+    let r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109;
+    let r111 = 0.03195415544182008 * r77;
+    let r113 = 0.04519 * r78;
+    let r114 = r110 - r111 + r113;
+    let r115 = left_c5 * r47 - left_s5 * r49;
+    let r128 = 0.5 * r74 - r76;
+    let r130 = 0.5 * r70 - r72;
+    let r132 = r68 + 0.7071067811865475 * r66;
+    let r137 = r82 + 0.5 * r81;
+    let r139 = r80 + 0.5 * r79;
+    let r147 = left_s1 * right_c2;
+    let r148 = left_s1 * right_s2;
+    let r149 = right_c2 * r2;
+    let r150 = right_s2 * r4;
+    let r151 = right_c2 * r4;
+    let r152 = right_s2 * r2;
+    let r154 = r147 + r148;
+    let r157 = r151 + r152;
+    let r159 = r149 + r150;
+    let r161 = left_c1 * right_s3;
+    let r162 = right_c3 * r154;
+    let r163 = left_s1 * right_s3;
+    let r164 = right_c3 * r157;
+    let r165 = right_c3 * r159;
+    let r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
+    let r170 = r161 + 0.7071067811865475 * r162;
+    let r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    let r174 = r172 + 0.5 * (right_s3 * r157);
+    let r176 = 0.7071067811865475 * r163;
+    let r178 = r176 - 0.5 * r164;
+    let r181 = r172 + 0.5 * (right_s3 * r159);
+    let r184 = r176 - 0.5 * r165;
+    let r186 = right_s4 * r167;
+    let r187 = right_c4 * r170;
+    let r188 = right_s4 * r174;
+    let r189 = right_c4 * r178;
+    let r190 = right_s4 * r181;
+    let r191 = right_c4 * r184;
+    let r192 = right_c4 * r167 - right_s4 * r170;
+    let r194 = r186 + r187;
+    let r196 = right_c4 * r174 - right_s4 * r178;
+    let r197 = right_c5 * r196;
+    let r198 = r188 + r189;
+    let r199 = right_s5 * r198;
+    let r200 = right_c4 * r181 - right_s4 * r184;
+    let r202 = r190 + r191;
+    let r210 = r147 - r148;
+    let r211 = right_c6 * r210;
+    let r212 = right_s5 * r192 + right_c5 * r194;
+    let r213 = right_s6 * r212;
+    let r214 = r149 - r150;
+    let r215 = right_c6 * r214;
+    let r216 = right_s5 * r196 + right_c5 * r198;
+    let r217 = right_s6 * r216;
+    let r218 = r151 - r152;
+    let r219 = right_c6 * r218;
+    let r220 = right_s5 * r200 + right_c5 * r202;
+    let r221 = right_s6 * r220;
+    let r222 = right_s6 * r210;
+    let r223 = right_c6 * r212;
+    let r224 = right_s6 * r214;
+    let r225 = right_c6 * r216;
+    let r226 = right_s6 * r218;
+    let r227 = right_c6 * r220;
+    let r228 = 0.07071067811865475 * r163;
+    let r231 = 0.1029 * r190;
+    let r233 = 0.1029 * r191;
+    let r235 = 0.022595 * r226;
+    let r237 = 0.04519 * r227;
+    let r238 = r228 - 0.05 * r165 + r231 + r233 - r235 + r237;
+    let r241 = 0.1029 * r188;
+    let r243 = 0.1029 * r189;
+    let r245 = 0.022595 * r224;
+    let r247 = 0.04519 * r225;
+    let r248 = r228 - 0.05 * r164 + r241 + r243 - r245 + r247;
+    let r252 = 0.1029 * r186;
+    let r253 = 0.1 * r161 + 0.07071067811865475 * r162 + r252;
+    let r254 = 0.1029 * r187;
+    let r256 = 0.03195415544182008 * r222;
+    let r258 = 0.04519 * r223;
+    let r259 = r253 + r254 + r256 + r258;
+    let r260 = r197 - r199;
+    let r261 = right_c5 * r192 - right_s5 * r194;
+    let r274 = r221 + 0.5 * r219;
+    let r276 = r217 + 0.5 * r215;
+    let r284 = 0.5 * r226 - r227;
+    let r287 = r223 + 0.7071067811865475 * r222;
+    let r307 = r92 + (r90 + (r86 + r88));
+    let r311 = r102 + (r100 + (r96 + r98));
+    let r315 = r113 + (r107 + r109 - r111);
+    let r320 = r90 + r92;
+    let r322 = r100 + r102;
+    let r324 = r111 - r113;
+    let r329 = r52 - r54;
+    let r331 = left_c5 * r55 - left_s5 * r57;
+    let r339 = 0.09999999999999998 * r18 + 0.035355339059327376 * r20;
+    let r343 = r339 + 0.07276128778409574 * r45 + 0.07276128778409574 * r46;
+    let r347 = r343 + 0.01597707772091004 * r81 + 0.03195415544182008 * r82;
+    let r351 = r347 + 0.035355339059327376 * r19 + 0.07276128778409574 * r43;
+    let r355 = r351 + 0.07276128778409574 * r44 + 0.01597707772091004 * r79;
+    let r359 = 0.7071067811865475 * (left_s1 * r93 - left_s1 * r103);
+    let r370 = 0.07071067811865475 * r16 - 0.04999999999999999 * r17;
+    let r374 = r370 + 0.07276128778409574 * r41 + 0.07276128778409574 * r42;
+    let r378 = r374 - 0.022594999999999997 * r77 + 0.03195415544182008 * r78;
+    let r379 = 0.7071067811865475 * (left_s1 * r114);
+    let r383 = 0.5 * (r73 * r114) + 0.7071067811865475 * (r65 * r93);
+    let r387 = 0.5 * (r73 * r315) + 0.7071067811865475 * (r65 * r307);
+    let r391 = 0.5 * (r73 * r324) - 0.7071067811865475 * (r65 * r320);
+    let r397 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
+    let r400 = 0.7071067811865475 * (r65 * r311) + 0.5 * (r69 * r315);
+    let r403 = 0.7071067811865475 * (r65 * r322) - 0.5 * (r69 * r324);
+    let r419 = 0.0 - 0.7071067811865475 * (r52 + r331 - r54);
+    let r421 = 0.7071067811865475 * (left_s1 * r331 - left_s1 * r329);
+    let r424 = 0.0 - 0.5 * (r69 * r331 - r73 * r329);
+    let r426 = 0.0 - 0.7071067811865475 * r115;
+    let r427 = 0.7071067811865475 * (left_s1 * r115);
+    let r431 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r331);
+    let r435 = 0.7071067811865475 * (r65 * r329) + 0.5 * (r69 * r115);
+    let r436 = 0.0 - r435;
+    let r456 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
+    let r460 = r456 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
+    let r462 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
+    let r465 = 0.5 * (r69 * r128 - r73 * r130);
+    let r469 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68;
+    let r470 = 0.0 - r469;
+    let r471 = 0.7071067811865475 * (left_s1 * r132);
+    let r476 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
+    let r482 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
+    let r486 = 0.7071067811865475 * r77 - r78;
+    let r504 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
+    let r508 = r504 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
+    let r511 = 0.7071067811865475 * (left_s1 * r137 - left_s1 * r139);
+    let r514 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
+    let r518 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
+    let r519 = 0.7071067811865475 * (left_s1 * r486);
+    let r523 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r486);
+    let r529 = 0.5 * (r69 * r486) - 0.7071067811865475 * (r65 * r139);
+    let r546 = r237 + (r231 + r233 - r235);
+    let r550 = r247 + (r241 + r243 - r245);
+    let r554 = r258 + (r256 + (r252 + r254));
+    let r559 = r235 - r237;
+    let r561 = r245 - r247;
+    let r563 = r256 + r258;
+    let r569 = right_c5 * r200 - right_s5 * r202;
+    let r577 = 0.09999999999999998 * r163 - 0.035355339059327376 * r165;
+    let r581 = r577 + 0.07276128778409574 * r190 + 0.07276128778409574 * r191;
+    let r585 = r581 - 0.01597707772091004 * r226 + 0.03195415544182008 * r227;
+    let r589 = r585 - 0.035355339059327376 * r164 + 0.07276128778409574 * r188;
+    let r593 = r589 + 0.07276128778409574 * r189 - 0.01597707772091004 * r224;
+    let r597 = 0.7071067811865475 * (left_s1 * r238 - left_s1 * r248);
+    let r608 = 0.07071067811865475 * r161 + 0.04999999999999999 * r162;
+    let r612 = r608 + 0.07276128778409574 * r186 + 0.07276128778409574 * r187;
+    let r616 = r612 + 0.022594999999999997 * r222 + 0.03195415544182008 * r223;
+    let r618 = 0.7071067811865475 * (left_s1 * r259);
+    let r622 = 0.5 * (r218 * r259) + 0.7071067811865475 * (r210 * r238);
+    let r625 = 0.5 * (r218 * r554) + 0.7071067811865475 * (r210 * r546);
+    let r628 = 0.5 * (r218 * r563) - 0.7071067811865475 * (r210 * r559);
+    let r633 = 0.7071067811865475 * (r210 * r248) + 0.5 * (r214 * r259);
+    let r636 = 0.7071067811865475 * (r210 * r550) + 0.5 * (r214 * r554);
+    let r639 = 0.5 * (r214 * r563) - 0.7071067811865475 * (r210 * r561);
+    let r655 = 0.0 - 0.7071067811865475 * (r197 + r569 - r199);
+    let r657 = 0.7071067811865475 * (left_s1 * r569 - left_s1 * r260);
+    let r661 = 0.0 - 0.5 * (r214 * r569 - r218 * r260);
+    let r662 = 0.7071067811865475 * r261;
+    let r663 = 0.7071067811865475 * (left_s1 * r261);
+    let r667 = 0.5 * (r218 * r261) + 0.7071067811865475 * (r210 * r569);
+    let r668 = 0.0 - r667;
+    let r673 = 0.7071067811865475 * (r210 * r260) + 0.5 * (r214 * r261);
+    let r674 = 0.0 - r673;
+    let r677 = 0.7071067811865475 * r211 - r213;
+    let r695 = 0.35355339059327373 * r219 + 0.7071067811865475 * r221;
+    let r699 = r695 + 0.35355339059327373 * r215 + 0.7071067811865475 * r217;
+    let r702 = 0.7071067811865475 * (left_s1 * r274 - left_s1 * r276);
+    let r706 = 0.0 - 0.5 * (r214 * r274 - r218 * r276);
+    let r708 = 0.4999999999999999 * r211;
+    let r709 = 0.7071067811865475 * r213;
+    let r712 = 0.7071067811865475 * (left_s1 * r677);
+    let r716 = 0.5 * (r218 * r677) - 0.7071067811865475 * (r210 * r274);
+    let r721 = 0.5 * (r214 * r677) - 0.7071067811865475 * (r210 * r276);
+    let r724 = 0.5 * r224 - r225;
+    let r743 = 0.35355339059327373 * r226 - 0.7071067811865475 * r227;
+    let r747 = r743 + 0.35355339059327373 * r224 - 0.7071067811865475 * r225;
+    let r749 = 0.7071067811865475 * (left_s1 * r284 - left_s1 * r724);
+    let r751 = 0.5 * (r214 * r284 - r218 * r724);
+    let r755 = 0.4999999999999999 * r222 + 0.7071067811865475 * r223;
+    let r756 = 0.7071067811865475 * (left_s1 * r287);
+    let r761 = 0.7071067811865475 * (r210 * r284) - 0.5 * (r218 * r287);
+    let r769 = 0.7071067811865475 * (r210 * r724) - 0.5 * (r214 * r287);
     [
-        [r232, r2 * r238 - r2 * r237, r31 * r249 - r34 * r248, r68 * r261 - r69 * r260, r112 * r273 - r113 * r272, r152 * r285 - r155 * r284, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [-0.7071067811865475 * r225, r242 - left_c1 * r238, r34 * r247 - r28 * r249, r69 * r259 - r67 * r261, r113 * r271 - r111 * r273, r155 * r283 - r149 * r285, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - 0.7071067811865475 * r225, left_c1 * r237 - r242, r28 * r248 - r31 * r247, r67 * r260 - r68 * r259, r111 * r272 - r112 * r271, r149 * r284 - r152 * r283, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r300, r2 * r188 - r2 * r187, r31 * r188 - r34 * r187, r68 * r188 - r69 * r187, r112 * r188 - r113 * r187, r152 * r188 - r155 * r187, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [-0.7071067811865475 * r186, r307 - left_c1 * r188, r34 * r186 - r28 * r188, r69 * r186 - r67 * r188, r113 * r186 - r111 * r188, r155 * r186 - r149 * r188, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - 0.7071067811865475 * r186, left_c1 * r187 - r307, r28 * r187 - r31 * r186, r67 * r187 - r68 * r186, r111 * r187 - r112 * r186, r149 * r187 - r152 * r186, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r353, r2 * r197 - r2 * r194, r31 * r197 - r34 * r194, r68 * r197 - r69 * r194, r112 * r197 - r113 * r194, r152 * r197 - r155 * r194, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [-0.7071067811865475 * r191, r360 - left_c1 * r197, r34 * r191 - r28 * r197, r69 * r191 - r67 * r197, r113 * r191 - r111 * r197, r155 * r191 - r149 * r197, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - 0.7071067811865475 * r191, left_c1 * r194 - r360, r28 * r194 - r31 * r191, r67 * r194 - r68 * r191, r111 * r194 - r112 * r191, r149 * r194 - r152 * r191, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r406, r2 * r206 - r2 * r203, r31 * r206 - r34 * r203, r68 * r206 - r69 * r203, r112 * r206 - r113 * r203, r152 * r206 - r155 * r203, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [-0.7071067811865475 * r200, r413 - left_c1 * r206, r34 * r200 - r28 * r206, r69 * r200 - r67 * r206, r113 * r200 - r111 * r206, r155 * r200 - r149 * r206, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - 0.7071067811865475 * r200, left_c1 * r203 - r413, r28 * r203 - r31 * r200, r67 * r203 - r68 * r200, r111 * r203 - r112 * r200, r149 * r203 - r152 * r200, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r685, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r690 - r2 * r689, r481 * r702 - r484 * r701, r520 * r714 - r521 * r713, r565 * r726 - r566 * r725, r605 * r738 - r608 * r737],
-        [r686, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r688 - left_c1 * r690, r484 * r700 - r478 * r702, r521 * r712 - r519 * r714, r566 * r724 - r564 * r726, r608 * r736 - r602 * r738],
-        [0.0 - r686, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r689 - r0 * r688, r478 * r701 - r481 * r700, r519 * r713 - r520 * r712, r564 * r725 - r565 * r724, r602 * r737 - r605 * r736],
-        [r753, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r641 - r2 * r640, r481 * r641 - r484 * r640, r520 * r641 - r521 * r640, r565 * r641 - r566 * r640, r605 * r641 - r608 * r640],
-        [r754, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r639 - left_c1 * r641, r484 * r639 - r478 * r641, r521 * r639 - r519 * r641, r566 * r639 - r564 * r641, r608 * r639 - r602 * r641],
-        [0.0 - r754, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r640 - r0 * r639, r478 * r640 - r481 * r639, r519 * r640 - r520 * r639, r564 * r640 - r565 * r639, r602 * r640 - r605 * r639],
-        [r806, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r650 - r2 * r647, r481 * r650 - r484 * r647, r520 * r650 - r521 * r647, r565 * r650 - r566 * r647, r605 * r650 - r608 * r647],
-        [r807, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r644 - left_c1 * r650, r484 * r644 - r478 * r650, r521 * r644 - r519 * r650, r566 * r644 - r564 * r650, r608 * r644 - r602 * r650],
-        [0.0 - r807, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r647 - r0 * r644, r478 * r647 - r481 * r644, r519 * r647 - r520 * r644, r564 * r647 - r565 * r644, r602 * r647 - r605 * r644],
-        [r859, 0.0, 0.0, 0.0, 0.0, 0.0, r0 * r659 - r2 * r656, r481 * r659 - r484 * r656, r520 * r659 - r521 * r656, r565 * r659 - r566 * r656, r605 * r659 - r608 * r656],
-        [r860, 0.0, 0.0, 0.0, 0.0, 0.0, r2 * r653 - left_c1 * r659, r484 * r653 - r478 * r659, r521 * r653 - r519 * r659, r566 * r653 - r564 * r659, r608 * r653 - r602 * r659],
-        [0.0 - r860, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r656 - r0 * r653, r478 * r656 - r481 * r653, r519 * r656 - r520 * r653, r564 * r656 - r565 * r653, r602 * r656 - r605 * r653],
+        [r355 + 0.03195415544182008 * r80, 0.0 - r359, 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r307 - r73 * r311), 0.5 * (r69 * r320 - r73 * r322), r322 * r331 - r320 * r329, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r378, r379 - left_c1 * r93, 0.0 - r383, 0.0 - r387, r391, 0.0 - (r324 * r331 + r320 * r115), 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r378, left_c1 * r103 - r379, r397, r400, r403, r322 * r115 + r324 * r329, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r419, r421, r424, r424, r424, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r426, left_c1 * r331 - r427, r431, r431, r431, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r426, r427 - left_c1 * r329, r436, r436, r436, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r460, 0.0 - r462, r465, r465, r465, r331 * r130 - r329 * r128, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r470, 0.0 - (left_c1 * r128 + r471), r476, r476, r476, 0.0 - (r331 * r132 + r115 * r128), 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r470, left_c1 * r130 + r471, r482, r482, r482, r115 * r130 + r329 * r132, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0 - r508, r511, r514, r514, r514, r329 * r137 - r331 * r139, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r518, left_c1 * r137 + r519, r523, r523, r523, r331 * r486 + r115 * r137, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r518, 0.0 - (left_c1 * r139 + r519), r529, r529, r529, 0.0 - (r115 * r139 + r329 * r486), 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r593 + 0.03195415544182008 * r225, 0.0, 0.0, 0.0, 0.0, 0.0, r597, 0.5 * (r214 * r238 - r218 * r248), 0.5 * (r214 * r546 - r218 * r550), 0.0 - 0.5 * (r214 * r559 - r218 * r561), r561 * r569 - r559 * r260],
+        [0.0 - r616, 0.0, 0.0, 0.0, 0.0, 0.0, r618 - left_c1 * r238, r622, r625, r628, r563 * r569 + r559 * r261],
+        [r616, 0.0, 0.0, 0.0, 0.0, 0.0, r618 - left_c1 * r248, r633, r636, r639, r561 * r261 + r563 * r260],
+        [r655, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - r657, r661, r661, r661, 0.0],
+        [r662, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r569 - r663, r668, r668, r668, 0.0],
+        [0.0 - r662, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r260 - r663, r674, r674, r674, 0.0],
+        [0.0 - r699, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - r702, r706, r706, r706, r569 * r276 - r260 * r274],
+        [r709 - r708, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r274 + r712, r716, r716, r716, r569 * r677 + r261 * r274],
+        [r708 - r709, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r276 + r712, r721, r721, r721, r261 * r276 + r260 * r677],
+        [r747, 0.0, 0.0, 0.0, 0.0, 0.0, r749, r751, r751, r751, r260 * r284 - r569 * r724],
+        [r755, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r284 + r756), r761, r761, r761, 0.0 - (r569 * r287 + r261 * r284)],
+        [0.0 - r755, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r724 + r756), r769, r769, r769, 0.0 - (r261 * r724 + r260 * r287)],
     ]
 }
 

@@ -521,125 +521,96 @@ static void tip(const double *q, double *reached)
     const double left_c9 = cos(q[8]), left_s9 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
     const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), right_c7 = cos(q[11]), right_s7 = sin(q[11]);
     const double right_c8 = cos(q[12]), right_s8 = sin(q[12]), right_c9 = cos(q[13]), right_s9 = sin(q[13]);
-    const double r6 = left_c1 + (1.0 - left_c1), r9 = left_c2_ + (1.0 - left_c2_), r13 = (0.0 - left_s1) * r9;
-    const double r14 = left_c1 * r9, r15 = left_c1 * left_s2_, r16 = left_s1 * left_s2_, r17 = r6 * left_c2_;
-    const double r19 = left_c3_ + (1.0 - left_c3_), r20 = 0.0 - left_s3_, r21 = left_c1 * left_c2_ * r19;
-    const double r22 = left_s1 * left_c2_ * r19, r23 = r6 * (0.0 - left_s2_) * r19;
-    const double r26 = r13 * left_c3_ + r15 * left_s3_, r29 = r14 * left_c3_ + r16 * left_s3_;
-    const double r30 = r17 * left_s3_, r33 = r13 * r20 + r15 * left_c3_, r36 = r14 * r20 + r16 * left_c3_;
-    const double r37 = r17 * left_c3_, r48 = -0.085 * r33, r51 = -0.085 * r36, r54 = -0.085 * r37;
-    const double r56 = 0.7071067811865475 * left_s4, r57 = 1.0 - left_c4, r58 = 0.0 - r56, r59 = 0.5 * r57;
-    const double r60 = left_c4 + r59, r61 = -0.5 * r57, r62 = r21 * left_c4, r65 = r33 * r58;
-    const double r67 = r22 * left_c4, r70 = r36 * r58, r72 = r23 * left_c4, r75 = r37 * r58, r77 = r21 * r56;
-    const double r78 = r26 * r60, r81 = r77 + r78 + r33 * r61, r82 = r22 * r56, r83 = r29 * r60;
-    const double r86 = r82 + r83 + r36 * r61, r87 = r23 * r56, r88 = r30 * r60, r91 = r87 + r88 + r37 * r61;
-    const double r94 = r33 * r60, r95 = r77 + r26 * r61 + r94, r98 = r36 * r60, r99 = r82 + r29 * r61 + r98;
-    const double r102 = r37 * r60, r103 = r87 + r30 * r61 + r102, r106 = 0.05 * r81 + -0.085 * r95;
-    const double r109 = 0.05 * r86 + -0.085 * r99, r112 = 0.05 * r91 + -0.085 * r103;
-    const double r120 = left_c5 + (1.0 - left_c5), r121 = 0.0 - left_s5, r122 = (r62 + r26 * r58 + r65) * r120;
-    const double r123 = (r67 + r29 * r58 + r70) * r120, r124 = (r72 + r30 * r58 + r75) * r120;
-    const double r127 = r81 * left_c5 + r95 * left_s5, r130 = r86 * left_c5 + r99 * left_s5;
-    const double r133 = r91 * left_c5 + r103 * left_s5, r136 = r81 * r121 + r95 * left_c5;
-    const double r139 = r86 * r121 + r99 * left_c5, r142 = r91 * r121 + r103 * left_c5;
-    const double r145 = 0.05 * r127 + -0.085 * r136, r148 = 0.05 * r130 + -0.085 * r139;
-    const double r151 = 0.05 * r133 + -0.085 * r142, r159 = 0.0 - left_s6, r160 = left_c6 + (1.0 - left_c6);
-    const double r163 = r122 * left_c6 + r136 * r159, r166 = r123 * left_c6 + r139 * r159;
-    const double r169 = r124 * left_c6 + r142 * r159, r170 = r127 * r160, r171 = r130 * r160, r172 = r133 * r160;
-    const double r175 = r122 * left_s6 + r136 * left_c6, r178 = r123 * left_s6 + r139 * left_c6;
-    const double r181 = r124 * left_s6 + r142 * left_c6, r182 = 0.05 * r170, r185 = 0.05 * r171;
-    const double r188 = 0.05 * r172;
-    const double r191 = 0.05 * r26 + r48 - r106 + r106 - r145 + r145 - (r182 + -0.085 * r175);
-    const double r192 = 0.05 * r29 + r51 - r109 + r109 - r148 + r148 - (r185 + -0.085 * r178);
-    const double r193 = 0.05 * r30 + r54 - r112 + r112 - r151 + r151 - (r188 + -0.085 * r181);
-    const double r204 = 0.0 - left_s7, r205 = left_c7 + (1.0 - left_c7), r208 = r163 * left_c7 + r175 * r204;
-    const double r211 = r166 * left_c7 + r178 * r204, r214 = r169 * left_c7 + r181 * r204, r215 = r170 * r205;
-    const double r216 = r171 * r205, r217 = r172 * r205, r220 = r163 * left_s7 + r175 * left_c7;
-    const double r223 = r166 * left_s7 + r178 * left_c7, r226 = r169 * left_s7 + r181 * left_c7;
-    const double r227 = 0.05 * r215, r230 = 0.05 * r216, r233 = 0.05 * r217;
-    const double r236 = r191 + (r182 + -0.185 * r175) - (r227 + -0.185 * r220);
-    const double r237 = r192 + (r185 + -0.185 * r178) - (r230 + -0.185 * r223);
-    const double r238 = r193 + (r188 + -0.185 * r181) - (r233 + -0.185 * r226), r249 = 0.0 - left_s8;
-    const double r250 = left_c8 + (1.0 - left_c8), r260 = r215 * r250, r261 = r216 * r250, r262 = r217 * r250;
-    const double r265 = r208 * left_s8 + r220 * left_c8, r268 = r211 * left_s8 + r223 * left_c8;
-    const double r271 = r214 * left_s8 + r226 * left_c8, r274 = 0.05 * r260 + -0.2879 * r265;
-    const double r277 = 0.05 * r261 + -0.2879 * r268, r280 = 0.05 * r262 + -0.2879 * r271;
-    const double r288 = left_c9 + (1.0 - left_c9), r289 = 0.0 - left_s9, r295 = r260 * left_c9 + r265 * left_s9;
-    const double r298 = r261 * left_c9 + r268 * left_s9, r301 = r262 * left_c9 + r271 * left_s9;
-    const double r304 = r260 * r289 + r265 * left_c9, r307 = r261 * r289 + r268 * left_c9;
-    const double r310 = r262 * r289 + r271 * left_c9, r311 = 0.05 * r295, r314 = 0.05 * r298, r317 = 0.05 * r301;
-    const double r320 = r236 + (r227 + -0.2879 * r220) - r274 + r274 - (r311 + -0.2879 * r304);
-    const double r321 = r237 + (r230 + -0.2879 * r223) - r277 + r277 - (r314 + -0.2879 * r307);
-    const double r322 = r238 + (r233 + -0.2879 * r226) - r280 + r280 - (r317 + -0.2879 * r310);
-    const double r666 = r21 * r58 + r78 + r33 * r59, r670 = r22 * r58 + r83 + r36 * r59;
-    const double r674 = r23 * r58 + r88 + r37 * r59, r677 = r77 + r26 * r59 + r94, r680 = r82 + r29 * r59 + r98;
-    const double r683 = r87 + r30 * r59 + r102, r686 = -0.05 * r666 + -0.085 * r677;
-    const double r689 = -0.05 * r670 + -0.085 * r680, r692 = -0.05 * r674 + -0.085 * r683;
-    const double r700 = right_c5 + (1.0 - right_c5), r701 = 0.0 - right_s5;
-    const double r702 = (r62 + r26 * r56 + r65) * r700, r703 = (r67 + r29 * r56 + r70) * r700;
-    const double r704 = (r72 + r30 * r56 + r75) * r700, r707 = r666 * right_c5 + r677 * right_s5;
-    const double r710 = r670 * right_c5 + r680 * right_s5, r713 = r674 * right_c5 + r683 * right_s5;
-    const double r716 = r666 * r701 + r677 * right_c5, r719 = r670 * r701 + r680 * right_c5;
-    const double r722 = r674 * r701 + r683 * right_c5, r725 = -0.05 * r707 + -0.085 * r716;
-    const double r728 = -0.05 * r710 + -0.085 * r719, r731 = -0.05 * r713 + -0.085 * r722;
-    const double r735 = -0.05 * r26 + r48 - r686 + r686 - r725 + r725;
-    const double r736 = -0.05 * r29 + r51 - r689 + r689 - r728 + r728;
-    const double r737 = -0.05 * r30 + r54 - r692 + r692 - r731 + r731, r739 = 0.0 - right_s6;
-    const double r740 = right_c6 + (1.0 - right_c6), r743 = r702 * right_c6 + r716 * r739;
-    const double r746 = r703 * right_c6 + r719 * r739, r749 = r704 * right_c6 + r722 * r739, r750 = r707 * r740;
-    const double r751 = r710 * r740, r752 = r713 * r740, r755 = r702 * right_s6 + r716 * right_c6;
-    const double r758 = r703 * right_s6 + r719 * right_c6, r761 = r704 * right_s6 + r722 * right_c6;
-    const double r762 = -0.05 * r750, r765 = -0.05 * r751, r768 = -0.05 * r752;
-    const double r780 = r735 - (r762 + -0.085 * r755) + (r762 + -0.185 * r755);
-    const double r781 = r736 - (r765 + -0.085 * r758) + (r765 + -0.185 * r758);
-    const double r782 = r737 - (r768 + -0.085 * r761) + (r768 + -0.185 * r761), r784 = 0.0 - right_s7;
-    const double r785 = right_c7 + (1.0 - right_c7), r788 = r743 * right_c7 + r755 * r784;
-    const double r791 = r746 * right_c7 + r758 * r784, r794 = r749 * right_c7 + r761 * r784, r795 = r750 * r785;
-    const double r796 = r751 * r785, r797 = r752 * r785, r800 = r743 * right_s7 + r755 * right_c7;
-    const double r803 = r746 * right_s7 + r758 * right_c7, r806 = r749 * right_s7 + r761 * right_c7;
-    const double r807 = -0.05 * r795, r810 = -0.05 * r796, r813 = -0.05 * r797;
-    const double r825 = r780 - (r807 + -0.185 * r800) + (r807 + -0.2879 * r800);
-    const double r826 = r781 - (r810 + -0.185 * r803) + (r810 + -0.2879 * r803);
-    const double r827 = r782 - (r813 + -0.185 * r806) + (r813 + -0.2879 * r806), r829 = 0.0 - right_s8;
-    const double r830 = right_c8 + (1.0 - right_c8), r840 = r795 * r830, r841 = r796 * r830, r842 = r797 * r830;
-    const double r845 = r788 * right_s8 + r800 * right_c8, r848 = r791 * right_s8 + r803 * right_c8;
-    const double r851 = r794 * right_s8 + r806 * right_c8, r854 = -0.05 * r840 + -0.2879 * r845;
-    const double r857 = -0.05 * r841 + -0.2879 * r848, r860 = -0.05 * r842 + -0.2879 * r851;
-    const double r868 = right_c9 + (1.0 - right_c9), r869 = 0.0 - right_s9;
-    const double r875 = r840 * right_c9 + r845 * right_s9, r878 = r841 * right_c9 + r848 * right_s9;
-    const double r881 = r842 * right_c9 + r851 * right_s9, r884 = r840 * r869 + r845 * right_c9;
-    const double r887 = r841 * r869 + r848 * right_c9, r890 = r842 * r869 + r851 * right_c9, r891 = -0.05 * r875;
-    const double r894 = -0.05 * r878, r897 = -0.05 * r881;
-    const double r909 = r825 - r854 + r854 - (r891 + -0.2879 * r884) + (r891 + -0.33309 * r884);
-    const double r910 = r826 - r857 + r857 - (r894 + -0.2879 * r887) + (r894 + -0.33309 * r887);
-    const double r911 = r827 - r860 + r860 - (r897 + -0.2879 * r890) + (r897 + -0.33309 * r890);
+    const double r4 = left_c1 * left_c2_, r5 = left_s1 * left_c2_, r6 = left_c1 * left_s2_;
+    const double r7 = left_s1 * left_s2_, r8 = left_s1 * left_c3_, r9 = left_s3_ * r6, r10 = left_c1 * left_c3_;
+    const double r11 = left_s3_ * r7, r12 = left_c2_ * left_s3_, r13 = left_s1 * left_s3_, r14 = left_c3_ * r6;
+    const double r15 = left_c1 * left_s3_, r16 = left_c3_ * r7, r17 = left_c2_ * left_c3_, r18 = left_c4 * r4;
+    const double r19 = r8 - r9, r21 = r13 + r14, r23 = left_c4 * r5, r24 = r10 + r11, r26 = r15 - r16;
+    const double r28 = left_s2_ * left_c4, r32 = left_c4 + 1.0, r34 = left_c4 - 1.0;
+    const double r48 = 0.7071067811865475 * (left_s4 * r4), r49 = 0.5 * (r19 * r32), r51 = 0.5 * (r21 * r34);
+    const double r52 = r48 - r49 + r51, r54 = 0.5 * (r19 * r34), r56 = 0.5 * (r21 * r32), r57 = r48 - r54 + r56;
+    const double r59 = 0.7071067811865475 * (left_s4 * r5), r60 = 0.5 * (r24 * r32), r62 = 0.5 * (r26 * r34);
+    const double r63 = r59 + r60 - r62, r65 = 0.5 * (r24 * r34), r67 = 0.5 * (r26 * r32), r68 = r59 + r65 - r67;
+    const double r70 = 0.7071067811865475 * (left_s2_ * left_s4), r71 = 0.5 * (r12 * r32);
+    const double r73 = 0.5 * (r17 * r34), r74 = r70 - r71 - r73, r76 = 0.5 * (r12 * r34);
+    const double r78 = 0.5 * (r17 * r32), r79 = r70 - r76 - r78, r87 = 0.7071067811865475 * (left_s4 * r19);
+    const double r89 = 0.7071067811865475 * (left_s4 * r21), r90 = r18 + r87 - r89;
+    const double r92 = left_s5 * r52 - left_c5 * r57, r94 = 0.7071067811865475 * (left_s4 * r24);
+    const double r96 = 0.7071067811865475 * (left_s4 * r26), r97 = r23 - r94 + r96;
+    const double r99 = left_s5 * r63 - left_c5 * r68, r101 = 0.7071067811865475 * (left_s4 * r12);
+    const double r103 = 0.7071067811865475 * (left_s4 * r17), r104 = r28 + r101 + r103;
+    const double r106 = left_s5 * r74 - left_c5 * r79, r108 = left_s6 * r90, r109 = left_c6 * r92;
+    const double r110 = left_s6 * r97, r111 = left_c6 * r99, r112 = left_s6 * r104, r113 = left_c6 * r106;
+    const double r114 = left_c6 * r90 + left_s6 * r92, r116 = r108 - r109, r118 = left_c6 * r97 + left_s6 * r99;
+    const double r120 = r110 - r111, r122 = left_c6 * r104 + left_s6 * r106, r124 = r112 - r113;
+    const double r126 = left_s7 * r114, r127 = left_c7 * r116, r128 = left_s7 * r118, r129 = left_c7 * r120;
+    const double r130 = left_s7 * r122, r131 = left_c7 * r124, r132 = left_c7 * r114 - left_s7 * r116;
+    const double r134 = r126 + r127, r136 = left_c7 * r118 - left_s7 * r120, r138 = r128 + r129;
+    const double r140 = left_c7 * r122 - left_s7 * r124, r142 = r130 + r131;
+    const double r150 = left_c5 * r52 + left_s5 * r57, r152 = left_s8 * r132 + left_c8 * r134;
+    const double r154 = left_c5 * r63 + left_s5 * r68, r156 = left_s8 * r136 + left_c8 * r138;
+    const double r158 = left_c5 * r74 + left_s5 * r79, r160 = left_s8 * r140 + left_c8 * r142;
+    const double r162 = left_s9 * r150, r163 = left_c9 * r152, r164 = left_s9 * r154, r165 = left_c9 * r156;
+    const double r166 = left_s9 * r158, r167 = left_c9 * r160, r168 = 0.05 * r12, r169 = 0.085 * r17;
+    const double r176 = r168 - r169 + 0.1 * r112 - 0.1 * r113 + 0.1029 * r130;
+    const double r182 = r176 + 0.1029 * r131 - 0.04519 * r166 + 0.04519 * r167, r185 = 0.05 * r10 + 0.05 * r11;
+    const double r186 = 0.085 * r15, r188 = 0.085 * r16;
+    const double r195 = r185 + r186 - r188 - 0.1 * r110 + 0.1 * r111 - 0.1029 * r128;
+    const double r201 = r195 - 0.1029 * r129 + 0.04519 * r164 - 0.04519 * r165, r204 = 0.05 * r8 - 0.05 * r9;
+    const double r205 = 0.085 * r13, r207 = 0.085 * r14;
+    const double r214 = r204 + r205 + r207 + 0.1 * r108 - 0.1 * r109 + 0.1029 * r126;
+    const double r220 = r214 + 0.1029 * r127 - 0.04519 * r162 + 0.04519 * r163, r245 = r48 + r49 + r51;
+    const double r248 = r48 + r54 + r56, r251 = r59 - r60 - r62, r254 = r59 - r65 - r67, r257 = r70 + r71 - r73;
+    const double r260 = r70 + r76 - r78, r269 = r18 - r87 - r89, r271 = right_s5 * r245 + right_c5 * r248;
+    const double r274 = r23 + r94 + r96, r276 = right_s5 * r251 + right_c5 * r254, r279 = r28 - r101 + r103;
+    const double r281 = right_s5 * r257 + right_c5 * r260, r283 = right_s6 * r269, r284 = right_c6 * r271;
+    const double r285 = right_s6 * r274, r286 = right_c6 * r276, r287 = right_s6 * r279, r288 = right_c6 * r281;
+    const double r289 = right_c6 * r269 - right_s6 * r271, r291 = r283 + r284;
+    const double r293 = right_c6 * r274 - right_s6 * r276, r295 = r285 + r286;
+    const double r297 = right_c6 * r279 - right_s6 * r281, r299 = r287 + r288, r301 = right_s7 * r289;
+    const double r302 = right_c7 * r291, r303 = right_s7 * r293, r304 = right_c7 * r295, r305 = right_s7 * r297;
+    const double r306 = right_c7 * r299, r307 = right_c7 * r289 - right_s7 * r291, r309 = r301 + r302;
+    const double r311 = right_c7 * r293 - right_s7 * r295, r313 = r303 + r304;
+    const double r315 = right_c7 * r297 - right_s7 * r299, r317 = r305 + r306;
+    const double r325 = right_c5 * r245 - right_s5 * r248, r327 = right_s8 * r307 + right_c8 * r309;
+    const double r329 = right_c5 * r251 - right_s5 * r254, r331 = right_s8 * r311 + right_c8 * r313;
+    const double r333 = right_c5 * r257 - right_s5 * r260, r335 = right_s8 * r315 + right_c8 * r317;
+    const double r337 = right_s9 * r325, r338 = right_c9 * r327, r339 = right_s9 * r329, r340 = right_c9 * r331;
+    const double r341 = right_s9 * r333, r342 = right_c9 * r335;
+    const double r349 = r168 + r169 - 0.1 * r287 - 0.1 * r288 - 0.1029 * r305;
+    const double r362 = r185 - r186 + r188 + 0.1 * r285 + 0.1 * r286 + 0.1029 * r303;
+    const double r368 = r362 + 0.1029 * r304 + 0.04519 * r339 + 0.04519 * r340;
+    const double r376 = r204 - r205 - r207 - 0.1 * r283 - 0.1 * r284 - 0.1029 * r301;
+    const double r382 = r376 - 0.1029 * r302 - 0.04519 * r337 - 0.04519 * r338;
+    const double r391 = 0.04519 * r342 - (r349 - 0.1029 * r306 - 0.04519 * r341);
     reached[0] = left_c2_;
     reached[1] = left_s2_;
     reached[2] = left_c3_;
     reached[3] = left_s3_;
-    reached[4] = r320 + (r311 + -0.33309 * r304);
-    reached[5] = r321 + (r314 + -0.33309 * r307);
-    reached[6] = r322 + (r317 + -0.33309 * r310);
-    reached[7] = (r208 * left_c8 + r220 * r249) * r288;
-    reached[8] = (r211 * left_c8 + r223 * r249) * r288;
-    reached[9] = (r214 * left_c8 + r226 * r249) * r288;
-    reached[10] = r295;
-    reached[11] = r298;
-    reached[12] = r301;
-    reached[13] = r304;
-    reached[14] = r307;
-    reached[15] = r310;
-    reached[16] = r909;
-    reached[17] = r910;
-    reached[18] = r911;
-    reached[19] = (r788 * right_c8 + r800 * r829) * r868;
-    reached[20] = (r791 * right_c8 + r803 * r829) * r868;
-    reached[21] = (r794 * right_c8 + r806 * r829) * r868;
-    reached[22] = r875;
-    reached[23] = r878;
-    reached[24] = r881;
-    reached[25] = r884;
-    reached[26] = r887;
-    reached[27] = r890;
+    reached[4] = 0.0 - r220;
+    reached[5] = r201;
+    reached[6] = r182;
+    reached[7] = left_c8 * r132 - left_s8 * r134;
+    reached[8] = left_c8 * r136 - left_s8 * r138;
+    reached[9] = left_s8 * r142 - left_c8 * r140;
+    reached[10] = left_c9 * r150 + left_s9 * r152;
+    reached[11] = left_c9 * r154 + left_s9 * r156;
+    reached[12] = 0.0 - (left_c9 * r158 + left_s9 * r160);
+    reached[13] = r163 - r162;
+    reached[14] = r165 - r164;
+    reached[15] = r166 - r167;
+    reached[16] = r382;
+    reached[17] = 0.0 - r368;
+    reached[18] = r391;
+    reached[19] = right_c8 * r307 - right_s8 * r309;
+    reached[20] = right_c8 * r311 - right_s8 * r313;
+    reached[21] = right_s8 * r317 - right_c8 * r315;
+    reached[22] = right_s9 * r327 - right_c9 * r325;
+    reached[23] = right_s9 * r331 - right_c9 * r329;
+    reached[24] = right_c9 * r333 - right_s9 * r335;
+    reached[25] = r337 + r338;
+    reached[26] = r339 + r340;
+    reached[27] = 0.0 - (r341 + r342);
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -732,148 +703,146 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     const double left_c9 = cos(q[8]), left_s9 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
     const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), right_c7 = cos(q[11]), right_s7 = sin(q[11]);
     const double right_c8 = cos(q[12]), right_s8 = sin(q[12]), right_c9 = cos(q[13]), right_s9 = sin(q[13]);
-    const double r5 = 0.0 - left_s1, r6 = left_c1 + (1.0 - left_c1), r9 = left_c2_ + (1.0 - left_c2_);
-    const double r10 = left_c1 * left_c2_, r11 = left_s1 * left_c2_, r12 = r6 * (0.0 - left_s2_), r13 = r5 * r9;
-    const double r14 = left_c1 * r9, r15 = left_c1 * left_s2_, r16 = left_s1 * left_s2_, r17 = r6 * left_c2_;
-    const double r19 = left_c3_ + (1.0 - left_c3_), r20 = 0.0 - left_s3_, r21 = r10 * r19, r22 = r11 * r19;
-    const double r23 = r12 * r19, r26 = r13 * left_c3_ + r15 * left_s3_, r29 = r14 * left_c3_ + r16 * left_s3_;
-    const double r30 = r17 * left_s3_, r33 = r13 * r20 + r15 * left_c3_, r36 = r14 * r20 + r16 * left_c3_;
-    const double r37 = r17 * left_c3_, r44 = 0.7071067811865475 * (r26 + (0.0 - r33));
-    const double r45 = 0.7071067811865475 * (r29 + (0.0 - r36)), r46 = 0.7071067811865475 * (r30 + (0.0 - r37));
-    const double r48 = -0.085 * r33, r49 = 0.05 * r26 + r48, r51 = -0.085 * r36, r52 = 0.05 * r29 + r51;
-    const double r54 = -0.085 * r37, r55 = 0.05 * r30 + r54, r56 = 0.7071067811865475 * left_s4;
-    const double r57 = 1.0 - left_c4, r58 = 0.0 - r56, r59 = 0.5 * r57, r60 = left_c4 + r59, r61 = -0.5 * r57;
-    const double r62 = r21 * left_c4, r65 = r33 * r58, r66 = r62 + r26 * r58 + r65, r67 = r22 * left_c4;
-    const double r70 = r36 * r58, r71 = r67 + r29 * r58 + r70, r72 = r23 * left_c4, r75 = r37 * r58;
-    const double r76 = r72 + r30 * r58 + r75, r77 = r21 * r56, r78 = r26 * r60, r81 = r77 + r78 + r33 * r61;
-    const double r82 = r22 * r56, r83 = r29 * r60, r86 = r82 + r83 + r36 * r61, r87 = r23 * r56, r88 = r30 * r60;
-    const double r91 = r87 + r88 + r37 * r61, r94 = r33 * r60, r95 = r77 + r26 * r61 + r94, r98 = r36 * r60;
-    const double r99 = r82 + r29 * r61 + r98, r102 = r37 * r60, r103 = r87 + r30 * r61 + r102;
-    const double r106 = 0.05 * r81 + -0.085 * r95, r109 = 0.05 * r86 + -0.085 * r99;
-    const double r112 = 0.05 * r91 + -0.085 * r103, r116 = r49 - r106 + r106, r117 = r52 - r109 + r109;
-    const double r118 = r55 - r112 + r112, r120 = left_c5 + (1.0 - left_c5), r121 = 0.0 - left_s5;
-    const double r122 = r66 * r120, r123 = r71 * r120, r124 = r76 * r120, r127 = r81 * left_c5 + r95 * left_s5;
-    const double r130 = r86 * left_c5 + r99 * left_s5, r133 = r91 * left_c5 + r103 * left_s5;
-    const double r136 = r81 * r121 + r95 * left_c5, r139 = r86 * r121 + r99 * left_c5;
-    const double r142 = r91 * r121 + r103 * left_c5, r145 = 0.05 * r127 + -0.085 * r136;
-    const double r148 = 0.05 * r130 + -0.085 * r139, r151 = 0.05 * r133 + -0.085 * r142;
-    const double r155 = r116 - r145 + r145, r156 = r117 - r148 + r148, r157 = r118 - r151 + r151;
-    const double r159 = 0.0 - left_s6, r160 = left_c6 + (1.0 - left_c6), r163 = r122 * left_c6 + r136 * r159;
-    const double r166 = r123 * left_c6 + r139 * r159, r169 = r124 * left_c6 + r142 * r159, r170 = r127 * r160;
-    const double r171 = r130 * r160, r172 = r133 * r160, r175 = r122 * left_s6 + r136 * left_c6;
-    const double r178 = r123 * left_s6 + r139 * left_c6, r181 = r124 * left_s6 + r142 * left_c6;
-    const double r182 = 0.05 * r170, r185 = 0.05 * r171, r188 = 0.05 * r172;
-    const double r200 = r155 - (r182 + -0.085 * r175) + (r182 + -0.185 * r175);
-    const double r201 = r156 - (r185 + -0.085 * r178) + (r185 + -0.185 * r178);
-    const double r202 = r157 - (r188 + -0.085 * r181) + (r188 + -0.185 * r181), r204 = 0.0 - left_s7;
-    const double r205 = left_c7 + (1.0 - left_c7), r208 = r163 * left_c7 + r175 * r204;
-    const double r211 = r166 * left_c7 + r178 * r204, r214 = r169 * left_c7 + r181 * r204, r215 = r170 * r205;
-    const double r216 = r171 * r205, r217 = r172 * r205, r220 = r163 * left_s7 + r175 * left_c7;
-    const double r223 = r166 * left_s7 + r178 * left_c7, r226 = r169 * left_s7 + r181 * left_c7;
-    const double r227 = 0.05 * r215, r230 = 0.05 * r216, r233 = 0.05 * r217;
-    const double r245 = r200 - (r227 + -0.185 * r220) + (r227 + -0.2879 * r220);
-    const double r246 = r201 - (r230 + -0.185 * r223) + (r230 + -0.2879 * r223);
-    const double r247 = r202 - (r233 + -0.185 * r226) + (r233 + -0.2879 * r226), r249 = 0.0 - left_s8;
-    const double r250 = left_c8 + (1.0 - left_c8), r253 = r208 * left_c8 + r220 * r249;
-    const double r256 = r211 * left_c8 + r223 * r249, r259 = r214 * left_c8 + r226 * r249, r260 = r215 * r250;
-    const double r261 = r216 * r250, r262 = r217 * r250, r265 = r208 * left_s8 + r220 * left_c8;
-    const double r268 = r211 * left_s8 + r223 * left_c8, r271 = r214 * left_s8 + r226 * left_c8;
-    const double r274 = 0.05 * r260 + -0.2879 * r265, r277 = 0.05 * r261 + -0.2879 * r268;
-    const double r280 = 0.05 * r262 + -0.2879 * r271, r284 = r245 - r274 + r274, r285 = r246 - r277 + r277;
-    const double r286 = r247 - r280 + r280, r288 = left_c9 + (1.0 - left_c9), r289 = 0.0 - left_s9;
-    const double r290 = r253 * r288, r291 = r256 * r288, r292 = r259 * r288;
-    const double r295 = r260 * left_c9 + r265 * left_s9, r298 = r261 * left_c9 + r268 * left_s9;
-    const double r301 = r262 * left_c9 + r271 * left_s9, r304 = r260 * r289 + r265 * left_c9;
-    const double r307 = r261 * r289 + r268 * left_c9, r310 = r262 * r289 + r271 * left_c9, r311 = 0.05 * r295;
-    const double r314 = 0.05 * r298, r317 = 0.05 * r301;
-    const double r329 = r284 - (r311 + -0.2879 * r304) + (r311 + -0.33309 * r304);
-    const double r330 = r285 - (r314 + -0.2879 * r307) + (r314 + -0.33309 * r307);
-    const double r331 = r286 - (r317 + -0.2879 * r310) + (r317 + -0.33309 * r310), r348 = r329 - r49;
-    const double r349 = r330 - r52, r350 = r331 - r55, r360 = r329 - r116, r361 = r330 - r117;
-    const double r362 = r331 - r118, r372 = r329 - r155, r373 = r330 - r156, r374 = r331 - r157;
-    const double r384 = r329 - r200, r385 = r330 - r201, r386 = r331 - r202, r396 = r329 - r245;
-    const double r397 = r330 - r246, r398 = r331 - r247, r408 = r329 - r284, r409 = r330 - r285;
-    const double r410 = r331 - r286, r645 = 0.7071067811865475 * (r26 + r33);
-    const double r646 = 0.7071067811865475 * (r29 + r36), r647 = 0.7071067811865475 * (r30 + r37);
-    const double r649 = -0.05 * r26 + r48, r651 = -0.05 * r29 + r51, r653 = -0.05 * r30 + r54;
-    const double r656 = r62 + r26 * r56 + r65, r659 = r67 + r29 * r56 + r70, r662 = r72 + r30 * r56 + r75;
-    const double r666 = r21 * r58 + r78 + r33 * r59, r670 = r22 * r58 + r83 + r36 * r59;
-    const double r674 = r23 * r58 + r88 + r37 * r59, r677 = r77 + r26 * r59 + r94, r680 = r82 + r29 * r59 + r98;
-    const double r683 = r87 + r30 * r59 + r102, r686 = -0.05 * r666 + -0.085 * r677;
-    const double r689 = -0.05 * r670 + -0.085 * r680, r692 = -0.05 * r674 + -0.085 * r683;
-    const double r696 = r649 - r686 + r686, r697 = r651 - r689 + r689, r698 = r653 - r692 + r692;
-    const double r700 = right_c5 + (1.0 - right_c5), r701 = 0.0 - right_s5, r702 = r656 * r700;
-    const double r703 = r659 * r700, r704 = r662 * r700, r707 = r666 * right_c5 + r677 * right_s5;
-    const double r710 = r670 * right_c5 + r680 * right_s5, r713 = r674 * right_c5 + r683 * right_s5;
-    const double r716 = r666 * r701 + r677 * right_c5, r719 = r670 * r701 + r680 * right_c5;
-    const double r722 = r674 * r701 + r683 * right_c5, r725 = -0.05 * r707 + -0.085 * r716;
-    const double r728 = -0.05 * r710 + -0.085 * r719, r731 = -0.05 * r713 + -0.085 * r722;
-    const double r735 = r696 - r725 + r725, r736 = r697 - r728 + r728, r737 = r698 - r731 + r731;
-    const double r739 = 0.0 - right_s6, r740 = right_c6 + (1.0 - right_c6), r743 = r702 * right_c6 + r716 * r739;
-    const double r746 = r703 * right_c6 + r719 * r739, r749 = r704 * right_c6 + r722 * r739, r750 = r707 * r740;
-    const double r751 = r710 * r740, r752 = r713 * r740, r755 = r702 * right_s6 + r716 * right_c6;
-    const double r758 = r703 * right_s6 + r719 * right_c6, r761 = r704 * right_s6 + r722 * right_c6;
-    const double r762 = -0.05 * r750, r765 = -0.05 * r751, r768 = -0.05 * r752;
-    const double r780 = r735 - (r762 + -0.085 * r755) + (r762 + -0.185 * r755);
-    const double r781 = r736 - (r765 + -0.085 * r758) + (r765 + -0.185 * r758);
-    const double r782 = r737 - (r768 + -0.085 * r761) + (r768 + -0.185 * r761), r784 = 0.0 - right_s7;
-    const double r785 = right_c7 + (1.0 - right_c7), r788 = r743 * right_c7 + r755 * r784;
-    const double r791 = r746 * right_c7 + r758 * r784, r794 = r749 * right_c7 + r761 * r784, r795 = r750 * r785;
-    const double r796 = r751 * r785, r797 = r752 * r785, r800 = r743 * right_s7 + r755 * right_c7;
-    const double r803 = r746 * right_s7 + r758 * right_c7, r806 = r749 * right_s7 + r761 * right_c7;
-    const double r807 = -0.05 * r795, r810 = -0.05 * r796, r813 = -0.05 * r797;
-    const double r825 = r780 - (r807 + -0.185 * r800) + (r807 + -0.2879 * r800);
-    const double r826 = r781 - (r810 + -0.185 * r803) + (r810 + -0.2879 * r803);
-    const double r827 = r782 - (r813 + -0.185 * r806) + (r813 + -0.2879 * r806), r829 = 0.0 - right_s8;
-    const double r830 = right_c8 + (1.0 - right_c8), r833 = r788 * right_c8 + r800 * r829;
-    const double r836 = r791 * right_c8 + r803 * r829, r839 = r794 * right_c8 + r806 * r829, r840 = r795 * r830;
-    const double r841 = r796 * r830, r842 = r797 * r830, r845 = r788 * right_s8 + r800 * right_c8;
-    const double r848 = r791 * right_s8 + r803 * right_c8, r851 = r794 * right_s8 + r806 * right_c8;
-    const double r854 = -0.05 * r840 + -0.2879 * r845, r857 = -0.05 * r841 + -0.2879 * r848;
-    const double r860 = -0.05 * r842 + -0.2879 * r851, r864 = r825 - r854 + r854, r865 = r826 - r857 + r857;
-    const double r866 = r827 - r860 + r860, r868 = right_c9 + (1.0 - right_c9), r869 = 0.0 - right_s9;
-    const double r870 = r833 * r868, r871 = r836 * r868, r872 = r839 * r868;
-    const double r875 = r840 * right_c9 + r845 * right_s9, r878 = r841 * right_c9 + r848 * right_s9;
-    const double r881 = r842 * right_c9 + r851 * right_s9, r884 = r840 * r869 + r845 * right_c9;
-    const double r887 = r841 * r869 + r848 * right_c9, r890 = r842 * r869 + r851 * right_c9, r891 = -0.05 * r875;
-    const double r894 = -0.05 * r878, r897 = -0.05 * r881;
-    const double r909 = r864 - (r891 + -0.2879 * r884) + (r891 + -0.33309 * r884);
-    const double r910 = r865 - (r894 + -0.2879 * r887) + (r894 + -0.33309 * r887);
-    const double r911 = r866 - (r897 + -0.2879 * r890) + (r897 + -0.33309 * r890), r928 = r909 - r649;
-    const double r929 = r910 - r651, r930 = r911 - r653, r940 = r909 - r696, r941 = r910 - r697;
-    const double r942 = r911 - r698, r952 = r909 - r735, r953 = r910 - r736, r954 = r911 - r737;
-    const double r964 = r909 - r780, r965 = r910 - r781, r966 = r911 - r782, r976 = r909 - r825;
-    const double r977 = r910 - r826, r978 = r911 - r827, r988 = r909 - r864, r989 = r910 - r865;
-    const double r990 = r911 - r866;
+    const double r4 = left_c1 * left_c2_, r5 = left_s1 * left_c2_, r6 = left_c1 * left_s2_;
+    const double r7 = left_s1 * left_s2_, r8 = left_s1 * left_c3_, r9 = left_s3_ * r6, r10 = left_c1 * left_c3_;
+    const double r11 = left_s3_ * r7, r12 = left_c2_ * left_s3_, r13 = left_s1 * left_s3_, r14 = left_c3_ * r6;
+    const double r15 = left_c1 * left_s3_, r16 = left_c3_ * r7, r17 = left_c2_ * left_c3_, r18 = left_c4 * r4;
+    const double r19 = r8 - r9, r21 = r13 + r14, r23 = left_c4 * r5, r24 = r10 + r11, r26 = r15 - r16;
+    const double r28 = left_s2_ * left_c4, r32 = left_c4 + 1.0, r34 = left_c4 - 1.0;
+    const double r48 = 0.7071067811865475 * (left_s4 * r4), r49 = 0.5 * (r19 * r32), r51 = 0.5 * (r21 * r34);
+    const double r52 = r48 - r49 + r51, r54 = 0.5 * (r19 * r34), r56 = 0.5 * (r21 * r32), r57 = r48 - r54 + r56;
+    const double r59 = 0.7071067811865475 * (left_s4 * r5), r60 = 0.5 * (r24 * r32), r62 = 0.5 * (r26 * r34);
+    const double r63 = r59 + r60 - r62, r65 = 0.5 * (r24 * r34), r67 = 0.5 * (r26 * r32), r68 = r59 + r65 - r67;
+    const double r70 = 0.7071067811865475 * (left_s2_ * left_s4), r71 = 0.5 * (r12 * r32);
+    const double r73 = 0.5 * (r17 * r34), r74 = r70 - r71 - r73, r76 = 0.5 * (r12 * r34);
+    const double r78 = 0.5 * (r17 * r32), r79 = r70 - r76 - r78, r87 = 0.7071067811865475 * (left_s4 * r19);
+    const double r89 = 0.7071067811865475 * (left_s4 * r21), r90 = r18 + r87 - r89;
+    const double r92 = left_s5 * r52 - left_c5 * r57, r94 = 0.7071067811865475 * (left_s4 * r24);
+    const double r96 = 0.7071067811865475 * (left_s4 * r26), r97 = r23 - r94 + r96;
+    const double r99 = left_s5 * r63 - left_c5 * r68, r101 = 0.7071067811865475 * (left_s4 * r12);
+    const double r103 = 0.7071067811865475 * (left_s4 * r17), r104 = r28 + r101 + r103;
+    const double r106 = left_s5 * r74 - left_c5 * r79, r108 = left_s6 * r90, r109 = left_c6 * r92;
+    const double r110 = left_s6 * r97, r111 = left_c6 * r99, r112 = left_s6 * r104, r113 = left_c6 * r106;
+    const double r114 = left_c6 * r90 + left_s6 * r92, r116 = r108 - r109, r118 = left_c6 * r97 + left_s6 * r99;
+    const double r120 = r110 - r111, r122 = left_c6 * r104 + left_s6 * r106, r124 = r112 - r113;
+    const double r126 = left_s7 * r114, r127 = left_c7 * r116, r128 = left_s7 * r118, r129 = left_c7 * r120;
+    const double r130 = left_s7 * r122, r131 = left_c7 * r124, r132 = left_c7 * r114 - left_s7 * r116;
+    const double r134 = r126 + r127, r136 = left_c7 * r118 - left_s7 * r120, r137 = left_c8 * r136;
+    const double r138 = r128 + r129, r139 = left_s8 * r138, r140 = left_c7 * r122 - left_s7 * r124;
+    const double r142 = r130 + r131, r150 = left_c5 * r52 + left_s5 * r57;
+    const double r152 = left_s8 * r132 + left_c8 * r134, r154 = left_c5 * r63 + left_s5 * r68;
+    const double r156 = left_s8 * r136 + left_c8 * r138, r158 = left_c5 * r74 + left_s5 * r79;
+    const double r160 = left_s8 * r140 + left_c8 * r142, r162 = left_s9 * r150, r163 = left_c9 * r152;
+    const double r164 = left_s9 * r154, r165 = left_c9 * r156, r166 = left_s9 * r158, r167 = left_c9 * r160;
+    const double r168 = 0.05 * r12, r169 = 0.085 * r17, r171 = 0.1 * r112, r173 = 0.1 * r113;
+    const double r175 = 0.1029 * r130, r177 = 0.1029 * r131, r179 = 0.04519 * r166;
+    const double r180 = r168 - r169 + r171 - r173 + r175 + r177 - r179, r181 = 0.04519 * r167;
+    const double r182 = r180 + r181, r185 = 0.05 * r10 + 0.05 * r11, r186 = 0.085 * r15, r188 = 0.085 * r16;
+    const double r190 = 0.1 * r110, r192 = 0.1 * r111, r194 = 0.1029 * r128, r196 = 0.1029 * r129;
+    const double r197 = r185 + r186 - r188 - r190 + r192 - r194 - r196, r198 = 0.04519 * r164;
+    const double r199 = r197 + r198, r200 = 0.04519 * r165, r201 = r199 - r200, r204 = 0.05 * r8 - 0.05 * r9;
+    const double r205 = 0.085 * r13, r207 = 0.085 * r14, r209 = 0.1 * r108, r211 = 0.1 * r109;
+    const double r213 = 0.1029 * r126, r215 = 0.1029 * r127;
+    const double r216 = r204 + r205 + r207 + r209 - r211 + r213 + r215, r217 = 0.04519 * r162;
+    const double r219 = 0.04519 * r163, r220 = r216 - r217 + r219, r221 = r166 - r167, r222 = r137 - r139;
+    const double r223 = left_c8 * r132 - left_s8 * r134, r232 = left_c9 * r158 + left_s9 * r160;
+    const double r233 = left_c9 * r154 + left_s9 * r156, r234 = left_c9 * r150 + left_s9 * r152;
+    const double r245 = r48 + r49 + r51, r248 = r48 + r54 + r56, r251 = r59 - r60 - r62, r254 = r59 - r65 - r67;
+    const double r257 = r70 + r71 - r73, r260 = r70 + r76 - r78, r269 = r18 - r87 - r89;
+    const double r271 = right_s5 * r245 + right_c5 * r248, r274 = r23 + r94 + r96;
+    const double r276 = right_s5 * r251 + right_c5 * r254, r279 = r28 - r101 + r103;
+    const double r281 = right_s5 * r257 + right_c5 * r260, r283 = right_s6 * r269, r284 = right_c6 * r271;
+    const double r285 = right_s6 * r274, r286 = right_c6 * r276, r287 = right_s6 * r279, r288 = right_c6 * r281;
+    const double r289 = right_c6 * r269 - right_s6 * r271, r291 = r283 + r284;
+    const double r293 = right_c6 * r274 - right_s6 * r276, r295 = r285 + r286;
+    const double r297 = right_c6 * r279 - right_s6 * r281, r299 = r287 + r288, r301 = right_s7 * r289;
+    const double r302 = right_c7 * r291, r303 = right_s7 * r293, r304 = right_c7 * r295, r305 = right_s7 * r297;
+    const double r306 = right_c7 * r299, r307 = right_c7 * r289 - right_s7 * r291, r309 = r301 + r302;
+    const double r311 = right_c7 * r293 - right_s7 * r295, r312 = right_c8 * r311, r313 = r303 + r304;
+    const double r314 = right_s8 * r313, r315 = right_c7 * r297 - right_s7 * r299, r317 = r305 + r306;
+    const double r325 = right_c5 * r245 - right_s5 * r248, r326 = right_c9 * r325;
+    const double r327 = right_s8 * r307 + right_c8 * r309, r328 = right_s9 * r327;
+    const double r329 = right_c5 * r251 - right_s5 * r254, r331 = right_s8 * r311 + right_c8 * r313;
+    const double r333 = right_c5 * r257 - right_s5 * r260, r335 = right_s8 * r315 + right_c8 * r317;
+    const double r337 = right_s9 * r325, r338 = right_c9 * r327, r339 = right_s9 * r329, r340 = right_c9 * r331;
+    const double r341 = right_s9 * r333, r342 = right_c9 * r335, r344 = 0.1 * r287, r346 = 0.1 * r288;
+    const double r348 = 0.1029 * r305, r350 = 0.1029 * r306, r352 = 0.04519 * r341;
+    const double r353 = r168 + r169 - r344 - r346 - r348 - r350 - r352, r354 = 0.04519 * r342, r357 = 0.1 * r285;
+    const double r359 = 0.1 * r286, r361 = 0.1029 * r303, r363 = 0.1029 * r304;
+    const double r364 = r185 - r186 + r188 + r357 + r359 + r361 + r363, r365 = 0.04519 * r339;
+    const double r367 = 0.04519 * r340, r368 = r364 + r365 + r367, r371 = 0.1 * r283, r373 = 0.1 * r284;
+    const double r375 = 0.1029 * r301, r377 = 0.1029 * r302;
+    const double r378 = r204 - r205 - r207 - r371 - r373 - r375 - r377, r379 = 0.04519 * r337;
+    const double r381 = 0.04519 * r338, r382 = r378 - r379 - r381, r383 = r341 + r342, r384 = r339 + r340;
+    const double r385 = r337 + r338, r386 = r312 - r314, r387 = right_c8 * r307 - right_s8 * r309;
+    const double r397 = right_c9 * r333 - right_s9 * r335, r428 = r15 + r24 - r16;
+    const double r433 = r181 + (r177 + (r175 + (r171 - r173)) - r179), r435 = r12 - r17;
+    const double r440 = r200 + (r196 + (r194 + (r190 - r192)) - r198);
+    const double r446 = r219 + (r215 + (r213 + (r209 - r211)) - r217), r449 = r14 + (r13 + r19);
+    const double r467 = r181 + (r175 + r177 - r179), r471 = r200 + (r194 + r196 - r198);
+    const double r475 = r219 + (r213 + r215 - r217), r481 = r164 - r165, r483 = r162 - r163, r486 = r150 * r481;
+    const double r487 = r154 * r483, r489 = left_c8 * r140 - left_s8 * r142, r493 = r481 * r223;
+    const double r494 = r483 * r222, r498 = 0.7071067811865475 * (r428 * r433 + r435 * r440);
+    const double r502 = r154 * r221 - r158 * r481, r505 = r221 * r222 - r481 * r489;
+    const double r510 = 0.7071067811865475 * (r435 * r446 - r433 * r449), r515 = r158 * r483 - r150 * r221;
+    const double r518 = r483 * r489 - r221 * r223, r524 = 0.7071067811865475 * (r440 * r449 + r428 * r446);
+    const double r564 = 0.7071067811865475 * (r428 * r489 + r435 * r222), r567 = r158 * r222 - r154 * r489;
+    const double r571 = 0.7071067811865475 * (r435 * r223 - r449 * r489), r573 = r150 * r489 - r158 * r223;
+    const double r578 = 0.7071067811865475 * (r449 * r222 + r428 * r223), r581 = r150 * r222 - r154 * r223;
+    const double r620 = 0.7071067811865475 * (r428 * r232 + r435 * r233), r623 = r158 * r233 - r154 * r232;
+    const double r628 = 0.7071067811865475 * (r435 * r234 - r449 * r232), r630 = r150 * r232 - r158 * r234;
+    const double r636 = 0.7071067811865475 * (r449 * r233 + r428 * r234), r639 = r150 * r233 - r154 * r234;
+    const double r665 = 0.7071067811865475 * (r428 * r221 + r435 * r481);
+    const double r669 = 0.7071067811865475 * (r435 * r483 - r449 * r221);
+    const double r675 = 0.7071067811865475 * (r449 * r481 + r428 * r483), r677 = r487 - r486, r683 = r353 - r354;
+    const double r695 = r16 + (r24 - r15), r700 = r354 + (r352 + (r350 + (r348 + (r344 + r346))));
+    const double r702 = r12 + r17, r707 = r367 + (r365 + (r363 + (r361 + (r357 + r359))));
+    const double r713 = r381 + (r379 + (r377 + (r375 + (r371 + r373)))), r716 = r19 - r13 - r14;
+    const double r734 = r354 + (r352 + (r348 + r350)), r738 = r367 + (r365 + (r361 + r363));
+    const double r742 = r381 + (r379 + (r375 + r377)), r751 = r325 * r384, r752 = r329 * r385;
+    const double r753 = r383 * r386, r754 = right_c8 * r315 - right_s8 * r317, r755 = r384 * r754;
+    const double r756 = r385 * r754, r757 = r383 * r387, r764 = 0.7071067811865475 * (r695 * r700 + r702 * r707);
+    const double r768 = r329 * r383 - r333 * r384, r776 = 0.7071067811865475 * (r702 * r713 - r700 * r716);
+    const double r781 = r333 * r385 - r325 * r383, r790 = 0.7071067811865475 * (r707 * r716 + r695 * r713);
+    const double r796 = r384 * r387 - r385 * r386, r831 = 0.7071067811865475 * (r695 * r754 + r702 * r386);
+    const double r834 = r329 * r754 - r333 * r386, r838 = 0.7071067811865475 * (r702 * r387 - r716 * r754);
+    const double r840 = r333 * r387 - r325 * r754, r845 = 0.7071067811865475 * (r716 * r386 + r695 * r387);
+    const double r848 = r329 * r387 - r325 * r386, r851 = right_c9 * r329 - right_s9 * r331, r853 = r326 - r328;
+    const double r887 = 0.7071067811865475 * (r695 * r397 + r702 * r851), r889 = r333 * r851 - r329 * r397;
+    const double r893 = 0.7071067811865475 * (r702 * r853 - r716 * r397), r896 = r325 * r397 - r333 * r853;
+    const double r901 = 0.7071067811865475 * (r716 * r851 + r695 * r853), r903 = r325 * r851 - r329 * r853;
+    const double r931 = 0.7071067811865475 * (r695 * r383 + r702 * r384);
+    const double r938 = 0.7071067811865475 * (r702 * r385 - r716 * r383);
+    const double r945 = 0.7071067811865475 * (r716 * r384 + r695 * r385), r948 = r752 - r751;
     const Jacobian result = { {
         {0.0, -1.0 * left_s2_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
         {0.0, left_c2_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
         {0.0, 0.0, -1.0 * left_s3_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
         {0.0, 0.0, left_c3_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - r330, left_c1 * r331, r11 * r331 - r12 * r330, r45 * r350 - r46 * r349, r71 * r362 - r76 * r361, r130 * r374 - r133 * r373, r171 * r386 - r172 * r385, r216 * r398 - r217 * r397, r256 * r410 - r259 * r409, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r329, 0.0 - r5 * r331, r12 * r329 - r10 * r331, r46 * r348 - r44 * r350, r76 * r360 - r66 * r362, r133 * r372 - r127 * r374, r172 * r384 - r170 * r386, r217 * r396 - r215 * r398, r259 * r408 - r253 * r410, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0, r5 * r330 - left_c1 * r329, r10 * r330 - r11 * r329, r44 * r349 - r45 * r348, r66 * r361 - r71 * r360, r127 * r373 - r130 * r372, r170 * r385 - r171 * r384, r215 * r397 - r216 * r396, r253 * r409 - r256 * r408, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - r291, left_c1 * r292, r11 * r292 - r12 * r291, r45 * r292 - r46 * r291, r71 * r292 - r76 * r291, r130 * r292 - r133 * r291, r171 * r292 - r172 * r291, r216 * r292 - r217 * r291, r256 * r292 - r259 * r291, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r290, 0.0 - r5 * r292, r12 * r290 - r10 * r292, r46 * r290 - r44 * r292, r76 * r290 - r66 * r292, r133 * r290 - r127 * r292, r172 * r290 - r170 * r292, r217 * r290 - r215 * r292, r259 * r290 - r253 * r292, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0, r5 * r291 - left_c1 * r290, r10 * r291 - r11 * r290, r44 * r291 - r45 * r290, r66 * r291 - r71 * r290, r127 * r291 - r130 * r290, r170 * r291 - r171 * r290, r215 * r291 - r216 * r290, r253 * r291 - r256 * r290, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - r298, left_c1 * r301, r11 * r301 - r12 * r298, r45 * r301 - r46 * r298, r71 * r301 - r76 * r298, r130 * r301 - r133 * r298, r171 * r301 - r172 * r298, r216 * r301 - r217 * r298, r256 * r301 - r259 * r298, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r295, 0.0 - r5 * r301, r12 * r295 - r10 * r301, r46 * r295 - r44 * r301, r76 * r295 - r66 * r301, r133 * r295 - r127 * r301, r172 * r295 - r170 * r301, r217 * r295 - r215 * r301, r259 * r295 - r253 * r301, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0, r5 * r298 - left_c1 * r295, r10 * r298 - r11 * r295, r44 * r298 - r45 * r295, r66 * r298 - r71 * r295, r127 * r298 - r130 * r295, r170 * r298 - r171 * r295, r215 * r298 - r216 * r295, r253 * r298 - r256 * r295, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - r307, left_c1 * r310, r11 * r310 - r12 * r307, r45 * r310 - r46 * r307, r71 * r310 - r76 * r307, r130 * r310 - r133 * r307, r171 * r310 - r172 * r307, r216 * r310 - r217 * r307, r256 * r310 - r259 * r307, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r304, 0.0 - r5 * r310, r12 * r304 - r10 * r310, r46 * r304 - r44 * r310, r76 * r304 - r66 * r310, r133 * r304 - r127 * r310, r172 * r304 - r170 * r310, r217 * r304 - r215 * r310, r259 * r304 - r253 * r310, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0, r5 * r307 - left_c1 * r304, r10 * r307 - r11 * r304, r44 * r307 - r45 * r304, r66 * r307 - r71 * r304, r127 * r307 - r130 * r304, r170 * r307 - r171 * r304, r215 * r307 - r216 * r304, r253 * r307 - r256 * r304, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - r910, left_c1 * r911, r11 * r911 - r12 * r910, r646 * r930 - r647 * r929, 0.0, 0.0, 0.0, 0.0, 0.0, r659 * r942 - r662 * r941, r710 * r954 - r713 * r953, r751 * r966 - r752 * r965, r796 * r978 - r797 * r977, r836 * r990 - r839 * r989},
-        {r909, 0.0 - r5 * r911, r12 * r909 - r10 * r911, r647 * r928 - r645 * r930, 0.0, 0.0, 0.0, 0.0, 0.0, r662 * r940 - r656 * r942, r713 * r952 - r707 * r954, r752 * r964 - r750 * r966, r797 * r976 - r795 * r978, r839 * r988 - r833 * r990},
-        {0.0, r5 * r910 - left_c1 * r909, r10 * r910 - r11 * r909, r645 * r929 - r646 * r928, 0.0, 0.0, 0.0, 0.0, 0.0, r656 * r941 - r659 * r940, r707 * r953 - r710 * r952, r750 * r965 - r751 * r964, r795 * r977 - r796 * r976, r833 * r989 - r836 * r988},
-        {0.0 - r871, left_c1 * r872, r11 * r872 - r12 * r871, r646 * r872 - r647 * r871, 0.0, 0.0, 0.0, 0.0, 0.0, r659 * r872 - r662 * r871, r710 * r872 - r713 * r871, r751 * r872 - r752 * r871, r796 * r872 - r797 * r871, r836 * r872 - r839 * r871},
-        {r870, 0.0 - r5 * r872, r12 * r870 - r10 * r872, r647 * r870 - r645 * r872, 0.0, 0.0, 0.0, 0.0, 0.0, r662 * r870 - r656 * r872, r713 * r870 - r707 * r872, r752 * r870 - r750 * r872, r797 * r870 - r795 * r872, r839 * r870 - r833 * r872},
-        {0.0, r5 * r871 - left_c1 * r870, r10 * r871 - r11 * r870, r645 * r871 - r646 * r870, 0.0, 0.0, 0.0, 0.0, 0.0, r656 * r871 - r659 * r870, r707 * r871 - r710 * r870, r750 * r871 - r751 * r870, r795 * r871 - r796 * r870, r833 * r871 - r836 * r870},
-        {0.0 - r878, left_c1 * r881, r11 * r881 - r12 * r878, r646 * r881 - r647 * r878, 0.0, 0.0, 0.0, 0.0, 0.0, r659 * r881 - r662 * r878, r710 * r881 - r713 * r878, r751 * r881 - r752 * r878, r796 * r881 - r797 * r878, r836 * r881 - r839 * r878},
-        {r875, 0.0 - r5 * r881, r12 * r875 - r10 * r881, r647 * r875 - r645 * r881, 0.0, 0.0, 0.0, 0.0, 0.0, r662 * r875 - r656 * r881, r713 * r875 - r707 * r881, r752 * r875 - r750 * r881, r797 * r875 - r795 * r881, r839 * r875 - r833 * r881},
-        {0.0, r5 * r878 - left_c1 * r875, r10 * r878 - r11 * r875, r645 * r878 - r646 * r875, 0.0, 0.0, 0.0, 0.0, 0.0, r656 * r878 - r659 * r875, r707 * r878 - r710 * r875, r750 * r878 - r751 * r875, r795 * r878 - r796 * r875, r833 * r878 - r836 * r875},
-        {0.0 - r887, left_c1 * r890, r11 * r890 - r12 * r887, r646 * r890 - r647 * r887, 0.0, 0.0, 0.0, 0.0, 0.0, r659 * r890 - r662 * r887, r710 * r890 - r713 * r887, r751 * r890 - r752 * r887, r796 * r890 - r797 * r887, r836 * r890 - r839 * r887},
-        {r884, 0.0 - r5 * r890, r12 * r884 - r10 * r890, r647 * r884 - r645 * r890, 0.0, 0.0, 0.0, 0.0, 0.0, r662 * r884 - r656 * r890, r713 * r884 - r707 * r890, r752 * r884 - r750 * r890, r797 * r884 - r795 * r890, r839 * r884 - r833 * r890},
-        {0.0, r5 * r887 - left_c1 * r884, r10 * r887 - r11 * r884, r645 * r887 - r646 * r884, 0.0, 0.0, 0.0, 0.0, 0.0, r656 * r887 - r659 * r884, r707 * r887 - r710 * r884, r750 * r887 - r751 * r884, r795 * r887 - r796 * r884, r833 * r887 - r836 * r884},
+        {r200 - r199, left_c1 * r182, r5 * r182 + left_s2_ * r201, r498, r97 * r433 - r104 * r440, r154 * r433 - r158 * r440, r154 * r467 - r158 * r471, 0.0 - 0.04519 * r502, 0.0 - 0.04519 * r505, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0 - r220, left_s1 * r182, left_s2_ * r220 - r4 * r182, 0.0 - r510, r104 * r446 - r90 * r433, r158 * r446 - r150 * r433, r158 * r475 - r150 * r467, 0.0 - 0.04519 * r515, 0.0 - 0.04519 * r518, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0, left_c1 * r220 - left_s1 * r201, r4 * r201 + r5 * r220, r524, r97 * r446 - r90 * r440, r154 * r446 - r150 * r440, r154 * r475 - r150 * r471, 0.04519 * (r486 - r487), 0.04519 * (r493 - r494), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r139 - r137, 0.0 - left_c1 * r489, left_s2_ * r222 - r5 * r489, 0.0 - r564, r104 * r222 - r97 * r489, r567, r567, r567, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r223, 0.0 - left_s1 * r489, r4 * r489 - left_s2_ * r223, r571, r90 * r489 - r104 * r223, r573, r573, r573, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0, 0.0 - (left_s1 * r222 + left_c1 * r223), r4 * r222 - r5 * r223, 0.0 - r578, r90 * r222 - r97 * r223, r581, r581, r581, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0 - r233, 0.0 - left_c1 * r232, left_s2_ * r233 - r5 * r232, 0.0 - r620, r104 * r233 - r97 * r232, r623, r623, r623, r489 * r233 - r222 * r232, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r234, 0.0 - left_s1 * r232, r4 * r232 - left_s2_ * r234, r628, r90 * r232 - r104 * r234, r630, r630, r630, r223 * r232 - r489 * r234, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0, 0.0 - (left_s1 * r233 + left_c1 * r234), r4 * r233 - r5 * r234, 0.0 - r636, r90 * r233 - r97 * r234, r639, r639, r639, r223 * r233 - r222 * r234, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r481, left_c1 * r221, r5 * r221 - left_s2_ * r481, r665, r97 * r221 - r104 * r481, r502, r502, r502, r505, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r163 - r162, left_s1 * r221, left_s2_ * r483 - r4 * r221, 0.0 - r669, r104 * r483 - r90 * r221, r515, r515, r515, r518, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0, left_s1 * r481 + left_c1 * r483, r5 * r483 - r4 * r481, r675, r97 * r483 - r90 * r481, r677, r677, r677, r494 - r493, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r368, 0.0 - left_c1 * r683, 0.0 - (r5 * r683 + left_s2_ * r368), r764, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r700 - r279 * r707, r333 * r707 - r329 * r700, r333 * r738 - r329 * r734, 0.0 - 0.04519 * r768, 0.04519 * (r753 - r755)},
+        {r382, 0.0 - left_s1 * r683, r4 * r683 - left_s2_ * r382, 0.0 - r776, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r713 - r269 * r700, r325 * r700 - r333 * r713, r325 * r734 - r333 * r742, 0.0 - 0.04519 * r781, 0.04519 * (r756 - r757)},
+        {0.0, left_s1 * r368 - left_c1 * r382, 0.0 - (r4 * r368 + r5 * r382), r790, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r713 - r269 * r707, r325 * r707 - r329 * r713, r325 * r738 - r329 * r742, 0.04519 * (r751 - r752), 0.0 - 0.04519 * r796},
+        {r314 - r312, 0.0 - left_c1 * r754, left_s2_ * r386 - r5 * r754, 0.0 - r831, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r386 - r274 * r754, r834, r834, r834, 0.0},
+        {r387, 0.0 - left_s1 * r754, r4 * r754 - left_s2_ * r387, r838, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r754 - r279 * r387, r840, r840, r840, 0.0},
+        {0.0, 0.0 - (left_s1 * r386 + left_c1 * r387), r4 * r386 - r5 * r387, 0.0 - r845, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r386 - r274 * r387, r848, r848, r848, 0.0},
+        {r851, left_c1 * r397, r5 * r397 - left_s2_ * r851, r887, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r397 - r279 * r851, r889, r889, r889, r386 * r397 - r754 * r851},
+        {r328 - r326, left_s1 * r397, left_s2_ * r853 - r4 * r397, 0.0 - r893, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r853 - r269 * r397, r896, r896, r896, r754 * r853 - r387 * r397},
+        {0.0, left_s1 * r851 + left_c1 * r853, r5 * r853 - r4 * r851, r901, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r853 - r269 * r851, r903, r903, r903, r386 * r853 - r387 * r851},
+        {0.0 - r384, 0.0 - left_c1 * r383, left_s2_ * r384 - r5 * r383, 0.0 - r931, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r384 - r274 * r383, r768, r768, r768, r755 - r753},
+        {r385, 0.0 - left_s1 * r383, r4 * r383 - left_s2_ * r385, r938, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r383 - r279 * r385, r781, r781, r781, r757 - r756},
+        {0.0, 0.0 - (left_s1 * r384 + left_c1 * r385), r4 * r384 - r5 * r385, 0.0 - r945, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r384 - r274 * r385, r948, r948, r948, r796},
     } };
     return result;
 }
@@ -1634,18 +1603,18 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 14 share. */
 typedef struct {
-    double r185;
-    double r186;
+    double r95;
+    double r98;
 } Shared14;
 
 /* Chart 1 of block 14: generic.
  */
 static void chart_14_1(const Parameters *p, const Known *known, const Shared14 *shared, Answers *answers)
 {
-    const double r217 = (0.0 - 0.1 * shared->r185) / 0.010000000000000002;
-    const double r221 = (0.0 - (-0.0 - 0.1 * shared->r186)) / 0.010000000000000002;
-    const double r225 = sqrt(fmax(r221 * r221 + r217 * r217, 0.0)), right_c6 = r221 / r225;
-    const double right_s6 = r217 / r225;
+    const double r100 = 0.1 * shared->r95 / 0.010000000000000002;
+    const double r102 = 0.1 * shared->r98 / 0.010000000000000002;
+    const double r106 = sqrt(fmax(r102 * r102 + r100 * r100, 0.0)), right_c6 = r102 / r106;
+    const double right_s6 = 0.0 - r100 / r106;
     const double q[JOINTS] = {
         angle(known->left_c1, known->left_s1),
         angle(known->left_c2_, known->left_s2_),
@@ -1668,58 +1637,51 @@ static void chart_14_1(const Parameters *p, const Known *known, const Shared14 *
 /* Block 14: HipPitch. */
 static void block_14(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s4, r1 = -0.1029 * known->right_s8;
-    const double r4 = 0.1029 * known->right_c8 - 0.2879 + 0.2879, r11 = r1 + (r1 - r1) * known->right_c9;
-    const double r14 = (0.0 - (0.0 - r4)) * known->right_s9 - 0.05 + 0.05;
-    const double r15 = r4 * known->right_c9 - 0.2879 + 0.33309;
-    const double r20 = r11 * p->right_r11 + r14 * p->right_r12 + r15 * p->right_r13;
-    const double r25 = r11 * p->right_r21 + r14 * p->right_r22 + r15 * p->right_r23;
-    const double r30 = r11 * p->right_r31 + r14 * p->right_r32 + r15 * p->right_r33, r31 = p->right_px + r20;
-    const double r32 = p->right_py + r25, r33 = p->right_pz + r30;
-    const double r40 = r31 * known->left_c1 + (0.0 - (0.0 - r32)) * known->left_s1;
-    const double r43 = r32 * known->left_c1 + (0.0 - r31) * known->left_s1;
-    const double r45 = r33 + (r33 - r33) * known->left_c1;
-    const double r52 = r40 * known->left_c2_ + (0.0 - r45) * known->left_s2_;
-    const double r56 = r45 * known->left_c2_ + (0.0 - (0.0 - r40)) * known->left_s2_;
-    const double r57 = r43 + (r43 - r43) * known->left_c2_;
-    const double r65 = r57 * known->left_c3_ + (0.0 - (0.0 - r56)) * known->left_s3_;
-    const double r68 = r56 * known->left_c3_ + (0.0 - r57) * known->left_s3_;
-    const double r81 = (r52 + (r52 - r52) * known->left_c3_) * known->left_c4;
-    const double r83 = r81 + (0.0 - (r68 + 0.085 - (r65 + 0.05))) * r0, r95 = 0.0 - known->right_c7;
-    const double r96 = 0.0 - known->right_s7, r102 = r95 * known->right_c8 + (0.0 - r96) * known->right_s8;
-    const double r105 = r96 * known->right_c8 + (0.0 - (0.0 - r95)) * known->right_s8;
-    const double r110 = (0.0 - (0.0 - r105)) * known->right_s9, r111 = r105 * known->right_c9;
-    const double r112 = r102 + (r102 - r102) * known->right_c9;
-    const double r117 = r112 * p->right_r11 + r110 * p->right_r12 + r111 * p->right_r13;
-    const double r122 = r112 * p->right_r21 + r110 * p->right_r22 + r111 * p->right_r23;
-    const double r127 = r112 * p->right_r31 + r110 * p->right_r32 + r111 * p->right_r33;
-    const double r134 = r117 * known->left_c1 + (0.0 - (0.0 - r122)) * known->left_s1;
-    const double r137 = r122 * known->left_c1 + (0.0 - r117) * known->left_s1;
-    const double r139 = r127 + (r127 - r127) * known->left_c1;
-    const double r146 = r134 * known->left_c2_ + (0.0 - r139) * known->left_s2_;
-    const double r150 = r139 * known->left_c2_ + (0.0 - (0.0 - r134)) * known->left_s2_;
-    const double r151 = r137 + (r137 - r137) * known->left_c2_;
-    const double r159 = r151 * known->left_c3_ + (0.0 - (0.0 - r150)) * known->left_s3_;
-    const double r162 = r150 * known->left_c3_ + (0.0 - r151) * known->left_s3_;
-    const double r173 = (r146 + (r146 - r146) * known->left_c3_) * known->left_c4, r185 = 0.0 - (0.0 - r83);
-    const double r186 = 0.1 * (0.0 - (r173 + (0.0 - (r162 - r159)) * r0));
-    const Shared14 own = { r185, r186 };
+    const double r0 = known->right_c8 * known->right_s9;
+    const double r5 = 0.1029 * (known->right_c8 * known->right_c9) + 0.04519;
+    const double r14 = p->right_px - 0.1029 * (p->right_r11 * known->right_s8);
+    const double r17 = p->right_r13 * r5 + (r14 + 0.1029 * (p->right_r12 * r0));
+    const double r20 = p->right_py - 0.1029 * (p->right_r21 * known->right_s8);
+    const double r23 = p->right_r23 * r5 + (r20 + 0.1029 * (p->right_r22 * r0));
+    const double r27 = known->left_c1 * r17 + known->left_s1 * r23;
+    const double r30 = p->right_pz - 0.1029 * (p->right_r31 * known->right_s8);
+    const double r33 = p->right_r33 * r5 + (r30 + 0.1029 * (p->right_r32 * r0));
+    const double r37 = known->left_c1 * r23 - known->left_s1 * r17;
+    const double r39 = known->left_c2_ * r33 + known->left_s2_ * r27;
+    const double r43 = known->left_c2_ * r27 - known->left_s2_ * r33;
+    const double r45 = known->left_c3_ * r39 - known->left_s3_ * r37;
+    const double r47 = r45 - known->left_c3_ * r37 - known->left_s3_ * r39;
+    const double r54 = known->right_s7 * known->right_c8 + known->right_c7 * known->right_s8;
+    const double r55 = known->right_s9 * r54, r56 = known->right_c9 * r54;
+    const double r57 = known->right_c7 * known->right_c8 - known->right_s7 * known->right_s8;
+    const double r68 = p->right_r13 * r56 + (p->right_r11 * r57 + p->right_r12 * r55);
+    const double r71 = p->right_r23 * r56 + (p->right_r21 * r57 + p->right_r22 * r55);
+    const double r75 = known->left_c1 * r68 + known->left_s1 * r71;
+    const double r78 = p->right_r33 * r56 + (p->right_r31 * r57 + p->right_r32 * r55);
+    const double r82 = known->left_c1 * r71 - known->left_s1 * r68;
+    const double r84 = known->left_c2_ * r78 + known->left_s2_ * r75;
+    const double r88 = known->left_c2_ * r75 - known->left_s2_ * r78;
+    const double r90 = known->left_c3_ * r84 - known->left_s3_ * r82;
+    const double r92 = r90 - known->left_c3_ * r82 - known->left_s3_ * r84;
+    const double r94 = 0.7071067811865475 * (known->left_s4 * (r47 + 0.035)), r95 = known->left_c4 * r43 - r94;
+    const double r98 = 0.1 * (known->left_c4 * r88) - 0.07071067811865475 * (known->left_s4 * r92);
+    const Shared14 own = { r95, r98 };
     const Shared14 *const shared = &own;
     chart_14_1(p, known, shared, answers);
 }
 
 /* What the charts of block 13 share. */
 typedef struct {
-    double r70;
-    double r71;
+    double r44;
+    double r47;
 } Shared13;
 
 /* Chart 1 of block 13: generic.
  */
 static void chart_13_1(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
 {
-    const double r73 = 0.0 - (0.0 - shared->r70), r76 = 0.0 - (-0.0 - (0.0 - shared->r71));
-    const double r80 = sqrt(fmax(r76 * r76 + r73 * r73, 0.0)), right_c5 = r76 / r80, right_s5 = r73 / r80;
+    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r51 = sqrt(fmax(r50, 0.0));
+    const double right_c5 = shared->r47 / r51, right_s5 = shared->r44 / r51;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1731,35 +1693,30 @@ static void chart_13_1(const Parameters *p, const Known *known, const Shared13 *
 /* Block 13: HipRoll. */
 static void block_13(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s4, r1 = 0.0 - known->right_s9;
-    const double r4 = known->right_c9 * p->right_r12 + r1 * p->right_r13;
-    const double r7 = known->right_c9 * p->right_r22 + r1 * p->right_r23;
-    const double r10 = known->right_c9 * p->right_r32 + r1 * p->right_r33;
-    const double r17 = r4 * known->left_c1 + (0.0 - (0.0 - r7)) * known->left_s1;
-    const double r20 = r7 * known->left_c1 + (0.0 - r4) * known->left_s1;
-    const double r22 = r10 + (r10 - r10) * known->left_c1;
-    const double r29 = r17 * known->left_c2_ + (0.0 - r22) * known->left_s2_;
-    const double r33 = r22 * known->left_c2_ + (0.0 - (0.0 - r17)) * known->left_s2_;
-    const double r34 = r20 + (r20 - r20) * known->left_c2_;
-    const double r42 = r34 * known->left_c3_ + (0.0 - (0.0 - r33)) * known->left_s3_;
-    const double r45 = r33 * known->left_c3_ + (0.0 - r34) * known->left_s3_, r49 = 0.5 * r42 + 0.5 * r45;
-    const double r53 = 0.0 - (r29 + (r29 - r29) * known->left_c3_);
-    const double r64 = (r45 - r49) * known->left_c4 + (0.0 - r53) * r0;
-    const double r65 = r49 + ((r42 - r49) * known->left_c4 + r53 * r0), r70 = 0.0 - (0.0 - (r49 + r64));
-    const double r71 = 0.0 - (0.0 - (0.0 - r65));
-    const Shared13 own = { r70, r71 };
+    const double r6 = p->right_r12 * known->right_c9 - p->right_r13 * known->right_s9;
+    const double r8 = p->right_r22 * known->right_c9 - p->right_r23 * known->right_s9;
+    const double r12 = known->left_c1 * r6 + known->left_s1 * r8;
+    const double r14 = p->right_r32 * known->right_c9 - p->right_r33 * known->right_s9;
+    const double r18 = known->left_c1 * r8 - known->left_s1 * r6, r19 = known->left_c3_ * r18;
+    const double r20 = known->left_c2_ * r14 + known->left_s2_ * r12, r21 = known->left_s3_ * r20;
+    const double r22 = known->left_c3_ * r20, r23 = known->left_s3_ * r18;
+    const double r24 = known->left_c2_ * r12 - known->left_s2_ * r14;
+    const double r40 = 0.5 * r19 + 0.5 * r21 + 0.5 * r22 - 0.5 * r23;
+    const double r41 = 0.5 * (known->left_c4 * (r22 - r23 - r19 - r21));
+    const double r43 = 0.7071067811865475 * (known->left_s4 * r24), r44 = r40 + r41 + r43;
+    const double r45 = 0.5 * (known->left_c4 * (r23 + (r19 + r21 - r22))), r47 = r40 + r45 - r43;
+    const Shared13 own = { r44, r47 };
     const Shared13 *const shared = &own;
     chart_13_1(p, known, shared, answers);
 }
 
 /* What the charts of block 12 share. */
 typedef struct {
-    double r162;
-    double r322;
-    double r323;
-    double r324;
-    double r331;
-    double r332;
+    double r77;
+    double r89;
+    double r91;
+    double r92;
+    double r95;
 } Shared12;
 
 /* Chart 1 of block 12: generic.
@@ -1767,15 +1724,14 @@ typedef struct {
  */
 static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
-    const double r335 = shared->r162 * shared->r162 + shared->r322 * shared->r322;
-    const double r338 = shared->r331 * shared->r331 + shared->r332 * shared->r332;
-    if (!is_away(r335, 10000.0 * r338)) {
+    const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
+    if (!is_away(r98, 10000.0 * (r99 + r99))) {
         return;
     }
-    const double r342 = shared->r322 * shared->r323 - shared->r162 * shared->r324, r344 = (0.0 - r342) / r335;
-    const double r348 = 0.0 - shared->r162 * shared->r323 - shared->r322 * shared->r324;
-    const double r350 = (0.0 - r348) / r335, r354 = sqrt(fmax(r350 * r350 + r344 * r344, 0.0));
-    const double right_c8 = r350 / r354, right_s8 = r344 / r354;
+    const double r105 = shared->r77 * shared->r92 - (0.0 - shared->r89 * shared->r91), r106 = r105 / r98;
+    const double r109 = shared->r77 * shared->r91 - shared->r89 * shared->r92, r110 = r109 / r98;
+    const double r114 = sqrt(fmax(r110 * r110 + r106 * r106, 0.0)), right_c8 = r110 / r114;
+    const double right_s8 = r106 / r114;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1790,9 +1746,8 @@ static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *
  */
 static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
-    const double r335 = shared->r162 * shared->r162 + shared->r322 * shared->r322;
-    const double r338 = shared->r331 * shared->r331 + shared->r332 * shared->r332;
-    if (!(is_near(r335, 1.0000000000000001e-7 * r338) && is_near(shared->r324, 0.004729) && is_near(shared->r323, 0.011129))) {
+    const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
+    if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared->r92, 0.004729) && is_near(shared->r91, 0.011129))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1810,41 +1765,29 @@ static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *
 /* Block 12: AnklePitch. */
 static void block_12(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - known->right_c7, r3 = 0.0 - known->right_s7, r4 = 0.0 - r1, r5 = 0.0 - r3;
-    const double r6 = -0.2879 * r1, r7 = -0.2879 * r5;
-    const double r14 = (known->right_s7 - known->right_s7) * known->right_c9, r16 = (0.0 - r4) * known->right_s9;
-    const double r17 = (0.0 - (0.0 - r5)) * known->right_s9, r18 = r1 * known->right_c9;
-    const double r19 = r5 * known->right_c9, r20 = known->right_s7 + r14, r21 = r4 + (r4 - r4) * known->right_c9;
-    const double r22 = -0.05 * r16, r23 = -0.05 * r17;
-    const double r40 = r20 * p->right_r11 + r16 * p->right_r12 + r18 * p->right_r13;
-    const double r41 = r21 * p->right_r11 + r17 * p->right_r12 + r19 * p->right_r13;
-    const double r50 = r20 * p->right_r21 + r16 * p->right_r22 + r18 * p->right_r23;
-    const double r51 = r21 * p->right_r21 + r17 * p->right_r22 + r19 * p->right_r23;
-    const double r60 = r20 * p->right_r31 + r16 * p->right_r32 + r18 * p->right_r33;
-    const double r61 = r21 * p->right_r31 + r17 * p->right_r32 + r19 * p->right_r33;
-    const double r74 = p->right_px * r40 + p->right_py * r50 + p->right_pz * r60;
-    const double r75 = p->right_px * r41 + p->right_py * r51 + p->right_pz * r61;
-    const double r76 = r6 - r6 + (r22 + -0.2879 * r18) - (r22 + -0.33309 * r18);
-    const double r77 = r7 - r7 + (r23 + -0.2879 * r19) - (r23 + -0.33309 * r19);
-    const double r92 = r40 * known->left_c1 + (0.0 - (0.0 - r50)) * known->left_s1;
-    const double r93 = r41 * known->left_c1 + (0.0 - (0.0 - r51)) * known->left_s1;
-    const double r98 = r50 * known->left_c1 + (0.0 - r40) * known->left_s1;
-    const double r99 = r51 * known->left_c1 + (0.0 - r41) * known->left_s1;
-    const double r120 = (r60 + (r60 - r60) * known->left_c1) * known->left_c2_;
-    const double r121 = (r61 + (r61 - r61) * known->left_c1) * known->left_c2_;
-    const double r124 = r120 + (0.0 - (0.0 - r92)) * known->left_s2_;
-    const double r125 = r121 + (0.0 - (0.0 - r93)) * known->left_s2_, r126 = r98 + (r98 - r98) * known->left_c2_;
-    const double r127 = r99 + (r99 - r99) * known->left_c2_;
-    const double r142 = r126 * known->left_c3_ + (0.0 - (0.0 - r124)) * known->left_s3_;
-    const double r143 = r127 * known->left_c3_ + (0.0 - (0.0 - r125)) * known->left_s3_;
-    const double r148 = r124 * known->left_c3_ + (0.0 - r126) * known->left_s3_;
-    const double r149 = r125 * known->left_c3_ + (0.0 - r127) * known->left_s3_;
-    const double r162 = 0.0 - (-0.05 * r142 + -0.085 * r148 - (r76 + r74));
-    const double r163 = 0.0 - (-0.05 * r143 + -0.085 * r149 - (r77 + r75)), r322 = 0.0 - r163;
-    const double r323 = 0.0 - (-0.1 - (0.0 - (-0.185 * r1 - r6)));
-    const double r324 = 0.0 - (0.0 - (0.0 - (-0.185 * r3 - -0.2879 * r3))), r325 = 5.0 * p->magnitude;
-    const double r329 = r325 + r325 + r325 + 1.29679 + 7.425, r331 = fabs(r329), r332 = fabs(0.0 - r329);
-    const Shared12 own = { r162, r322, r323, r324, r331, r332 };
+    const double r0 = known->right_c7 * known->right_s9, r1 = known->right_s7 * known->right_s9;
+    const double r2 = known->right_c7 * known->right_c9, r3 = known->right_s7 * known->right_c9;
+    const double r22 = p->right_r11 * known->right_s7 - p->right_r12 * r0, r23 = r22 - p->right_r13 * r2;
+    const double r25 = p->right_r11 * known->right_c7 + p->right_r12 * r1, r26 = p->right_r13 * r3 + r25;
+    const double r28 = p->right_r21 * known->right_s7 - p->right_r22 * r0, r29 = r28 - p->right_r23 * r2;
+    const double r31 = p->right_r21 * known->right_c7 + p->right_r22 * r1, r32 = p->right_r23 * r3 + r31;
+    const double r34 = p->right_r31 * known->right_s7 - p->right_r32 * r0, r35 = r34 - p->right_r33 * r2;
+    const double r37 = p->right_r31 * known->right_c7 + p->right_r32 * r1, r38 = p->right_r33 * r3 + r37;
+    const double r52 = known->left_s2_ * (known->left_c1 * r23 + known->left_s1 * r29);
+    const double r53 = known->left_s2_ * (known->left_c1 * r26 + known->left_s1 * r32);
+    const double r54 = known->left_c1 * r29 - known->left_s1 * r23;
+    const double r56 = known->left_c1 * r32 - known->left_s1 * r26, r58 = known->left_c2_ * r35 + r52;
+    const double r60 = known->left_c2_ * r38 + r53;
+    const double r68 = 0.05 * (known->left_c3_ * r54) + 0.05 * (known->left_s3_ * r58);
+    const double r72 = r68 + 0.085 * (known->left_c3_ * r58) - 0.085 * (known->left_s3_ * r54);
+    const double r76 = p->right_py * r29 + (p->right_px * r23 + (r72 - 0.04519 * r2));
+    const double r77 = p->right_pz * r35 + r76;
+    const double r80 = 0.05 * (known->left_c3_ * r56) + 0.05 * (known->left_s3_ * r60);
+    const double r84 = r80 + 0.085 * (known->left_c3_ * r60) - 0.085 * (known->left_s3_ * r56);
+    const double r88 = p->right_py * r32 + (p->right_px * r26 + (r84 + 0.04519 * r3));
+    const double r89 = p->right_pz * r38 + r88, r91 = 0.1029 * known->right_c7 + 0.1;
+    const double r92 = 0.1029 * known->right_s7, r95 = fabs(15.0 * p->magnitude + 8.72179);
+    const Shared12 own = { r77, r89, r91, r92, r95 };
     const Shared12 *const shared = &own;
     chart_12_1(p, known, shared, answers);
     chart_12_2(p, known, shared, answers);
@@ -1852,18 +1795,17 @@ static void block_12(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 11 share. */
 typedef struct {
-    double r95;
-    double r96;
-    double r137;
-    double r138;
-    double r145;
-    double r146;
-    double r147;
-    double r148;
-    double r149;
-    double r150;
-    double r151;
-    double r153;
+    double r57;
+    double r68;
+    double r70;
+    double r72;
+    double r76;
+    double r77;
+    double r78;
+    double r80;
+    double r81;
+    double r84;
+    double r85;
 } Shared11;
 
 /* Chart 1 of block 11: generic.
@@ -1871,12 +1813,10 @@ typedef struct {
  */
 static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r154 = shared->r148 - shared->r147;
-    if (!is_away(r154, 10000.0 * (shared->r151 + shared->r150))) {
+    if (!is_away(shared->r80 - shared->r78, 10000.0 * shared->r84)) {
         return;
     }
-    const double r157 = -0.0 / r154, r158 = r157 * r157, r161 = r157 / sqrt(fmax(r158 + r158, 0.0));
-    const double right_c9 = r161, right_s9 = r161;
+    const double right_c9 = -0.0, right_s9 = -0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
@@ -1890,18 +1830,17 @@ static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *
  */
 static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r154 = shared->r95 * shared->r95, r155 = shared->r96 * shared->r96, r156 = r154 + r155;
-    const double r159 = shared->r145 * shared->r145 + shared->r146 * shared->r146;
-    if (!(is_near(shared->r149, shared->r153) && is_away(r156, 10000.0 * r159))) {
+    const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68, r88 = r86 + r87;
+    const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
+    if (!(is_near(shared->r81, shared->r85) && is_away(r88, 10000.0 * r91))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r154 - r155, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r159, 0.0)));
+    const double choice0_0[3] = {0.0 - r86 - r87, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r91, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w9 = roots0.values[i0], r167 = (0.0 - (0.0 - shared->r95 * right_w9)) / r156;
-        const double r170 = (0.0 - shared->r96 * right_w9) / r156;
-        const double r174 = sqrt(fmax(r170 * r170 + r167 * r167, 0.0)), right_c9 = r170 / r174;
-        const double right_s9 = r167 / r174;
+        const double right_w9 = roots0.values[i0], r97 = right_w9 * shared->r57 / r88;
+        const double r99 = right_w9 * shared->r68 / r88, r103 = sqrt(fmax(r99 * r99 + r97 * r97, 0.0));
+        const double right_c9 = r99 / r103, right_s9 = r97 / r103;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -1917,9 +1856,9 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
  */
 static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r156 = shared->r95 * shared->r95 + shared->r96 * shared->r96;
-    const double r159 = shared->r145 * shared->r145 + shared->r146 * shared->r146;
-    if (!(is_near(shared->r149, shared->r153) && is_near(r156, 1.0000000000000001e-7 * r159))) {
+    const double r88 = shared->r57 * shared->r57 + shared->r68 * shared->r68;
+    const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
+    if (!(is_near(shared->r81, shared->r85) && is_near(r88, 1.0000000000000001e-7 * r91))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1939,17 +1878,16 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
  */
 static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r154 = shared->r137 * shared->r137, r155 = shared->r138 * shared->r138, r156 = r154 + r155;
-    if (!(is_near(shared->r149, shared->r153) && is_away(r156, 27380000.0))) {
+    const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72, r88 = r86 + r87;
+    if (!(is_near(shared->r81, shared->r85) && is_away(r88, 27380000.0))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r154 - r155, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r86 - r87, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 52.32590180780452);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w9 = roots0.values[i0], r162 = (0.0 - (0.0 - shared->r137 * right_w9)) / r156;
-        const double r165 = (0.0 - shared->r138 * right_w9) / r156;
-        const double r169 = sqrt(fmax(r165 * r165 + r162 * r162, 0.0)), right_c9 = r165 / r169;
-        const double right_s9 = r162 / r169;
+        const double right_w9 = roots0.values[i0], r92 = right_w9 * shared->r70 / r88;
+        const double r94 = right_w9 * shared->r72 / r88, r98 = sqrt(fmax(r94 * r94 + r92 * r92, 0.0));
+        const double right_c9 = 0.0 - r94 / r98, right_s9 = r92 / r98;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
@@ -1965,8 +1903,8 @@ static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *
  */
 static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r156 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r149, shared->r153) && is_near(r156, 0.00027380000000000004))) {
+    const double r88 = shared->r70 * shared->r70 + shared->r72 * shared->r72;
+    if (!(is_near(shared->r81, shared->r85) && is_near(r88, 0.00027380000000000004))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1984,33 +1922,30 @@ static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *
 /* Block 11: AnkleRoll. */
 static void block_11(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s4, r1 = 0.0 - p->right_r13, r2 = 0.0 - p->right_r23;
-    const double r3 = 0.0 - p->right_r33, r10 = p->right_px * p->right_r12 + p->right_py * p->right_r22;
-    const double r13 = p->right_px * r1 + p->right_py * r2 + p->right_pz * r3;
-    const double r25 = (0.0 - (0.0 - p->right_r22)) * known->left_s1, r27 = p->right_r12 * known->left_c1 + r25;
-    const double r28 = r1 * known->left_c1 + (0.0 - (0.0 - r2)) * known->left_s1;
-    const double r33 = p->right_r22 * known->left_c1 + (0.0 - p->right_r12) * known->left_s1;
-    const double r34 = r2 * known->left_c1 + (0.0 - r1) * known->left_s1;
-    const double r35 = (p->right_r32 - p->right_r32) * known->left_c1, r37 = p->right_r32 + r35;
-    const double r38 = r3 + (r3 - r3) * known->left_c1;
-    const double r51 = r27 * known->left_c2_ + (0.0 - r37) * known->left_s2_;
-    const double r52 = r28 * known->left_c2_ + (0.0 - r38) * known->left_s2_;
-    const double r59 = r37 * known->left_c2_ + (0.0 - (0.0 - r27)) * known->left_s2_;
-    const double r60 = r38 * known->left_c2_ + (0.0 - (0.0 - r28)) * known->left_s2_;
-    const double r61 = r33 + (r33 - r33) * known->left_c2_, r62 = r34 + (r34 - r34) * known->left_c2_;
-    const double r77 = r61 * known->left_c3_ + (0.0 - (0.0 - r59)) * known->left_s3_;
-    const double r78 = r62 * known->left_c3_ + (0.0 - (0.0 - r60)) * known->left_s3_;
-    const double r83 = r59 * known->left_c3_ + (0.0 - r61) * known->left_s3_;
-    const double r84 = r60 * known->left_c3_ + (0.0 - r62) * known->left_s3_;
-    const double r93 = -0.05 * r77 + -0.085 * r83 - (r10 + p->right_pz * p->right_r32), r95 = 0.0 - r93;
-    const double r96 = 0.0 - (-0.05 * r78 + -0.085 * r84 - (r13 - 0.04519));
-    const double r115 = (r51 + (r51 - r51) * known->left_c3_) * known->left_c4;
-    const double r116 = (r52 + (r52 - r52) * known->left_c3_) * known->left_c4;
-    const double r137 = 0.0 - (r115 + (0.0 - (r83 - r77)) * r0), r138 = 0.0 - (r116 + (0.0 - (r84 - r78)) * r0);
-    const double r140 = p->magnitude + p->magnitude + p->magnitude, r145 = fabs(r140 + 0.1 + 1.485);
-    const double r146 = fabs(r140 + 0.62099 + 1.485), r147 = r95 * r138, r148 = r96 * r137, r149 = r147 - r148;
-    const double r150 = 37.0 * r145, r151 = 37.0 * r146, r153 = 0.001 * (r150 + r151);
-    const Shared11 own = { r95, r96, r137, r138, r145, r146, r147, r148, r149, r150, r151, r153 };
+    const double r14 = p->right_r12 * known->left_c1 + p->right_r22 * known->left_s1;
+    const double r16 = p->right_r13 * known->left_c1 + p->right_r23 * known->left_s1;
+    const double r24 = p->right_r22 * known->left_c1 - p->right_r12 * known->left_s1;
+    const double r25 = known->left_c3_ * r24;
+    const double r26 = p->right_r23 * known->left_c1 - p->right_r13 * known->left_s1;
+    const double r27 = known->left_c3_ * r26, r28 = p->right_r32 * known->left_c2_ + known->left_s2_ * r14;
+    const double r29 = known->left_s3_ * r28, r30 = p->right_r33 * known->left_c2_ + known->left_s2_ * r16;
+    const double r31 = known->left_s3_ * r30, r32 = known->left_c3_ * r28, r33 = known->left_c3_ * r30;
+    const double r34 = known->left_s3_ * r24, r35 = known->left_s3_ * r26;
+    const double r36 = known->left_c2_ * r14 - p->right_r32 * known->left_s2_;
+    const double r38 = known->left_c2_ * r16 - p->right_r33 * known->left_s2_;
+    const double r54 = 0.05 * r25 + 0.05 * r29 + 0.085 * r32 - 0.085 * r34;
+    const double r56 = p->right_py * p->right_r22 + (p->right_px * p->right_r12 + r54);
+    const double r57 = p->right_pz * p->right_r32 + r56;
+    const double r64 = 0.05 * r27 + 0.05 * r31 + 0.085 * r33 - 0.085 * r35;
+    const double r66 = p->right_py * p->right_r23 + (p->right_px * p->right_r13 + r64);
+    const double r68 = p->right_pz * p->right_r33 + r66 + 0.04519;
+    const double r69 = 0.7071067811865475 * (known->left_s4 * (r32 - r34 - r25 - r29));
+    const double r70 = r69 - known->left_c4 * r36;
+    const double r71 = 0.7071067811865475 * (known->left_s4 * (r33 - r35 - r27 - r31));
+    const double r72 = known->left_c4 * r38 - r71, r73 = 3.0 * p->magnitude, r76 = fabs(r73 + 1.585);
+    const double r77 = fabs(r73 + 2.10599), r78 = r57 * r72, r79 = r68 * r70, r80 = 0.0 - r79, r81 = r78 + r79;
+    const double r84 = 37.0 * r76 + 37.0 * r77, r85 = 0.001 * r84;
+    const Shared11 own = { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 };
     const Shared11 *const shared = &own;
     chart_11_1(p, known, shared, answers);
     chart_11_2(p, known, shared, answers);
@@ -2021,21 +1956,21 @@ static void block_11(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 10 share. */
 typedef struct {
-    double r67;
+    double r41;
 } Shared10;
 
 /* Chart 1 of block 10: generic.
  */
 static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
-    const double r69 = shared->r67 * shared->r67 - 0.00042353640000000005;
-    const double choice0_0[3] = {r69, 0.0, 1.0};
+    const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
+    const double choice0_0[3] = {r43, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w7 = roots0.values[i0];
-        const double r73 = (0.0 - (0.0 - 0.02058 * right_w7)) / 0.00042353640000000005;
-        const double r76 = (0.0 - 0.02058 * shared->r67) / 0.00042353640000000005;
-        const double r80 = sqrt(fmax(r76 * r76 + r73 * r73, 0.0)), right_c7 = r76 / r80, right_s7 = r73 / r80;
+        const double right_w7 = roots0.values[i0], r45 = 0.02058 * right_w7 / 0.00042353640000000005;
+        const double r47 = 0.02058 * shared->r41 / 0.00042353640000000005;
+        const double r51 = sqrt(fmax(r47 * r47 + r45 * r45, 0.0)), right_c7 = 0.0 - r47 / r51;
+        const double right_s7 = r45 / r51;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -2048,37 +1983,35 @@ static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *
 /* Block 10: KneePitch. */
 static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r4 = p->right_px + 0.04519 * p->right_r13, r5 = p->right_py + 0.04519 * p->right_r23;
-    const double r6 = p->right_pz + 0.04519 * p->right_r33;
-    const double r11 = p->right_px * r4 + p->right_py * r5 + p->right_pz * r6;
-    const double r16 = p->right_px * p->right_px + p->right_py * p->right_py;
-    const double r18 = r11 + r11 - (r16 + p->right_pz * p->right_pz);
-    const double r26 = r4 * known->left_c1 + (0.0 - (0.0 - r5)) * known->left_s1;
-    const double r29 = r5 * known->left_c1 + (0.0 - r4) * known->left_s1;
-    const double r40 = (r6 + (r6 - r6) * known->left_c1) * known->left_c2_;
-    const double r42 = r40 + (0.0 - (0.0 - r26)) * known->left_s2_, r43 = r29 + (r29 - r29) * known->left_c2_;
-    const double r51 = r43 * known->left_c3_ + (0.0 - (0.0 - r42)) * known->left_s3_;
-    const double r54 = r42 * known->left_c3_ + (0.0 - r43) * known->left_s3_;
-    const double r61 = -0.05 * (-0.05 - r51) + -0.085 * (-0.085 - r54);
-    const double r66 = r18 + 0.0020421361 + r61 - (-0.05 * r51 + -0.085 * r54), r67 = 0.02058841 - r66;
-    const Shared10 own = { r67 };
+    const double r1 = p->right_px + 0.04519 * p->right_r13, r4 = p->right_py + 0.04519 * p->right_r23;
+    const double r7 = p->right_pz + 0.04519 * p->right_r33;
+    const double r18 = known->left_s2_ * (known->left_c1 * r1 + known->left_s1 * r4);
+    const double r19 = known->left_c1 * r4 - known->left_s1 * r1, r21 = known->left_c2_ * r7 + r18;
+    const double r27 = 2.0 * (p->right_px * r1) + 2.0 * (p->right_py * r4);
+    const double r30 = r27 + 2.0 * (p->right_pz * r7) - p->right_px * p->right_px;
+    const double r32 = r30 - p->right_py * p->right_py - p->right_pz * p->right_pz;
+    const double r36 = r32 + 0.1 * (known->left_c3_ * r19) + 0.1 * (known->left_s3_ * r21);
+    const double r40 = r36 + 0.17 * (known->left_c3_ * r21) - 0.17 * (known->left_s3_ * r19);
+    const double r41 = 0.0088212739 - r40;
+    const Shared10 own = { r41 };
     const Shared10 *const shared = &own;
     chart_10_1(p, known, shared, answers);
 }
 
 /* What the charts of block 9 share. */
 typedef struct {
-    double r187;
-    double r188;
+    double r95;
+    double r98;
 } Shared9;
 
 /* Chart 1 of block 9: generic.
  */
 static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
-    const double r219 = (0.0 - 0.1 * shared->r187) / 0.010000000000000002;
-    const double r223 = (0.0 - (-0.0 - 0.1 * shared->r188)) / 0.010000000000000002;
-    const double r227 = sqrt(fmax(r223 * r223 + r219 * r219, 0.0)), left_c6 = r223 / r227, left_s6 = r219 / r227;
+    const double r100 = 0.1 * shared->r95 / 0.010000000000000002;
+    const double r102 = 0.1 * shared->r98 / 0.010000000000000002;
+    const double r106 = sqrt(fmax(r102 * r102 + r100 * r100, 0.0)), left_c6 = r102 / r106;
+    const double left_s6 = 0.0 - r100 / r106;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -2090,59 +2023,50 @@ static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *sh
 /* Block 9: HipPitch. */
 static void block_9(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s4, r1 = -0.1029 * known->left_s8;
-    const double r4 = 0.1029 * known->left_c8 - 0.2879 + 0.2879, r11 = r1 + (r1 - r1) * known->left_c9;
-    const double r14 = (0.0 - (0.0 - r4)) * known->left_s9 + 0.05 - 0.05;
-    const double r15 = r4 * known->left_c9 - 0.2879 + 0.33309;
-    const double r20 = r11 * p->left_r11 + r14 * p->left_r12 + r15 * p->left_r13;
-    const double r25 = r11 * p->left_r21 + r14 * p->left_r22 + r15 * p->left_r23;
-    const double r30 = r11 * p->left_r31 + r14 * p->left_r32 + r15 * p->left_r33, r31 = p->left_px + r20;
-    const double r32 = p->left_py + r25, r33 = p->left_pz + r30;
-    const double r40 = r31 * known->left_c1 + (0.0 - (0.0 - r32)) * known->left_s1;
-    const double r43 = r32 * known->left_c1 + (0.0 - r31) * known->left_s1;
-    const double r45 = r33 + (r33 - r33) * known->left_c1;
-    const double r52 = r40 * known->left_c2_ + (0.0 - r45) * known->left_s2_;
-    const double r56 = r45 * known->left_c2_ + (0.0 - (0.0 - r40)) * known->left_s2_;
-    const double r57 = r43 + (r43 - r43) * known->left_c2_;
-    const double r65 = r57 * known->left_c3_ + (0.0 - (0.0 - r56)) * known->left_s3_;
-    const double r68 = r56 * known->left_c3_ + (0.0 - r57) * known->left_s3_;
-    const double r83 = (r52 + (r52 - r52) * known->left_c3_) * known->left_c4;
-    const double r84 = (0.0 - (r68 + 0.085 - (0.0 - (r65 - 0.05)))) * r0, r96 = 0.0 - known->left_c7;
-    const double r97 = 0.0 - known->left_s7, r103 = r96 * known->left_c8 + (0.0 - r97) * known->left_s8;
-    const double r106 = r97 * known->left_c8 + (0.0 - (0.0 - r96)) * known->left_s8;
-    const double r111 = (0.0 - (0.0 - r106)) * known->left_s9, r112 = r106 * known->left_c9;
-    const double r113 = r103 + (r103 - r103) * known->left_c9;
-    const double r118 = r113 * p->left_r11 + r111 * p->left_r12 + r112 * p->left_r13;
-    const double r123 = r113 * p->left_r21 + r111 * p->left_r22 + r112 * p->left_r23;
-    const double r128 = r113 * p->left_r31 + r111 * p->left_r32 + r112 * p->left_r33;
-    const double r135 = r118 * known->left_c1 + (0.0 - (0.0 - r123)) * known->left_s1;
-    const double r138 = r123 * known->left_c1 + (0.0 - r118) * known->left_s1;
-    const double r140 = r128 + (r128 - r128) * known->left_c1;
-    const double r147 = r135 * known->left_c2_ + (0.0 - r140) * known->left_s2_;
-    const double r151 = r140 * known->left_c2_ + (0.0 - (0.0 - r135)) * known->left_s2_;
-    const double r152 = r138 + (r138 - r138) * known->left_c2_;
-    const double r160 = r152 * known->left_c3_ + (0.0 - (0.0 - r151)) * known->left_s3_;
-    const double r163 = r151 * known->left_c3_ + (0.0 - r152) * known->left_s3_;
-    const double r176 = (r147 + (r147 - r147) * known->left_c3_) * known->left_c4;
-    const double r186 = 0.0 - (r176 + (0.0 - (r163 - (0.0 - r160))) * r0), r187 = 0.0 - (0.0 - (r83 + r84));
-    const double r188 = 0.1 * r186;
-    const Shared9 own = { r187, r188 };
+    const double r0 = known->left_c8 * known->left_s9, r5 = 0.1029 * (known->left_c8 * known->left_c9) + 0.04519;
+    const double r14 = p->left_px - 0.1029 * (p->left_r11 * known->left_s8);
+    const double r17 = p->left_r13 * r5 + (r14 + 0.1029 * (p->left_r12 * r0));
+    const double r20 = p->left_py - 0.1029 * (p->left_r21 * known->left_s8);
+    const double r23 = p->left_r23 * r5 + (r20 + 0.1029 * (p->left_r22 * r0));
+    const double r27 = known->left_c1 * r17 + known->left_s1 * r23;
+    const double r30 = p->left_pz - 0.1029 * (p->left_r31 * known->left_s8);
+    const double r33 = p->left_r33 * r5 + (r30 + 0.1029 * (p->left_r32 * r0));
+    const double r37 = known->left_c1 * r23 - known->left_s1 * r17;
+    const double r39 = known->left_c2_ * r33 + known->left_s2_ * r27;
+    const double r43 = known->left_c2_ * r27 - known->left_s2_ * r33;
+    const double r45 = known->left_c3_ * r39 - known->left_s3_ * r37;
+    const double r47 = known->left_s3_ * r39 + (known->left_c3_ * r37 + r45);
+    const double r54 = known->left_s7 * known->left_c8 + known->left_c7 * known->left_s8;
+    const double r55 = known->left_s9 * r54, r56 = known->left_c9 * r54;
+    const double r57 = known->left_c7 * known->left_c8 - known->left_s7 * known->left_s8;
+    const double r68 = p->left_r13 * r56 + (p->left_r11 * r57 + p->left_r12 * r55);
+    const double r71 = p->left_r23 * r56 + (p->left_r21 * r57 + p->left_r22 * r55);
+    const double r75 = known->left_c1 * r68 + known->left_s1 * r71;
+    const double r78 = p->left_r33 * r56 + (p->left_r31 * r57 + p->left_r32 * r55);
+    const double r82 = known->left_c1 * r71 - known->left_s1 * r68;
+    const double r84 = known->left_c2_ * r78 + known->left_s2_ * r75;
+    const double r88 = known->left_c2_ * r75 - known->left_s2_ * r78;
+    const double r90 = known->left_c3_ * r84 - known->left_s3_ * r82;
+    const double r92 = known->left_s3_ * r84 + (known->left_c3_ * r82 + r90);
+    const double r94 = 0.7071067811865475 * (known->left_s4 * (r47 + 0.035)), r95 = known->left_c4 * r43 - r94;
+    const double r98 = 0.1 * (known->left_c4 * r88) - 0.07071067811865475 * (known->left_s4 * r92);
+    const Shared9 own = { r95, r98 };
     const Shared9 *const shared = &own;
     chart_9_1(p, known, shared, answers);
 }
 
 /* What the charts of block 8 share. */
 typedef struct {
-    double r71;
-    double r72;
+    double r44;
+    double r47;
 } Shared8;
 
 /* Chart 1 of block 8: generic.
  */
 static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r74 = 0.0 - (0.0 - shared->r71), r77 = 0.0 - (-0.0 - (0.0 - shared->r72));
-    const double r81 = sqrt(fmax(r77 * r77 + r74 * r74, 0.0)), left_c5 = r77 / r81, left_s5 = r74 / r81;
+    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r51 = sqrt(fmax(r50, 0.0));
+    const double left_c5 = shared->r47 / r51, left_s5 = shared->r44 / r51;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -2154,35 +2078,30 @@ static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *sh
 /* Block 8: HipRoll. */
 static void block_8(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - known->left_s9, r4 = known->left_c9 * p->left_r12 + r1 * p->left_r13;
-    const double r7 = known->left_c9 * p->left_r22 + r1 * p->left_r23;
-    const double r10 = known->left_c9 * p->left_r32 + r1 * p->left_r33;
-    const double r17 = r4 * known->left_c1 + (0.0 - (0.0 - r7)) * known->left_s1;
-    const double r20 = r7 * known->left_c1 + (0.0 - r4) * known->left_s1;
-    const double r22 = r10 + (r10 - r10) * known->left_c1;
-    const double r29 = r17 * known->left_c2_ + (0.0 - r22) * known->left_s2_;
-    const double r33 = r22 * known->left_c2_ + (0.0 - (0.0 - r17)) * known->left_s2_;
-    const double r34 = r20 + (r20 - r20) * known->left_c2_;
-    const double r42 = r34 * known->left_c3_ + (0.0 - (0.0 - r33)) * known->left_s3_;
-    const double r45 = r33 * known->left_c3_ + (0.0 - r34) * known->left_s3_, r49 = 0.5 * r42 + -0.5 * r45;
-    const double r50 = 0.0 - r49, r57 = 0.0 - (0.0 - (r29 + (r29 - r29) * known->left_c3_));
-    const double r62 = r57 * (0.7071067811865475 * known->left_s4);
-    const double r68 = 0.0 - (r50 + ((r45 - r50) * known->left_c4 + r62));
-    const double r69 = 0.0 - (r49 + ((r42 - r49) * known->left_c4 + r62)), r71 = 0.0 - r68;
-    const double r72 = 0.0 - (0.0 - r69);
-    const Shared8 own = { r71, r72 };
+    const double r6 = p->left_r12 * known->left_c9 - p->left_r13 * known->left_s9;
+    const double r8 = p->left_r22 * known->left_c9 - p->left_r23 * known->left_s9;
+    const double r12 = known->left_c1 * r6 + known->left_s1 * r8;
+    const double r14 = p->left_r32 * known->left_c9 - p->left_r33 * known->left_s9;
+    const double r18 = known->left_c1 * r8 - known->left_s1 * r6, r19 = known->left_c3_ * r18;
+    const double r20 = known->left_c2_ * r14 + known->left_s2_ * r12, r21 = known->left_s3_ * r20;
+    const double r22 = known->left_c3_ * r20, r23 = known->left_s3_ * r18;
+    const double r24 = known->left_c2_ * r12 - known->left_s2_ * r14;
+    const double r40 = 0.5 * r19 + 0.5 * r21 - 0.5 * r22 + 0.5 * r23;
+    const double r41 = 0.5 * (known->left_c4 * (r21 + (r19 + (r22 - r23))));
+    const double r43 = 0.7071067811865475 * (known->left_s4 * r24), r44 = r43 - (r40 - r41);
+    const double r45 = 0.5 * (known->left_c4 * (r22 + (r19 + r21) - r23)), r47 = r43 + (r40 + r45);
+    const Shared8 own = { r44, r47 };
     const Shared8 *const shared = &own;
     chart_8_1(p, known, shared, answers);
 }
 
 /* What the charts of block 7 share. */
 typedef struct {
-    double r162;
-    double r322;
-    double r323;
-    double r324;
-    double r331;
-    double r332;
+    double r77;
+    double r89;
+    double r91;
+    double r92;
+    double r95;
 } Shared7;
 
 /* Chart 1 of block 7: generic.
@@ -2190,15 +2109,13 @@ typedef struct {
  */
 static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
-    const double r335 = shared->r162 * shared->r162 + shared->r322 * shared->r322;
-    const double r338 = shared->r331 * shared->r331 + shared->r332 * shared->r332;
-    if (!is_away(r335, 10000.0 * r338)) {
+    const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
+    if (!is_away(r98, 10000.0 * (r99 + r99))) {
         return;
     }
-    const double r342 = shared->r322 * shared->r323 - shared->r162 * shared->r324, r344 = (0.0 - r342) / r335;
-    const double r348 = 0.0 - shared->r162 * shared->r323 - shared->r322 * shared->r324;
-    const double r350 = (0.0 - r348) / r335, r354 = sqrt(fmax(r350 * r350 + r344 * r344, 0.0));
-    const double left_c8 = r350 / r354, left_s8 = r344 / r354;
+    const double r104 = shared->r77 * shared->r92 - shared->r89 * shared->r91, r105 = r104 / r98;
+    const double r109 = shared->r89 * shared->r92 - (0.0 - shared->r77 * shared->r91), r110 = r109 / r98;
+    const double r114 = sqrt(fmax(r110 * r110 + r105 * r105, 0.0)), left_c8 = r110 / r114, left_s8 = r105 / r114;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -2213,9 +2130,8 @@ static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *sh
  */
 static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
-    const double r335 = shared->r162 * shared->r162 + shared->r322 * shared->r322;
-    const double r338 = shared->r331 * shared->r331 + shared->r332 * shared->r332;
-    if (!(is_near(r335, 1.0000000000000001e-7 * r338) && is_near(shared->r324, 0.004729) && is_near(shared->r323, 0.011129))) {
+    const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
+    if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared->r92, 0.004729) && is_near(shared->r91, 0.011129))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2233,40 +2149,28 @@ static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *sh
 /* Block 7: AnklePitch. */
 static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - known->left_c7, r3 = 0.0 - known->left_s7, r4 = 0.0 - r1, r5 = 0.0 - r3;
-    const double r6 = -0.2879 * r1, r7 = -0.2879 * r5, r14 = (known->left_s7 - known->left_s7) * known->left_c9;
-    const double r16 = (0.0 - r4) * known->left_s9, r17 = (0.0 - (0.0 - r5)) * known->left_s9;
-    const double r18 = r1 * known->left_c9, r19 = r5 * known->left_c9, r20 = known->left_s7 + r14;
-    const double r21 = r4 + (r4 - r4) * known->left_c9, r22 = 0.05 * r16, r23 = 0.05 * r17;
-    const double r40 = r20 * p->left_r11 + r16 * p->left_r12 + r18 * p->left_r13;
-    const double r41 = r21 * p->left_r11 + r17 * p->left_r12 + r19 * p->left_r13;
-    const double r50 = r20 * p->left_r21 + r16 * p->left_r22 + r18 * p->left_r23;
-    const double r51 = r21 * p->left_r21 + r17 * p->left_r22 + r19 * p->left_r23;
-    const double r60 = r20 * p->left_r31 + r16 * p->left_r32 + r18 * p->left_r33;
-    const double r61 = r21 * p->left_r31 + r17 * p->left_r32 + r19 * p->left_r33;
-    const double r74 = p->left_px * r40 + p->left_py * r50 + p->left_pz * r60;
-    const double r75 = p->left_px * r41 + p->left_py * r51 + p->left_pz * r61;
-    const double r76 = r6 - r6 + (r22 + -0.2879 * r18) - (r22 + -0.33309 * r18);
-    const double r77 = r7 - r7 + (r23 + -0.2879 * r19) - (r23 + -0.33309 * r19);
-    const double r92 = r40 * known->left_c1 + (0.0 - (0.0 - r50)) * known->left_s1;
-    const double r93 = r41 * known->left_c1 + (0.0 - (0.0 - r51)) * known->left_s1;
-    const double r98 = r50 * known->left_c1 + (0.0 - r40) * known->left_s1;
-    const double r99 = r51 * known->left_c1 + (0.0 - r41) * known->left_s1;
-    const double r120 = (r60 + (r60 - r60) * known->left_c1) * known->left_c2_;
-    const double r121 = (r61 + (r61 - r61) * known->left_c1) * known->left_c2_;
-    const double r124 = r120 + (0.0 - (0.0 - r92)) * known->left_s2_;
-    const double r125 = r121 + (0.0 - (0.0 - r93)) * known->left_s2_, r126 = r98 + (r98 - r98) * known->left_c2_;
-    const double r127 = r99 + (r99 - r99) * known->left_c2_;
-    const double r142 = r126 * known->left_c3_ + (0.0 - (0.0 - r124)) * known->left_s3_;
-    const double r143 = r127 * known->left_c3_ + (0.0 - (0.0 - r125)) * known->left_s3_;
-    const double r148 = r124 * known->left_c3_ + (0.0 - r126) * known->left_s3_;
-    const double r149 = r125 * known->left_c3_ + (0.0 - r127) * known->left_s3_;
-    const double r162 = 0.0 - (0.05 * r142 + -0.085 * r148 - (r76 + r74));
-    const double r163 = 0.0 - (0.05 * r143 + -0.085 * r149 - (r77 + r75)), r322 = 0.0 - r163;
-    const double r323 = 0.0 - (-0.1 - (0.0 - (-0.185 * r1 - r6)));
-    const double r324 = 0.0 - (0.0 - (0.0 - (-0.185 * r3 - -0.2879 * r3))), r325 = 5.0 * p->magnitude;
-    const double r329 = r325 + r325 + r325 + 1.29679 + 7.425, r331 = fabs(r329), r332 = fabs(0.0 - r329);
-    const Shared7 own = { r162, r322, r323, r324, r331, r332 };
+    const double r0 = known->left_c7 * known->left_s9, r1 = known->left_s7 * known->left_s9;
+    const double r2 = known->left_c7 * known->left_c9, r3 = known->left_s7 * known->left_c9;
+    const double r22 = p->left_r11 * known->left_s7 - p->left_r12 * r0, r23 = r22 - p->left_r13 * r2;
+    const double r25 = p->left_r11 * known->left_c7 + p->left_r12 * r1, r26 = p->left_r13 * r3 + r25;
+    const double r28 = p->left_r21 * known->left_s7 - p->left_r22 * r0, r29 = r28 - p->left_r23 * r2;
+    const double r31 = p->left_r21 * known->left_c7 + p->left_r22 * r1, r32 = p->left_r23 * r3 + r31;
+    const double r34 = p->left_r31 * known->left_s7 - p->left_r32 * r0, r35 = r34 - p->left_r33 * r2;
+    const double r37 = p->left_r31 * known->left_c7 + p->left_r32 * r1, r38 = p->left_r33 * r3 + r37;
+    const double r52 = known->left_s2_ * (known->left_c1 * r23 + known->left_s1 * r29);
+    const double r53 = known->left_s2_ * (known->left_c1 * r26 + known->left_s1 * r32);
+    const double r54 = known->left_c1 * r29 - known->left_s1 * r23;
+    const double r56 = known->left_c1 * r32 - known->left_s1 * r26, r58 = known->left_c2_ * r35 + r52;
+    const double r60 = known->left_c2_ * r38 + r53;
+    const double r68 = 0.05 * (known->left_c3_ * r54) + 0.05 * (known->left_s3_ * r58);
+    const double r72 = r68 - 0.085 * (known->left_c3_ * r58) + 0.085 * (known->left_s3_ * r54);
+    const double r76 = r72 + 0.04519 * r2 - p->left_px * r23 - p->left_py * r29, r77 = p->left_pz * r35 - r76;
+    const double r80 = 0.05 * (known->left_c3_ * r56) + 0.05 * (known->left_s3_ * r60);
+    const double r84 = r80 - 0.085 * (known->left_c3_ * r60) + 0.085 * (known->left_s3_ * r56);
+    const double r88 = r84 - 0.04519 * r3 - p->left_px * r26 - p->left_py * r32, r89 = r88 - p->left_pz * r38;
+    const double r91 = 0.1029 * known->left_c7 + 0.1, r92 = 0.1029 * known->left_s7;
+    const double r95 = fabs(15.0 * p->magnitude + 8.72179);
+    const Shared7 own = { r77, r89, r91, r92, r95 };
     const Shared7 *const shared = &own;
     chart_7_1(p, known, shared, answers);
     chart_7_2(p, known, shared, answers);
@@ -2274,18 +2178,17 @@ static void block_7(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r95;
-    double r96;
-    double r139;
-    double r140;
-    double r147;
-    double r148;
-    double r149;
-    double r150;
-    double r151;
-    double r152;
-    double r153;
-    double r155;
+    double r57;
+    double r68;
+    double r70;
+    double r72;
+    double r76;
+    double r77;
+    double r78;
+    double r79;
+    double r80;
+    double r83;
+    double r84;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
@@ -2293,12 +2196,10 @@ typedef struct {
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r156 = shared->r150 - shared->r149;
-    if (!is_away(r156, 10000.0 * (shared->r153 + shared->r152))) {
+    if (!is_away(shared->r79 - shared->r78, 10000.0 * shared->r83)) {
         return;
     }
-    const double r159 = -0.0 / r156, r160 = r159 * r159, r163 = r159 / sqrt(fmax(r160 + r160, 0.0));
-    const double left_c9 = r163, left_s9 = r163;
+    const double left_c9 = -0.0, left_s9 = -0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
@@ -2312,18 +2213,17 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
  */
 static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r156 = shared->r95 * shared->r95, r157 = shared->r96 * shared->r96, r158 = r156 + r157;
-    const double r161 = shared->r147 * shared->r147 + shared->r148 * shared->r148;
-    if (!(is_near(shared->r151, shared->r155) && is_away(r158, 10000.0 * r161))) {
+    const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68, r87 = r85 + r86;
+    const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
+    if (!(is_near(shared->r80, shared->r84) && is_away(r87, 10000.0 * r90))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r156 - r157, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r161, 0.0)));
+    const double choice0_0[3] = {0.0 - r85 - r86, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r90, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w9 = roots0.values[i0], r169 = (0.0 - (0.0 - shared->r95 * left_w9)) / r158;
-        const double r172 = (0.0 - shared->r96 * left_w9) / r158;
-        const double r176 = sqrt(fmax(r172 * r172 + r169 * r169, 0.0)), left_c9 = r172 / r176;
-        const double left_s9 = r169 / r176;
+        const double left_w9 = roots0.values[i0], r96 = left_w9 * shared->r57 / r87;
+        const double r98 = left_w9 * shared->r68 / r87, r102 = sqrt(fmax(r98 * r98 + r96 * r96, 0.0));
+        const double left_c9 = 0.0 - r98 / r102, left_s9 = r96 / r102;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -2339,9 +2239,9 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
  */
 static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r158 = shared->r95 * shared->r95 + shared->r96 * shared->r96;
-    const double r161 = shared->r147 * shared->r147 + shared->r148 * shared->r148;
-    if (!(is_near(shared->r151, shared->r155) && is_near(r158, 1.0000000000000001e-7 * r161))) {
+    const double r87 = shared->r57 * shared->r57 + shared->r68 * shared->r68;
+    const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
+    if (!(is_near(shared->r80, shared->r84) && is_near(r87, 1.0000000000000001e-7 * r90))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2361,17 +2261,16 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
  */
 static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r156 = shared->r139 * shared->r139, r157 = shared->r140 * shared->r140, r158 = r156 + r157;
-    if (!(is_near(shared->r151, shared->r155) && is_away(r158, 27380000.0))) {
+    const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72, r87 = r85 + r86;
+    if (!(is_near(shared->r80, shared->r84) && is_away(r87, 27380000.0))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r156 - r157, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r85 - r86, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 52.32590180780452);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w9 = roots0.values[i0], r164 = (0.0 - (0.0 - shared->r139 * left_w9)) / r158;
-        const double r167 = (0.0 - shared->r140 * left_w9) / r158;
-        const double r171 = sqrt(fmax(r167 * r167 + r164 * r164, 0.0)), left_c9 = r167 / r171;
-        const double left_s9 = r164 / r171;
+        const double left_w9 = roots0.values[i0], r91 = left_w9 * shared->r70 / r87;
+        const double r93 = left_w9 * shared->r72 / r87, r97 = sqrt(fmax(r93 * r93 + r91 * r91, 0.0));
+        const double left_c9 = 0.0 - r93 / r97, left_s9 = r91 / r97;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
@@ -2387,8 +2286,8 @@ static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *sh
  */
 static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r158 = shared->r139 * shared->r139 + shared->r140 * shared->r140;
-    if (!(is_near(shared->r151, shared->r155) && is_near(r158, 0.00027380000000000004))) {
+    const double r87 = shared->r70 * shared->r70 + shared->r72 * shared->r72;
+    if (!(is_near(shared->r80, shared->r84) && is_near(r87, 0.00027380000000000004))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2406,34 +2305,27 @@ static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: AnkleRoll. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.7071067811865475 * known->left_s4, r1 = 0.0 - p->left_r13, r2 = 0.0 - p->left_r23;
-    const double r3 = 0.0 - p->left_r33, r10 = p->left_px * p->left_r12 + p->left_py * p->left_r22;
-    const double r13 = p->left_px * r1 + p->left_py * r2 + p->left_pz * r3;
-    const double r27 = p->left_r12 * known->left_c1 + (0.0 - (0.0 - p->left_r22)) * known->left_s1;
-    const double r28 = r1 * known->left_c1 + (0.0 - (0.0 - r2)) * known->left_s1;
-    const double r33 = p->left_r22 * known->left_c1 + (0.0 - p->left_r12) * known->left_s1;
-    const double r34 = r2 * known->left_c1 + (0.0 - r1) * known->left_s1;
-    const double r37 = p->left_r32 + (p->left_r32 - p->left_r32) * known->left_c1;
-    const double r38 = r3 + (r3 - r3) * known->left_c1;
-    const double r51 = r27 * known->left_c2_ + (0.0 - r37) * known->left_s2_;
-    const double r52 = r28 * known->left_c2_ + (0.0 - r38) * known->left_s2_;
-    const double r59 = r37 * known->left_c2_ + (0.0 - (0.0 - r27)) * known->left_s2_;
-    const double r60 = r38 * known->left_c2_ + (0.0 - (0.0 - r28)) * known->left_s2_;
-    const double r61 = r33 + (r33 - r33) * known->left_c2_, r62 = r34 + (r34 - r34) * known->left_c2_;
-    const double r77 = r61 * known->left_c3_ + (0.0 - (0.0 - r59)) * known->left_s3_;
-    const double r78 = r62 * known->left_c3_ + (0.0 - (0.0 - r60)) * known->left_s3_;
-    const double r83 = r59 * known->left_c3_ + (0.0 - r61) * known->left_s3_;
-    const double r84 = r60 * known->left_c3_ + (0.0 - r62) * known->left_s3_;
-    const double r93 = 0.05 * r77 + -0.085 * r83 - (r10 + p->left_pz * p->left_r32), r95 = 0.0 - r93;
-    const double r96 = 0.0 - (0.05 * r78 + -0.085 * r84 - (r13 - 0.04519));
-    const double r119 = (r51 + (r51 - r51) * known->left_c3_) * known->left_c4;
-    const double r120 = (r52 + (r52 - r52) * known->left_c3_) * known->left_c4;
-    const double r139 = 0.0 - (r119 + (0.0 - (r83 - (0.0 - r77))) * r0);
-    const double r140 = 0.0 - (r120 + (0.0 - (r84 - (0.0 - r78))) * r0);
-    const double r142 = p->magnitude + p->magnitude + p->magnitude, r147 = fabs(r142 + 0.1 + 1.485);
-    const double r148 = fabs(r142 + 0.62099 + 1.485), r149 = r95 * r140, r150 = r96 * r139, r151 = r149 - r150;
-    const double r152 = 37.0 * r147, r153 = 37.0 * r148, r155 = 0.001 * (r152 + r153);
-    const Shared6 own = { r95, r96, r139, r140, r147, r148, r149, r150, r151, r152, r153, r155 };
+    const double r14 = p->left_r12 * known->left_c1 + p->left_r22 * known->left_s1;
+    const double r16 = p->left_r13 * known->left_c1 + p->left_r23 * known->left_s1;
+    const double r24 = p->left_r22 * known->left_c1 - p->left_r12 * known->left_s1, r25 = known->left_c3_ * r24;
+    const double r26 = p->left_r23 * known->left_c1 - p->left_r13 * known->left_s1, r27 = known->left_c3_ * r26;
+    const double r28 = p->left_r32 * known->left_c2_ + known->left_s2_ * r14, r29 = known->left_s3_ * r28;
+    const double r30 = p->left_r33 * known->left_c2_ + known->left_s2_ * r16, r31 = known->left_s3_ * r30;
+    const double r32 = known->left_c3_ * r28, r33 = known->left_c3_ * r30, r34 = known->left_s3_ * r24;
+    const double r35 = known->left_s3_ * r26, r36 = known->left_c2_ * r14 - p->left_r32 * known->left_s2_;
+    const double r38 = known->left_c2_ * r16 - p->left_r33 * known->left_s2_;
+    const double r54 = 0.05 * r25 + 0.05 * r29 - 0.085 * r32 + 0.085 * r34;
+    const double r56 = r54 - p->left_px * p->left_r12 - p->left_py * p->left_r22;
+    const double r57 = p->left_pz * p->left_r32 - r56, r64 = 0.05 * r27 + 0.05 * r31 - 0.085 * r33 + 0.085 * r35;
+    const double r66 = r64 - p->left_px * p->left_r13 - p->left_py * p->left_r23;
+    const double r68 = r66 - p->left_pz * p->left_r33 - 0.04519;
+    const double r69 = 0.7071067811865475 * (known->left_s4 * (r29 + (r25 + (r32 - r34))));
+    const double r70 = r69 - known->left_c4 * r36;
+    const double r71 = 0.7071067811865475 * (known->left_s4 * (r31 + (r27 + (r33 - r35))));
+    const double r72 = known->left_c4 * r38 - r71, r73 = 3.0 * p->magnitude, r76 = fabs(r73 + 1.585);
+    const double r77 = fabs(r73 + 2.10599), r78 = r57 * r72, r79 = r68 * r70, r80 = r78 - r79;
+    const double r83 = 37.0 * r76 + 37.0 * r77, r84 = 0.001 * r83;
+    const Shared6 own = { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
     chart_6_2(p, known, shared, answers);
@@ -2444,21 +2336,21 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r67;
+    double r41;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r69 = shared->r67 * shared->r67 - 0.00042353640000000005;
-    const double choice0_0[3] = {r69, 0.0, 1.0};
+    const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
+    const double choice0_0[3] = {r43, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w7 = roots0.values[i0];
-        const double r73 = (0.0 - (0.0 - 0.02058 * left_w7)) / 0.00042353640000000005;
-        const double r76 = (0.0 - 0.02058 * shared->r67) / 0.00042353640000000005;
-        const double r80 = sqrt(fmax(r76 * r76 + r73 * r73, 0.0)), left_c7 = r76 / r80, left_s7 = r73 / r80;
+        const double left_w7 = roots0.values[i0], r45 = 0.02058 * left_w7 / 0.00042353640000000005;
+        const double r47 = 0.02058 * shared->r41 / 0.00042353640000000005;
+        const double r51 = sqrt(fmax(r47 * r47 + r45 * r45, 0.0)), left_c7 = 0.0 - r47 / r51;
+        const double left_s7 = r45 / r51;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -2471,42 +2363,34 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: KneePitch. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r4 = p->left_px + 0.04519 * p->left_r13, r5 = p->left_py + 0.04519 * p->left_r23;
-    const double r6 = p->left_pz + 0.04519 * p->left_r33;
-    const double r11 = p->left_px * r4 + p->left_py * r5 + p->left_pz * r6;
-    const double r16 = p->left_px * p->left_px + p->left_py * p->left_py;
-    const double r19 = r11 + r11 - (r16 + p->left_pz * p->left_pz) + 0.0020421361;
-    const double r26 = r4 * known->left_c1 + (0.0 - (0.0 - r5)) * known->left_s1;
-    const double r29 = r5 * known->left_c1 + (0.0 - r4) * known->left_s1;
-    const double r40 = (r6 + (r6 - r6) * known->left_c1) * known->left_c2_;
-    const double r42 = r40 + (0.0 - (0.0 - r26)) * known->left_s2_, r43 = r29 + (r29 - r29) * known->left_c2_;
-    const double r51 = r43 * known->left_c3_ + (0.0 - (0.0 - r42)) * known->left_s3_;
-    const double r54 = r42 * known->left_c3_ + (0.0 - r43) * known->left_s3_;
-    const double r61 = 0.05 * (0.05 - r51) + -0.085 * (-0.085 - r54);
-    const double r67 = 0.02058841 - (r19 + r61 - (0.05 * r51 + -0.085 * r54));
-    const Shared5 own = { r67 };
+    const double r1 = p->left_px + 0.04519 * p->left_r13, r4 = p->left_py + 0.04519 * p->left_r23;
+    const double r7 = p->left_pz + 0.04519 * p->left_r33;
+    const double r18 = known->left_s2_ * (known->left_c1 * r1 + known->left_s1 * r4);
+    const double r19 = known->left_c1 * r4 - known->left_s1 * r1, r21 = known->left_c2_ * r7 + r18;
+    const double r27 = 2.0 * (p->left_px * r1) + 2.0 * (p->left_py * r4);
+    const double r30 = r27 + 2.0 * (p->left_pz * r7) - p->left_px * p->left_px;
+    const double r32 = r30 - p->left_py * p->left_py - p->left_pz * p->left_pz;
+    const double r36 = r32 - 0.1 * (known->left_c3_ * r19) - 0.1 * (known->left_s3_ * r21);
+    const double r40 = r36 + 0.17 * (known->left_c3_ * r21) - 0.17 * (known->left_s3_ * r19);
+    const double r41 = 0.0088212739 - r40;
+    const Shared5 own = { r41 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r146;
-    double r290;
-    double r292;
-    double r293;
-    double r294;
-    double r295;
-    double r326;
-    double r327;
-    double r328;
-    double r329;
-    double r330;
-    double r331;
-    double r332;
-    double r333;
-    double r334;
-    double r336;
+    double r98;
+    double r110;
+    double r120;
+    double r132;
+    double r137;
+    double r138;
+    double r139;
+    double r141;
+    double r142;
+    double r144;
+    double r145;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -2514,13 +2398,10 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r337 = shared->r331 - shared->r330;
-    if (!is_away(r337, 10000.0 * (shared->r334 + shared->r333))) {
+    if (!is_away(shared->r139 + shared->r141, 10000.0 * shared->r144)) {
         return;
     }
-    const double r342 = shared->r146 * shared->r295 - shared->r290 * shared->r294, r344 = (0.0 - r342) / r337;
-    const double r347 = shared->r293 * shared->r294 - shared->r292 * shared->r295, r349 = (0.0 - r347) / r337;
-    const double r353 = sqrt(fmax(r349 * r349 + r344 * r344, 0.0)), left_c4 = r349 / r353, left_s4 = r344 / r353;
+    const double left_c4 = -0.0, left_s4 = -0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
@@ -2534,18 +2415,17 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r337 = shared->r146 * shared->r146, r338 = shared->r292 * shared->r292, r339 = r337 + r338;
-    const double r342 = shared->r326 * shared->r326 + shared->r327 * shared->r327;
-    if (!(is_near(shared->r332, shared->r336) && is_away(r339, 10000.0 * r342))) {
+    const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110, r148 = r146 + r147;
+    const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
+    if (!(is_near(shared->r142, shared->r145) && is_away(r148, 10000.0 * r151))) {
         return;
     }
-    const double choice0_0[3] = {shared->r328 * shared->r328 - r337 - r338, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r342, 0.0)));
+    const double choice0_0[3] = {0.0 - r146 - r147, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r151, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0], r350 = shared->r292 * shared->r328 - shared->r146 * left_w4;
-        const double r352 = (0.0 - r350) / r339, r355 = shared->r292 * left_w4 + shared->r146 * shared->r328;
-        const double r357 = (0.0 - r355) / r339, r361 = sqrt(fmax(r357 * r357 + r352 * r352, 0.0));
-        const double left_c4 = r357 / r361, left_s4 = r352 / r361;
+        const double left_w4 = roots0.values[i0], r158 = left_w4 * shared->r98 / r148;
+        const double r162 = left_w4 * shared->r110 / r148, r166 = sqrt(fmax(r162 * r162 + r158 * r158, 0.0));
+        const double left_c4 = r162 / r166, left_s4 = 0.0 - r158 / r166;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -2556,14 +2436,14 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 }
 
 /* Chart 3 of block 4: A = 0, B = 0, C = 0.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero and C is near zero.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch.
  */
 static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r339 = shared->r146 * shared->r146 + shared->r292 * shared->r292;
-    const double r342 = shared->r326 * shared->r326 + shared->r327 * shared->r327;
-    if (!(is_near(shared->r332, shared->r336) && is_near(r339, 1.0000000000000001e-7 * r342) && is_near(shared->r328, 0.029700000000000004))) {
+    const double r148 = shared->r98 * shared->r98 + shared->r110 * shared->r110;
+    const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
+    if (!(is_near(shared->r142, shared->r145) && is_near(r148, 1.0000000000000001e-7 * r151))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2583,18 +2463,17 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r337 = shared->r290 * shared->r290, r338 = shared->r293 * shared->r293, r339 = r337 + r338;
-    const double r342 = shared->r326 * shared->r326 + shared->r327 * shared->r327;
-    if (!(is_near(shared->r332, shared->r336) && is_away(r339, 10000.0 * r342))) {
+    const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132, r148 = r146 + r147;
+    const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
+    if (!(is_near(shared->r142, shared->r145) && is_away(r148, 10000.0 * r151))) {
         return;
     }
-    const double choice0_0[3] = {shared->r329 * shared->r329 - r337 - r338, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r342, 0.0)));
+    const double choice0_0[3] = {0.0 - r146 - r147, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r151, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0], r350 = shared->r293 * shared->r329 - shared->r290 * left_w4;
-        const double r352 = (0.0 - r350) / r339, r355 = shared->r293 * left_w4 + shared->r290 * shared->r329;
-        const double r357 = (0.0 - r355) / r339, r361 = sqrt(fmax(r357 * r357 + r352 * r352, 0.0));
-        const double left_c4 = r357 / r361, left_s4 = r352 / r361;
+        const double left_w4 = roots0.values[i0], r158 = left_w4 * shared->r120 / r148;
+        const double r162 = left_w4 * shared->r132 / r148, r167 = sqrt(fmax(r162 * r162 + r158 * r158, 0.0));
+        const double left_c4 = 0.0 - r162 / r167, left_s4 = 0.0 - r158 / r167;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
@@ -2605,14 +2484,14 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
 }
 
 /* Chart 5 of block 4: A = 0, B = 0, C = 0.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero and C is near zero.
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch.
  */
 static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r339 = shared->r290 * shared->r290 + shared->r293 * shared->r293;
-    const double r342 = shared->r326 * shared->r326 + shared->r327 * shared->r327;
-    if (!(is_near(shared->r332, shared->r336) && is_near(r339, 1.0000000000000001e-7 * r342) && is_near(shared->r329, 0.029700000000000004))) {
+    const double r148 = shared->r120 * shared->r120 + shared->r132 * shared->r132;
+    const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
+    if (!(is_near(shared->r142, shared->r145) && is_near(r148, 1.0000000000000001e-7 * r151))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2630,72 +2509,50 @@ static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYawPitch. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = p->left_py * p->left_r31 - p->left_pz * p->left_r21;
-    const double r8 = p->left_pz * p->left_r11 - p->left_px * p->left_r31;
-    const double r11 = p->left_px * p->left_r21 - p->left_py * p->left_r11, r12 = r5 + 0.04519 * p->left_r12;
-    const double r13 = r8 + 0.04519 * p->left_r22, r14 = r11 + 0.04519 * p->left_r32;
-    const double r21 = p->left_r11 * known->left_c1 + (0.0 - (0.0 - p->left_r21)) * known->left_s1;
-    const double r24 = p->left_r21 * known->left_c1 + (0.0 - p->left_r11) * known->left_s1;
-    const double r26 = p->left_r31 + (p->left_r31 - p->left_r31) * known->left_c1;
-    const double r33 = r12 * known->left_c1 + (0.0 - (0.0 - r13)) * known->left_s1;
-    const double r36 = r13 * known->left_c1 + (0.0 - r12) * known->left_s1;
-    const double r38 = r14 + (r14 - r14) * known->left_c1;
-    const double r45 = r21 * known->left_c2_ + (0.0 - r26) * known->left_s2_;
-    const double r49 = r26 * known->left_c2_ + (0.0 - (0.0 - r21)) * known->left_s2_;
-    const double r50 = r24 + (r24 - r24) * known->left_c2_;
-    const double r57 = r33 * known->left_c2_ + (0.0 - r38) * known->left_s2_;
-    const double r61 = r38 * known->left_c2_ + (0.0 - (0.0 - r33)) * known->left_s2_;
-    const double r62 = r36 + (r36 - r36) * known->left_c2_;
-    const double r70 = r50 * known->left_c3_ + (0.0 - (0.0 - r49)) * known->left_s3_;
-    const double r73 = r49 * known->left_c3_ + (0.0 - r50) * known->left_s3_;
-    const double r74 = r45 + (r45 - r45) * known->left_c3_;
-    const double r82 = r62 * known->left_c3_ + (0.0 - (0.0 - r61)) * known->left_s3_;
-    const double r85 = r61 * known->left_c3_ + (0.0 - r62) * known->left_s3_, r89 = 0.5 * r70 + -0.5 * r73;
-    const double r90 = 0.0 - r89, r91 = r70 - r89, r97 = 0.0 - (0.0 - r74);
-    const double r104 = r57 + (r57 - r57) * known->left_c3_ - (0.05 * r73 - -0.085 * r70);
-    const double r114 = r85 - (0.0 - 0.05 * r74) - (0.0 - (r82 - -0.085 * r74)), r118 = 0.05 * r90;
-    const double r119 = 0.05 * (r73 - r90), r120 = 0.05 * r97;
-    const double r143 = 0.085 * r91 + r119 - (r119 - -0.085 * r91 + r104);
-    const double r144 = 0.085 * r97 + r120 - (r120 - -0.085 * r97 + (0.0 - r114));
-    const double r145 = 0.0 - (0.085 * r89 + r118 - (r118 - -0.085 * r89)), r146 = 0.0 - r143;
-    const double r153 = p->right_py * p->right_r31 - p->right_pz * p->right_r21;
-    const double r156 = p->right_pz * p->right_r11 - p->right_px * p->right_r31;
-    const double r159 = p->right_px * p->right_r21 - p->right_py * p->right_r11;
-    const double r160 = r153 + 0.04519 * p->right_r12, r161 = r156 + 0.04519 * p->right_r22;
-    const double r162 = r159 + 0.04519 * p->right_r32, r168 = (0.0 - (0.0 - p->right_r21)) * known->left_s1;
-    const double r169 = p->right_r11 * known->left_c1 + r168;
-    const double r172 = p->right_r21 * known->left_c1 + (0.0 - p->right_r11) * known->left_s1;
-    const double r173 = (p->right_r31 - p->right_r31) * known->left_c1, r174 = p->right_r31 + r173;
-    const double r181 = r160 * known->left_c1 + (0.0 - (0.0 - r161)) * known->left_s1;
-    const double r184 = r161 * known->left_c1 + (0.0 - r160) * known->left_s1;
-    const double r186 = r162 + (r162 - r162) * known->left_c1;
-    const double r193 = r169 * known->left_c2_ + (0.0 - r174) * known->left_s2_;
-    const double r197 = r174 * known->left_c2_ + (0.0 - (0.0 - r169)) * known->left_s2_;
-    const double r198 = r172 + (r172 - r172) * known->left_c2_;
-    const double r205 = r181 * known->left_c2_ + (0.0 - r186) * known->left_s2_;
-    const double r209 = r186 * known->left_c2_ + (0.0 - (0.0 - r181)) * known->left_s2_;
-    const double r210 = r184 + (r184 - r184) * known->left_c2_;
-    const double r218 = r198 * known->left_c3_ + (0.0 - (0.0 - r197)) * known->left_s3_;
-    const double r221 = r197 * known->left_c3_ + (0.0 - r198) * known->left_s3_;
-    const double r222 = r193 + (r193 - r193) * known->left_c3_;
-    const double r230 = r210 * known->left_c3_ + (0.0 - (0.0 - r209)) * known->left_s3_;
-    const double r233 = r209 * known->left_c3_ + (0.0 - r210) * known->left_s3_, r237 = 0.5 * r218 + 0.5 * r221;
-    const double r238 = r218 - r237, r241 = 0.0 - r222;
-    const double r250 = r205 + (r205 - r205) * known->left_c3_ - (-0.05 * r221 - -0.085 * r218);
-    const double r258 = r233 - (0.0 - -0.05 * r222) - (r230 - -0.085 * r222), r262 = -0.05 * r237;
-    const double r263 = -0.05 * (r221 - r237), r264 = -0.05 * (0.0 - r241);
-    const double r287 = 0.085 * r238 + r263 - (r263 - -0.085 * r238 + r250);
-    const double r288 = 0.085 * r241 + r264 - (r264 - -0.085 * r241 + (0.0 - r258));
-    const double r289 = 0.0 - (0.085 * r237 + r262 - (r262 - -0.085 * r237)), r290 = 0.0 - r287;
-    const double r292 = 0.7071067811865475 * (0.0 - r144), r293 = 0.7071067811865475 * (0.0 - r288);
-    const double r294 = 0.0 - r145, r295 = 0.0 - r289, r297 = p->magnitude + p->magnitude + 0.72099;
-    const double r298 = r297 + r297, r299 = r297 + r298, r301 = r298 + r299, r302 = r299 + r298;
-    const double r303 = r298 + (r298 + r298), r318 = r302 + r303 + 0.75 + (r303 + r302 + 1.275) + 2.025;
-    const double r326 = fabs(r301 + (r301 + r301) + 1.485 + 2.97 + 2.97);
-    const double r327 = fabs(0.7071067811865475 * (r318 + 2.025)), r328 = 0.0 - r294, r329 = 0.0 - r295;
-    const double r330 = r146 * r293, r331 = r292 * r290, r332 = r330 - r331, r333 = r326 * r327;
-    const double r334 = r327 * r326, r336 = 0.001 * (r333 + r334);
-    const Shared4 own = { r146, r290, r292, r293, r294, r295, r326, r327, r328, r329, r330, r331, r332, r333, r334, r336 };
+    const double r10 = p->left_py * p->left_r31 - p->left_pz * p->left_r21, r12 = r10 + 0.04519 * p->left_r12;
+    const double r14 = p->left_pz * p->left_r11 - p->left_px * p->left_r31, r16 = r14 + 0.04519 * p->left_r22;
+    const double r20 = p->left_r11 * known->left_c1 + p->left_r21 * known->left_s1;
+    const double r25 = known->left_c1 * r12 + known->left_s1 * r16;
+    const double r27 = p->left_px * p->left_r21 - p->left_py * p->left_r11, r29 = r27 + 0.04519 * p->left_r32;
+    const double r33 = p->left_r21 * known->left_c1 - p->left_r11 * known->left_s1;
+    const double r35 = p->left_r31 * known->left_c2_ + known->left_s2_ * r20;
+    const double r39 = known->left_c1 * r16 - known->left_s1 * r12;
+    const double r41 = known->left_c2_ * r29 + known->left_s2_ * r25;
+    const double r55 = p->right_py * p->right_r31 - p->right_pz * p->right_r21;
+    const double r57 = r55 + 0.04519 * p->right_r12;
+    const double r59 = p->right_pz * p->right_r11 - p->right_px * p->right_r31;
+    const double r61 = r59 + 0.04519 * p->right_r22;
+    const double r65 = p->right_r11 * known->left_c1 + p->right_r21 * known->left_s1;
+    const double r70 = known->left_c1 * r57 + known->left_s1 * r61;
+    const double r72 = p->right_px * p->right_r21 - p->right_py * p->right_r11;
+    const double r74 = r72 + 0.04519 * p->right_r32;
+    const double r78 = p->right_r21 * known->left_c1 - p->right_r11 * known->left_s1;
+    const double r80 = p->right_r31 * known->left_c2_ + known->left_s2_ * r65;
+    const double r84 = known->left_c1 * r61 - known->left_s1 * r57;
+    const double r86 = known->left_c2_ * r74 + known->left_s2_ * r70;
+    const double r92 = 0.085 * (known->left_c3_ * r33) + 0.085 * (known->left_s3_ * r35);
+    const double r96 = r92 + 0.05 * (known->left_c3_ * r35) - 0.05 * (known->left_s3_ * r33);
+    const double r98 = known->left_s2_ * r29 + (r96 - known->left_c2_ * r25);
+    const double r100 = 0.09545941546018391 * (known->left_c2_ * r20);
+    const double r101 = 0.09545941546018391 * (p->left_r31 * known->left_s2_);
+    const double r104 = r100 - r101 + 0.7071067811865475 * (known->left_c3_ * r41);
+    const double r106 = r104 - 0.7071067811865475 * (known->left_s3_ * r39);
+    const double r108 = r106 + 0.7071067811865475 * (known->left_c3_ * r39);
+    const double r110 = r108 + 0.7071067811865475 * (known->left_s3_ * r41);
+    const double r114 = 0.085 * (known->left_c3_ * r78) + 0.085 * (known->left_s3_ * r80);
+    const double r118 = r114 - 0.05 * (known->left_c3_ * r80) + 0.05 * (known->left_s3_ * r78);
+    const double r120 = known->left_s2_ * r74 + (r118 - known->left_c2_ * r70);
+    const double r122 = 0.09545941546018391 * (known->left_c2_ * r65);
+    const double r123 = 0.09545941546018391 * (p->right_r31 * known->left_s2_);
+    const double r126 = r122 - r123 - 0.7071067811865475 * (known->left_c3_ * r86);
+    const double r128 = r126 + 0.7071067811865475 * (known->left_s3_ * r84);
+    const double r130 = r128 + 0.7071067811865475 * (known->left_c3_ * r84);
+    const double r132 = r130 + 0.7071067811865475 * (known->left_s3_ * r86);
+    const double r136 = 31.112698372208087 * p->magnitude + 15.51164589539743;
+    const double r137 = fabs(30.0 * p->magnitude + 18.23985), r138 = fabs(r136), r139 = r98 * r132;
+    const double r141 = r110 * r120, r142 = 0.0 - r139 - r141, r143 = r137 * r138, r144 = r143 + r143;
+    const double r145 = 0.001 * r144;
+    const Shared4 own = { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -2706,16 +2563,16 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r614;
-    double r621;
-    double r628;
-    double r635;
-    double r640;
-    double r783;
-    double r784;
-    double r785;
-    double r786;
-    double r787;
+    double r175;
+    double r184;
+    double r192;
+    double r200;
+    double r207;
+    double r299;
+    double r300;
+    double r301;
+    double r302;
+    double r303;
 } Shared3;
 
 /* Chart 1 of block 3: half angle.
@@ -2723,29 +2580,30 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r791 = 2.0 * shared->r635, r798 = shared->r628 - shared->r640;
-    const double r801 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    if (!is_away(r798, 1000000000000.0 * (r801 + shared->r787))) {
+    const double r306 = 2.0 * shared->r175, r308 = 2.0 * shared->r200;
+    const double r313 = 0.0 - 4.0 * shared->r184 - 2.0 * shared->r207, r315 = shared->r192 - shared->r207;
+    const double r318 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    if (!is_away(r315, 1000000000000.0 * (shared->r303 + r318))) {
         return;
     }
     const double choice0_0[5] = {
-        0.0 - shared->r628 - shared->r640,
-        -2.0 * shared->r614 - r791,
-        -4.0 * shared->r621 - 2.0 * shared->r640,
-        2.0 * shared->r614 - r791,
-        r798,
+        0.0 - shared->r192 - shared->r207,
+        0.0 - r306 - r308,
+        r313,
+        r306 - r308,
+        r315,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r804 = 0.5 * shared->r628, r805 = 0.5 * shared->r640;
-        const double r809 = left_w1 * (r804 - r805) + (shared->r614 - shared->r635);
-        const double r814 = left_w1 * r809 - (2.0 * shared->r621 + r804 + r805);
-        const double r819 = left_w1 * (r805 - r804) + (shared->r635 - shared->r614);
-        const double r822 = left_w1 * (shared->r621 * r814 + shared->r614 * r819);
-        const double r828 = shared->r614 * shared->r614 + shared->r621 * shared->r621;
-        const double r830 = (0.0 - (r822 + shared->r614 * (r804 + r805))) / r828;
-        const double r833 = 0.0 - (r830 * left_w1 - 1.0), r837 = sqrt(fmax(r833 * r833 + r830 * r830, 0.0));
-        const double left_c1 = r833 / r837, left_s1 = r830 / r837;
+        const double left_w1 = roots0.values[i0], r321 = 0.5 * shared->r192, r322 = 0.5 * shared->r207;
+        const double r326 = left_w1 * (r321 - r322) + (shared->r175 - shared->r200);
+        const double r331 = left_w1 * r326 - (r322 + (r321 + 2.0 * shared->r184));
+        const double r336 = left_w1 * (r322 - r321) + (shared->r200 - shared->r175);
+        const double r339 = left_w1 * (shared->r184 * r331 + shared->r175 * r336);
+        const double r345 = shared->r175 * shared->r175 + shared->r184 * shared->r184;
+        const double r347 = (r339 + shared->r175 * (r321 + r322)) / r345, r352 = 1.0 - (0.0 - left_w1 * r347);
+        const double r356 = sqrt(fmax(r352 * r352 + r347 * r347, 0.0)), left_c1 = r352 / r356;
+        const double left_s1 = 0.0 - r347 / r356;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
@@ -2758,9 +2616,9 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* The pivot of chart 1 of block 3; -1 where it does not run. */
 static double claim_3_1(const Shared3 *shared)
 {
-    const double r798 = shared->r628 - shared->r640;
-    const double r801 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    return is_away(r798, 1000000000000.0 * (r801 + shared->r787)) ? fabs(r798) : -1.0;
+    const double r315 = shared->r192 - shared->r207;
+    const double r318 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    return is_away(r315, 1000000000000.0 * (shared->r303 + r318)) ? fabs(r315) : -1.0;
 }
 
 /* Chart 2 of block 3: half angle.
@@ -2768,30 +2626,31 @@ static double claim_3_1(const Shared3 *shared)
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r791 = 2.0 * shared->r628, r799 = shared->r621 - shared->r635 + shared->r640;
-    const double r802 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    if (!is_away(r799, 1000000000000.0 * (r802 + shared->r787))) {
+    const double r306 = 2.0 * shared->r175, r308 = 2.0 * shared->r192;
+    const double r315 = shared->r207 + (shared->r184 - shared->r200);
+    const double r318 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    if (!is_away(r315, 1000000000000.0 * (shared->r303 + r318))) {
         return;
     }
     const double choice0_0[5] = {
-        shared->r621 + shared->r635 + shared->r640,
-        -2.0 * shared->r614 - r791,
-        2.0 * shared->r640 - 2.0 * shared->r621,
-        2.0 * shared->r614 - r791,
-        r799,
+        shared->r207 + (shared->r184 + shared->r200),
+        0.0 - r306 - r308,
+        2.0 * shared->r207 - 2.0 * shared->r184,
+        r306 - r308,
+        r315,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r805 = 0.5 * shared->r621, r806 = 0.5 * shared->r635;
-        const double r808 = 0.5 * shared->r640, r809 = r805 - r806 + r808;
-        const double r812 = left_w1 * r809 + (shared->r614 - shared->r628);
-        const double r816 = left_w1 * (shared->r614 * r812 + shared->r621 * r809), r818 = r806 - r805 + r808;
-        const double r821 = shared->r614 * r818 - shared->r621 * shared->r628;
-        const double r825 = shared->r614 * shared->r614;
-        const double r827 = left_w1 * (r816 + r821) + (shared->r621 * r818 - r825);
-        const double r831 = (0.0 - r827) / (r825 + shared->r621 * shared->r621);
-        const double r834 = 0.0 - left_w1 * (r831 + 1.0), r838 = sqrt(fmax(r834 * r834 + r831 * r831, 0.0));
-        const double left_c1 = r834 / r838, left_s1 = r831 / r838;
+        const double left_w1 = roots0.values[i0], r321 = 0.5 * shared->r184, r322 = 0.5 * shared->r200;
+        const double r324 = 0.5 * shared->r207, r325 = r321 - r322 + r324;
+        const double r328 = left_w1 * r325 + (shared->r175 - shared->r192);
+        const double r332 = left_w1 * (shared->r175 * r328 + shared->r184 * r325), r334 = r324 + (r322 - r321);
+        const double r337 = shared->r175 * r334 - shared->r184 * shared->r192;
+        const double r341 = shared->r175 * shared->r175;
+        const double r343 = left_w1 * (r332 + r337) + (shared->r184 * r334 - r341);
+        const double r347 = r343 / (r341 + shared->r184 * shared->r184), r350 = left_w1 * (1.0 - r347);
+        const double r355 = sqrt(fmax(r350 * r350 + r347 * r347, 0.0)), left_c1 = 0.0 - r350 / r355;
+        const double left_s1 = 0.0 - r347 / r355;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
@@ -2804,9 +2663,9 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* The pivot of chart 2 of block 3; -1 where it does not run. */
 static double claim_3_2(const Shared3 *shared)
 {
-    const double r799 = shared->r621 - shared->r635 + shared->r640;
-    const double r802 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    return is_away(r799, 1000000000000.0 * (r802 + shared->r787)) ? fabs(r799) : -1.0;
+    const double r315 = shared->r207 + (shared->r184 - shared->r200);
+    const double r318 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    return is_away(r315, 1000000000000.0 * (shared->r303 + r318)) ? fabs(r315) : -1.0;
 }
 
 /* Chart 3 of block 3: half angle.
@@ -2814,29 +2673,28 @@ static double claim_3_2(const Shared3 *shared)
  */
 static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r790 = 2.0 * shared->r635, r797 = shared->r628 + shared->r640;
-    const double r800 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    if (!is_away(r797, 1000000000000.0 * (r800 + shared->r787))) {
+    const double r305 = 2.0 * shared->r175, r306 = 2.0 * shared->r200, r313 = shared->r192 + shared->r207;
+    const double r316 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    if (!is_away(r313, 1000000000000.0 * (shared->r303 + r316))) {
         return;
     }
     const double choice0_0[5] = {
-        shared->r640 - shared->r628,
-        2.0 * shared->r614 - r790,
-        4.0 * shared->r621 + 2.0 * shared->r640,
-        -2.0 * shared->r614 - r790,
-        r797,
+        shared->r207 - shared->r192,
+        r305 - r306,
+        4.0 * shared->r184 + 2.0 * shared->r207,
+        0.0 - r305 - r306,
+        r313,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r803 = 0.5 * shared->r628, r804 = 0.5 * shared->r640;
-        const double r807 = shared->r614 + shared->r635;
-        const double r813 = left_w1 * (left_w1 * (r803 + r804) - r807) + (2.0 * shared->r621 - r803 + r804);
-        const double r818 = left_w1 * (-0.5 * shared->r628 - r804) + r807;
-        const double r821 = left_w1 * (shared->r621 * r813 + shared->r614 * r818);
-        const double r827 = shared->r614 * shared->r614 + shared->r621 * shared->r621;
-        const double r829 = (0.0 - (r821 + shared->r614 * (r803 - r804))) / r827;
-        const double r832 = 0.0 - (r829 * left_w1 + 1.0), r836 = sqrt(fmax(r832 * r832 + r829 * r829, 0.0));
-        const double left_c1 = r832 / r836, left_s1 = r829 / r836;
+        const double left_w1 = roots0.values[i0], r319 = 0.5 * shared->r192, r320 = 0.5 * shared->r207;
+        const double r323 = shared->r175 + shared->r200;
+        const double r329 = left_w1 * (left_w1 * (r319 + r320) - r323) + (r320 + (2.0 * shared->r184 - r319));
+        const double r335 = shared->r175 * (r323 + left_w1 * (0.0 - r319 - r320));
+        const double r340 = left_w1 * (shared->r184 * r329 + r335) + shared->r175 * (r319 - r320);
+        const double r343 = shared->r175 * shared->r175 + shared->r184 * shared->r184, r345 = r340 / r343;
+        const double r350 = left_w1 * r345 - 1.0, r354 = sqrt(fmax(r350 * r350 + r345 * r345, 0.0));
+        const double left_c1 = r350 / r354, left_s1 = 0.0 - r345 / r354;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
@@ -2849,9 +2707,9 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
 /* The pivot of chart 3 of block 3; -1 where it does not run. */
 static double claim_3_3(const Shared3 *shared)
 {
-    const double r797 = shared->r628 + shared->r640;
-    const double r800 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    return is_away(r797, 1000000000000.0 * (r800 + shared->r787)) ? fabs(r797) : -1.0;
+    const double r313 = shared->r192 + shared->r207;
+    const double r316 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    return is_away(r313, 1000000000000.0 * (shared->r303 + r316)) ? fabs(r313) : -1.0;
 }
 
 /* Chart 4 of block 3: half angle.
@@ -2859,31 +2717,31 @@ static double claim_3_3(const Shared3 *shared)
  */
 static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r790 = 2.0 * shared->r628, r791 = 2.0 * shared->r614;
-    const double r798 = shared->r621 + shared->r635 + shared->r640;
-    const double r801 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    if (!is_away(r798, 1000000000000.0 * (r801 + shared->r787))) {
+    const double r306 = 2.0 * shared->r192, r307 = 2.0 * shared->r175;
+    const double r314 = shared->r207 + (shared->r184 + shared->r200);
+    const double r317 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    if (!is_away(r314, 1000000000000.0 * (shared->r303 + r317))) {
         return;
     }
     const double choice0_0[5] = {
-        shared->r621 - shared->r635 + shared->r640,
-        r790 - r791,
-        2.0 * shared->r640 - 2.0 * shared->r621,
-        r791 + r790,
-        r798,
+        shared->r207 + (shared->r184 - shared->r200),
+        r306 - r307,
+        2.0 * shared->r207 - 2.0 * shared->r184,
+        r306 + r307,
+        r314,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r805 = 0.5 * shared->r635, r807 = 0.5 * shared->r640;
-        const double r809 = left_w1 * (-0.5 * shared->r621 - r805 - r807);
-        const double r812 = shared->r614 * (r809 - (shared->r614 + shared->r628));
-        const double r814 = 0.5 * shared->r621 + r805, r818 = left_w1 * (r812 - shared->r621 * (r814 + r807));
-        const double r819 = r814 - r807, r822 = shared->r614 * r819 - shared->r621 * shared->r628;
-        const double r826 = shared->r614 * shared->r614;
-        const double r828 = left_w1 * (r818 + r822) + (shared->r621 * r819 + r826);
-        const double r832 = (0.0 - r828) / (r826 + shared->r621 * shared->r621);
-        const double r835 = 0.0 - left_w1 * (r832 - 1.0), r839 = sqrt(fmax(r835 * r835 + r832 * r832, 0.0));
-        const double left_c1 = r835 / r839, left_s1 = r832 / r839;
+        const double left_w1 = roots0.values[i0], r320 = 0.5 * shared->r184, r322 = 0.5 * shared->r200;
+        const double r324 = 0.5 * shared->r207;
+        const double r328 = left_w1 * (0.0 - r320 - r322 - r324) - (shared->r175 + shared->r192);
+        const double r330 = r320 + r322, r333 = shared->r175 * r328 - shared->r184 * (r324 + r330);
+        const double r335 = r330 - r324, r338 = shared->r175 * r335 - shared->r184 * shared->r192;
+        const double r342 = shared->r175 * shared->r175;
+        const double r344 = left_w1 * (left_w1 * r333 + r338) + (shared->r184 * r335 + r342);
+        const double r348 = r344 / (r342 + shared->r184 * shared->r184), r351 = left_w1 * (0.0 - r348 - 1.0);
+        const double r356 = sqrt(fmax(r351 * r351 + r348 * r348, 0.0)), left_c1 = 0.0 - r351 / r356;
+        const double left_s1 = 0.0 - r348 / r356;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
@@ -2896,9 +2754,9 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
 /* The pivot of chart 4 of block 3; -1 where it does not run. */
 static double claim_3_4(const Shared3 *shared)
 {
-    const double r798 = shared->r621 + shared->r635 + shared->r640;
-    const double r801 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    return is_away(r798, 1000000000000.0 * (r801 + shared->r787)) ? fabs(r798) : -1.0;
+    const double r314 = shared->r207 + (shared->r184 + shared->r200);
+    const double r317 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    return is_away(r314, 1000000000000.0 * (shared->r303 + r317)) ? fabs(r314) : -1.0;
 }
 
 /* Chart 5 of block 3: half angle.
@@ -2906,42 +2764,43 @@ static double claim_3_4(const Shared3 *shared)
  */
 static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r789 = shared->r614 + 1.3333333333333333 * shared->r621, r790 = 1.25 * shared->r628;
-    const double r792 = 1.6666666666666667 * shared->r635, r794 = 2.0833333333333335 * shared->r640;
-    const double r796 = 4.0 * shared->r621, r797 = 1.1666666666666667 * shared->r614;
-    const double r799 = 3.3333333333333335 * shared->r628, r801 = 2.5 * shared->r635;
-    const double r805 = 0.3333333333333333 * shared->r621 - 6.0 * shared->r614, r813 = r789 - r790 - r792 + r794;
-    const double r816 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    if (!is_away(r813, 1000000000000.0 * (r816 + shared->r787))) {
+    const double r305 = shared->r175 + 1.3333333333333333 * shared->r184, r306 = 1.25 * shared->r192;
+    const double r308 = 1.6666666666666667 * shared->r200, r310 = 2.0833333333333335 * shared->r207;
+    const double r312 = 4.0 * shared->r184, r313 = 1.1666666666666667 * shared->r175;
+    const double r315 = 3.3333333333333335 * shared->r192, r317 = 2.5 * shared->r200;
+    const double r321 = 0.3333333333333333 * shared->r184 - 6.0 * shared->r175;
+    const double r329 = r310 + (r305 - r306 - r308);
+    const double r332 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    if (!is_away(r329, 1000000000000.0 * (shared->r303 + r332))) {
         return;
     }
     const double choice0_0[5] = {
-        r789 + r790 + r792 + r794,
-        r796 - r797 - r799 + r801,
-        r805 + 4.166666666666667 * shared->r640,
-        r797 - r796 - r799 + r801,
-        r813,
+        r305 + r306 + r308 + r310,
+        r312 - r313 - r315 + r317,
+        r321 + 4.166666666666667 * shared->r207,
+        r317 + (r313 - r312 - r315),
+        r329,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r822 = 0.24 * shared->r628;
-        const double r823 = 0.192 * shared->r614 + 0.112 * shared->r621 - r822, r824 = 0.32 * shared->r635;
-        const double r826 = 0.4 * shared->r640, r832 = 0.82 * shared->r628;
-        const double r833 = 0.368 * shared->r614 - 0.552 * shared->r621 - r832, r834 = 0.24 * shared->r635;
-        const double r836 = 0.3 * shared->r640, r838 = left_w1 * (r823 - r824 + r826) + (r833 + r834 + r836);
-        const double r840 = 0.18 * shared->r628, r845 = left_w1 * (r840 - 0.192 * shared->r621 + r834 - r836);
-        const double r848 = 0.68 * shared->r635, r851 = r845 + (0.832 * shared->r621 + r822 - r848 + r826);
-        const double r854 = left_w1 * (shared->r614 * r838 + shared->r621 * r851);
-        const double r858 = 0.464 * shared->r621 - 1.176 * shared->r614 - r822;
-        const double r866 = shared->r621 * (r834 - 0.624 * shared->r621 - r832 - r836);
-        const double r868 = r854 + (shared->r614 * (r858 + r848 + r826) + r866);
-        const double r873 = 0.384 * shared->r621 - 0.656 * shared->r614 + r840;
-        const double r881 = shared->r621 * (r822 - 0.544 * shared->r621 + r824 + r826);
-        const double r883 = left_w1 * r868 + (shared->r614 * (r873 + r834 + r836) + r881);
-        const double r886 = shared->r614 * shared->r614 + shared->r621 * shared->r621;
-        const double r888 = (0.0 - r883) / r886, r892 = 0.0 - (left_w1 * (r888 + 0.8) - 0.6);
-        const double r896 = sqrt(fmax(r892 * r892 + r888 * r888, 0.0)), left_c1 = r892 / r896;
-        const double left_s1 = r888 / r896;
+        const double left_w1 = roots0.values[i0], r338 = 0.24 * shared->r192;
+        const double r339 = 0.192 * shared->r175 + 0.112 * shared->r184 - r338, r340 = 0.32 * shared->r200;
+        const double r342 = 0.4 * shared->r207, r348 = 0.82 * shared->r192;
+        const double r349 = 0.368 * shared->r175 - 0.552 * shared->r184 - r348, r350 = 0.24 * shared->r200;
+        const double r352 = 0.3 * shared->r207, r354 = left_w1 * (r339 - r340 + r342) + (r349 + r350 + r352);
+        const double r356 = 0.18 * shared->r192, r361 = left_w1 * (r350 + (r356 - 0.192 * shared->r184) - r352);
+        const double r364 = 0.68 * shared->r200, r367 = r361 + (r342 + (r338 + 0.832 * shared->r184 - r364));
+        const double r370 = left_w1 * (shared->r175 * r354 + shared->r184 * r367);
+        const double r374 = 0.464 * shared->r184 - 1.176 * shared->r175 - r338;
+        const double r382 = shared->r184 * (r350 - 0.624 * shared->r184 - r348 - r352);
+        const double r384 = r370 + (shared->r175 * (r342 + (r364 + r374)) + r382);
+        const double r389 = r356 + (0.384 * shared->r184 - 0.656 * shared->r175);
+        const double r396 = r342 + (r340 + (r338 - 0.544 * shared->r184));
+        const double r398 = shared->r175 * (r352 + (r350 + r389)) + shared->r184 * r396;
+        const double r402 = shared->r175 * shared->r175 + shared->r184 * shared->r184;
+        const double r404 = (left_w1 * r384 + r398) / r402, r409 = 0.6 - left_w1 * (0.8 - r404);
+        const double r413 = sqrt(fmax(r409 * r409 + r404 * r404, 0.0)), left_c1 = r409 / r413;
+        const double left_s1 = 0.0 - r404 / r413;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
@@ -2954,11 +2813,11 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
 /* The pivot of chart 5 of block 3; -1 where it does not run. */
 static double claim_3_5(const Shared3 *shared)
 {
-    const double r789 = shared->r614 + 1.3333333333333333 * shared->r621;
-    const double r812 = r789 - 1.25 * shared->r628 - 1.6666666666666667 * shared->r635;
-    const double r813 = r812 + 2.0833333333333335 * shared->r640;
-    const double r816 = shared->r783 + shared->r784 + shared->r785 + shared->r786;
-    return is_away(r813, 1000000000000.0 * (r816 + shared->r787)) ? fabs(r813) : -1.0;
+    const double r305 = shared->r175 + 1.3333333333333333 * shared->r184;
+    const double r328 = r305 - 1.25 * shared->r192 - 1.6666666666666667 * shared->r200;
+    const double r329 = 2.0833333333333335 * shared->r207 + r328;
+    const double r332 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
+    return is_away(r329, 1000000000000.0 * (shared->r303 + r332)) ? fabs(r329) : -1.0;
 }
 
 /* Chart 6 of block 3: A = B = C = D = E = 0.
@@ -2967,7 +2826,7 @@ static double claim_3_5(const Shared3 *shared)
  */
 static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    if (!(is_near(shared->r614, 0.01 * shared->r783) && is_near(shared->r621, 0.01 * shared->r784) && is_near(shared->r628, 0.01 * shared->r785) && is_near(shared->r635, 0.01 * shared->r786) && is_near(shared->r640, 0.01 * shared->r787))) {
+    if (!(is_near(shared->r175, 0.01 * shared->r299) && is_near(shared->r184, 0.01 * shared->r300) && is_near(shared->r192, 0.01 * shared->r301) && is_near(shared->r200, 0.01 * shared->r302) && is_near(shared->r207, 0.01 * shared->r303))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2985,125 +2844,74 @@ static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: TorsoYaw. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = p->left_py * p->left_r31 - p->left_pz * p->left_r21;
-    const double r8 = p->left_pz * p->left_r11 - p->left_px * p->left_r31;
-    const double r11 = p->left_px * p->left_r21 - p->left_py * p->left_r11, r12 = r5 + 0.04519 * p->left_r12;
-    const double r13 = r8 + 0.04519 * p->left_r22, r14 = r11 + 0.04519 * p->left_r32;
-    const double r15 = p->left_r31 - p->left_r31, r17 = 0.0 - (0.0 - p->left_r21), r18 = 0.0 - p->left_r11;
-    const double r19 = r14 - r14, r21 = 0.0 - (0.0 - r13), r22 = 0.0 - r12, r31 = r17 * known->left_c2_;
-    const double r32 = (0.0 - p->left_r31) * known->left_s2_;
-    const double r34 = p->left_r11 * known->left_c2_ + (0.0 - r15) * known->left_s2_;
-    const double r35 = (p->left_r21 - p->left_r21) * known->left_c2_, r37 = p->left_r31 * known->left_c2_;
-    const double r40 = (0.0 - (0.0 - r17)) * known->left_s2_;
-    const double r41 = r15 * known->left_c2_ + (0.0 - r18) * known->left_s2_, r42 = p->left_r21 + r35;
-    const double r43 = r18 + (r18 - r18) * known->left_c2_, r52 = r21 * known->left_c2_;
-    const double r53 = (0.0 - r14) * known->left_s2_;
-    const double r55 = r12 * known->left_c2_ + (0.0 - r19) * known->left_s2_, r58 = r14 * known->left_c2_;
-    const double r61 = (0.0 - (0.0 - r21)) * known->left_s2_;
-    const double r62 = r19 * known->left_c2_ + (0.0 - r22) * known->left_s2_;
-    const double r63 = r13 + (r13 - r13) * known->left_c2_, r64 = r22 + (r22 - r22) * known->left_c2_;
-    const double r81 = (0.0 - (0.0 - r37)) * known->left_s3_;
-    const double r84 = r42 * known->left_c3_ + (0.0 - (0.0 - r41)) * known->left_s3_;
-    const double r85 = r43 * known->left_c3_ + (0.0 - (0.0 - r40)) * known->left_s3_;
-    const double r86 = r37 * known->left_c3_, r91 = r41 * known->left_c3_ + (0.0 - r42) * known->left_s3_;
-    const double r92 = r40 * known->left_c3_ + (0.0 - r43) * known->left_s3_;
-    const double r93 = r32 + (r32 - r32) * known->left_c3_, r94 = r34 + (r34 - r34) * known->left_c3_;
-    const double r95 = r31 + (r31 - r31) * known->left_c3_;
-    const double r115 = r63 * known->left_c3_ + (0.0 - (0.0 - r62)) * known->left_s3_;
-    const double r116 = r64 * known->left_c3_ + (0.0 - (0.0 - r61)) * known->left_s3_;
-    const double r122 = r62 * known->left_c3_ + (0.0 - r63) * known->left_s3_;
-    const double r123 = r61 * known->left_c3_ + (0.0 - r64) * known->left_s3_, r133 = 0.5 * r81 + -0.5 * r86;
-    const double r134 = 0.5 * r84 + -0.5 * r91, r135 = 0.5 * r85 + -0.5 * r92, r139 = r81 - r133;
-    const double r140 = r84 - r134, r141 = r85 - r135, r157 = 0.0 - (0.0 - r93), r158 = 0.0 - (0.0 - r94);
-    const double r159 = 0.0 - (0.0 - r95);
-    const double r178 = r53 + (r53 - r53) * known->left_c3_ - (0.05 * r86 - -0.085 * r81);
-    const double r179 = r55 + (r55 - r55) * known->left_c3_ - (0.05 * r91 - -0.085 * r84);
-    const double r180 = r52 + (r52 - r52) * known->left_c3_ - (0.05 * r92 - -0.085 * r85);
-    const double r181 = (0.0 - (0.0 - r58)) * known->left_s3_ - -0.085 * r93;
-    const double r208 = r58 * known->left_c3_ - (0.0 - 0.05 * r93) - (0.0 - r181);
-    const double r209 = r122 - (0.0 - 0.05 * r94) - (0.0 - (r115 - -0.085 * r94));
-    const double r210 = r123 - (0.0 - 0.05 * r95) - (0.0 - (r116 - -0.085 * r95));
-    const double r222 = 0.05 * (r91 - (0.0 - r134)), r223 = 0.05 * r158, r224 = 0.05 * (r86 - (0.0 - r133));
-    const double r226 = 0.05 * (r92 - (0.0 - r135)), r227 = 0.05 * r159, r228 = 0.05 * r157;
-    const double r294 = 0.085 * r140 + r222 - (r222 - -0.085 * r140 + r179);
-    const double r295 = 0.085 * r158 + r223 - (r223 - -0.085 * r158 + (0.0 - r209));
-    const double r296 = 0.085 * r139 + r224 - (r224 - -0.085 * r139 + r178);
-    const double r298 = 0.085 * r141 + r226 - (r226 - -0.085 * r141 + r180);
-    const double r299 = 0.085 * r159 + r227 - (r227 - -0.085 * r159 + (0.0 - r210));
-    const double r300 = 0.085 * r157 + r228 - (r228 - -0.085 * r157 + (0.0 - r208)), r303 = 0.0 - r294;
-    const double r304 = 0.0 - r295, r305 = 0.0 - r296, r307 = 0.0 - r298, r308 = 0.0 - r299, r309 = 0.0 - r300;
-    const double r315 = p->right_py * p->right_r31 - p->right_pz * p->right_r21;
-    const double r318 = p->right_pz * p->right_r11 - p->right_px * p->right_r31;
-    const double r321 = p->right_px * p->right_r21 - p->right_py * p->right_r11;
-    const double r322 = r315 + 0.04519 * p->right_r12, r323 = r318 + 0.04519 * p->right_r22;
-    const double r324 = r321 + 0.04519 * p->right_r32, r325 = p->right_r31 - p->right_r31;
-    const double r327 = 0.0 - (0.0 - p->right_r21), r328 = 0.0 - p->right_r11, r329 = r324 - r324;
-    const double r331 = 0.0 - (0.0 - r323), r332 = 0.0 - r322, r341 = r327 * known->left_c2_;
-    const double r342 = (0.0 - p->right_r31) * known->left_s2_;
-    const double r344 = p->right_r11 * known->left_c2_ + (0.0 - r325) * known->left_s2_;
-    const double r345 = (p->right_r21 - p->right_r21) * known->left_c2_, r347 = p->right_r31 * known->left_c2_;
-    const double r350 = (0.0 - (0.0 - r327)) * known->left_s2_;
-    const double r351 = r325 * known->left_c2_ + (0.0 - r328) * known->left_s2_, r352 = p->right_r21 + r345;
-    const double r353 = r328 + (r328 - r328) * known->left_c2_, r362 = r331 * known->left_c2_;
-    const double r363 = (0.0 - r324) * known->left_s2_;
-    const double r365 = r322 * known->left_c2_ + (0.0 - r329) * known->left_s2_, r368 = r324 * known->left_c2_;
-    const double r371 = (0.0 - (0.0 - r331)) * known->left_s2_;
-    const double r372 = r329 * known->left_c2_ + (0.0 - r332) * known->left_s2_;
-    const double r373 = r323 + (r323 - r323) * known->left_c2_, r374 = r332 + (r332 - r332) * known->left_c2_;
-    const double r391 = (0.0 - (0.0 - r347)) * known->left_s3_;
-    const double r394 = r352 * known->left_c3_ + (0.0 - (0.0 - r351)) * known->left_s3_;
-    const double r395 = r353 * known->left_c3_ + (0.0 - (0.0 - r350)) * known->left_s3_;
-    const double r396 = r347 * known->left_c3_, r401 = r351 * known->left_c3_ + (0.0 - r352) * known->left_s3_;
-    const double r402 = r350 * known->left_c3_ + (0.0 - r353) * known->left_s3_;
-    const double r403 = r342 + (r342 - r342) * known->left_c3_, r404 = r344 + (r344 - r344) * known->left_c3_;
-    const double r405 = r341 + (r341 - r341) * known->left_c3_;
-    const double r425 = r373 * known->left_c3_ + (0.0 - (0.0 - r372)) * known->left_s3_;
-    const double r426 = r374 * known->left_c3_ + (0.0 - (0.0 - r371)) * known->left_s3_;
-    const double r432 = r372 * known->left_c3_ + (0.0 - r373) * known->left_s3_;
-    const double r433 = r371 * known->left_c3_ + (0.0 - r374) * known->left_s3_, r443 = 0.5 * r391 + 0.5 * r396;
-    const double r444 = 0.5 * r394 + 0.5 * r401, r445 = 0.5 * r395 + 0.5 * r402, r446 = r391 - r443;
-    const double r447 = r394 - r444, r448 = r395 - r445, r455 = 0.0 - r403, r456 = 0.0 - r404, r457 = 0.0 - r405;
-    const double r482 = r363 + (r363 - r363) * known->left_c3_ - (-0.05 * r396 - -0.085 * r391);
-    const double r483 = r365 + (r365 - r365) * known->left_c3_ - (-0.05 * r401 - -0.085 * r394);
-    const double r484 = r362 + (r362 - r362) * known->left_c3_ - (-0.05 * r402 - -0.085 * r395);
-    const double r485 = (0.0 - (0.0 - r368)) * known->left_s3_ - -0.085 * r403;
-    const double r488 = r368 * known->left_c3_ - (0.0 - -0.05 * r403);
-    const double r507 = r432 - (0.0 - -0.05 * r404) - (r425 - -0.085 * r404);
-    const double r508 = r433 - (0.0 - -0.05 * r405) - (r426 - -0.085 * r405), r520 = -0.05 * (r401 - r444);
-    const double r521 = -0.05 * (0.0 - r456), r522 = -0.05 * (r396 - r443), r524 = -0.05 * (r402 - r445);
-    const double r525 = -0.05 * (0.0 - r457), r526 = -0.05 * (0.0 - r455);
-    const double r592 = 0.085 * r447 + r520 - (r520 - -0.085 * r447 + r483);
-    const double r593 = 0.085 * r456 + r521 - (r521 - -0.085 * r456 + (0.0 - r507));
-    const double r594 = 0.085 * r446 + r522 - (r522 - -0.085 * r446 + r482);
-    const double r596 = 0.085 * r448 + r524 - (r524 - -0.085 * r448 + r484);
-    const double r597 = 0.085 * r457 + r525 - (r525 - -0.085 * r457 + (0.0 - r508));
-    const double r598 = 0.085 * r455 + r526 - (r526 - -0.085 * r455 + (0.0 - (r488 - r485))), r601 = 0.0 - r592;
-    const double r602 = 0.0 - r593, r603 = 0.0 - r594, r605 = 0.0 - r596, r606 = 0.0 - r597, r607 = 0.0 - r598;
-    const double r614 = r307 * r602 - r308 * r601 - r304 * r605 + r303 * r606, r615 = r304 * r601;
-    const double r616 = r303 * r602, r621 = r615 - r616 - r308 * r605 + r307 * r606;
-    const double r628 = r305 * r602 - r309 * r601 - r304 * r603 + r303 * r607;
-    const double r635 = r305 * r606 - r308 * r603 - r309 * r605 + r307 * r607;
-    const double r640 = r616 - r615 - r309 * r603 + r305 * r607, r642 = p->magnitude + p->magnitude + 0.72099;
-    const double r643 = r642 + r642, r644 = r642 + r643, r645 = r643 + r642;
-    const double r680 = r645 + r644 + 0.45 + (r644 + r645 + 0.765) + 1.215;
-    const double r683 = r642 + r644 + 0.15 + (r644 + r642 + 0.255) + 0.405;
-    const double r697 = r644 + (r644 + r644) + 0.81 + 1.62 + 1.62, r698 = r680 + 1.215;
-    const double r699 = r644 + 0.135 + 0.27 + 0.27, r700 = r644 + 0.54 + 1.08 + 1.08, r701 = r683 + 0.405;
-    const double r702 = r642 + 0.15 + (r642 + 0.255) + 0.405 + 0.405, r703 = fabs(r303), r704 = fabs(r304);
-    const double r705 = fabs(r305), r706 = fabs(r307), r707 = fabs(r308), r708 = fabs(r309), r709 = fabs(r601);
-    const double r710 = fabs(r602), r711 = fabs(r603), r712 = fabs(r605), r713 = fabs(r606), r714 = fabs(r607);
-    const double r721 = r709 * r701 + r707 * r697 + r710 * r700 + r706 * r698;
-    const double r727 = r721 + r712 * r698 + r704 * r700 + r713 * r697;
-    const double r736 = r709 * r698 + r704 * r697 + r710 * r697 + r703 * r698;
-    const double r742 = r736 + r712 * r701 + r707 * r700 + r713 * r700;
-    const double r751 = r709 * r702 + r708 * r697 + r710 * r699 + r705 * r698;
-    const double r757 = r751 + r711 * r698 + r704 * r699 + r714 * r697;
-    const double r766 = r711 * r701 + r707 * r699 + r712 * r702 + r708 * r700;
-    const double r772 = r766 + r713 * r699 + r705 * r701 + r714 * r700;
-    const double r780 = r736 + r711 * r702 + r708 * r699 + r714 * r699, r783 = fabs(r727 + r703 * r701);
-    const double r784 = fabs(r742 + r706 * r701), r785 = fabs(r757 + r703 * r702);
-    const double r786 = fabs(r772 + r706 * r702), r787 = fabs(r780 + r705 * r702);
-    const Shared3 own = { r614, r621, r628, r635, r640, r783, r784, r785, r786, r787 };
+    const double r9 = p->left_r31 * known->left_c2_, r10 = p->left_r11 * known->left_s2_;
+    const double r11 = p->left_r21 * known->left_s2_, r12 = p->left_py * p->left_r31 - p->left_pz * p->left_r21;
+    const double r14 = r12 + 0.04519 * p->left_r12, r16 = p->left_pz * p->left_r11 - p->left_px * p->left_r31;
+    const double r18 = r16 + 0.04519 * p->left_r22, r20 = p->left_px * p->left_r21 - p->left_py * p->left_r11;
+    const double r22 = r20 + 0.04519 * p->left_r32, r24 = known->left_c2_ * r22, r25 = known->left_s2_ * r14;
+    const double r26 = known->left_s2_ * r18, r56 = p->right_r31 * known->left_c2_;
+    const double r57 = p->right_r11 * known->left_s2_, r58 = p->right_r21 * known->left_s2_;
+    const double r59 = p->right_py * p->right_r31 - p->right_pz * p->right_r21;
+    const double r61 = r59 + 0.04519 * p->right_r12;
+    const double r63 = p->right_pz * p->right_r11 - p->right_px * p->right_r31;
+    const double r65 = r63 + 0.04519 * p->right_r22;
+    const double r67 = p->right_px * p->right_r21 - p->right_py * p->right_r11;
+    const double r69 = r67 + 0.04519 * p->right_r32, r71 = known->left_c2_ * r69, r72 = known->left_s2_ * r61;
+    const double r73 = known->left_s2_ * r65;
+    const double r96 = 0.085 * (p->left_r21 * known->left_c3_) + 0.085 * (known->left_s3_ * r10);
+    const double r100 = r96 + 0.05 * (known->left_c3_ * r10) - 0.05 * (p->left_r21 * known->left_s3_);
+    const double r102 = known->left_c2_ * r14 - r100;
+    const double r104 = known->left_c3_ * r25 + 0.135 * (p->left_r11 * known->left_c2_);
+    const double r106 = known->left_c3_ * r18 + (r104 - known->left_s3_ * r18);
+    const double r107 = known->left_s3_ * r25 + r106;
+    const double r111 = 0.085 * (known->left_s3_ * r9) + 0.05 * (known->left_c3_ * r9);
+    const double r112 = known->left_s2_ * r22 + r111;
+    const double r116 = 0.085 * (p->left_r11 * known->left_c3_) - 0.085 * (known->left_s3_ * r11);
+    const double r120 = r116 - 0.05 * (known->left_c3_ * r11) - 0.05 * (p->left_r11 * known->left_s3_);
+    const double r121 = known->left_c2_ * r18 + r120;
+    const double r123 = known->left_c3_ * r26 + 0.135 * (p->left_r21 * known->left_c2_);
+    const double r125 = known->left_s3_ * r14 + r123 - known->left_c3_ * r14;
+    const double r126 = known->left_s3_ * r26 + r125;
+    const double r129 = 0.135 * (p->left_r31 * known->left_s2_) - known->left_c3_ * r24;
+    const double r130 = r129 - known->left_s3_ * r24;
+    const double r133 = 0.085 * (p->right_r21 * known->left_c3_) + 0.085 * (known->left_s3_ * r57);
+    const double r137 = r133 - 0.05 * (known->left_c3_ * r57) + 0.05 * (p->right_r21 * known->left_s3_);
+    const double r139 = known->left_c2_ * r61 - r137;
+    const double r141 = 0.135 * (p->right_r11 * known->left_c2_) - known->left_c3_ * r72;
+    const double r143 = known->left_c3_ * r65 + (known->left_s3_ * r65 + r141);
+    const double r144 = known->left_s3_ * r72 + r143;
+    const double r147 = 0.085 * (known->left_s3_ * r56) - 0.05 * (known->left_c3_ * r56);
+    const double r148 = known->left_s2_ * r69 + r147;
+    const double r152 = 0.085 * (p->right_r11 * known->left_c3_) - 0.085 * (known->left_s3_ * r58);
+    const double r156 = r152 + 0.05 * (known->left_c3_ * r58) + 0.05 * (p->right_r11 * known->left_s3_);
+    const double r157 = known->left_c2_ * r65 + r156;
+    const double r159 = 0.135 * (p->right_r21 * known->left_c2_) - known->left_c3_ * r73;
+    const double r161 = r159 - known->left_s3_ * r61 - known->left_c3_ * r61;
+    const double r162 = known->left_s3_ * r73 + r161;
+    const double r164 = known->left_c3_ * r71 + 0.135 * (p->right_r31 * known->left_s2_);
+    const double r166 = known->left_s3_ * r71 - r164;
+    const double r175 = r121 * r144 + r126 * r139 + r107 * r157 + r102 * r162, r176 = r107 * r139;
+    const double r178 = r102 * r144, r184 = 0.0 - r176 - r178 + r126 * r157 + r121 * r162;
+    const double r190 = 0.0 - r112 * r144 - r130 * r139 - r107 * r148, r192 = r190 + r102 * r166;
+    const double r198 = 0.0 - r112 * r162 - r126 * r148 - r130 * r157, r200 = r198 + r121 * r166;
+    const double r207 = r176 + r178 + r130 * r148 - r112 * r166, r209 = 18.0 * p->magnitude + 10.53891;
+    const double r211 = 24.0 * p->magnitude + 12.29688, r212 = 6.0 * p->magnitude, r213 = r212 + 2.83797;
+    const double r214 = r212 + 4.86297, r216 = 16.0 * p->magnitude + 6.98292;
+    const double r218 = 4.0 * p->magnitude + 2.65698, r219 = fabs(r102), r220 = fabs(r107), r221 = fabs(r112);
+    const double r222 = fabs(r121), r223 = fabs(r126), r224 = fabs(r130), r225 = fabs(r139), r226 = fabs(r144);
+    const double r227 = fabs(r148), r228 = fabs(r157), r229 = fabs(r162), r230 = fabs(r166);
+    const double r237 = r216 * r225 + r209 * r223 + r214 * r226 + r211 * r222;
+    const double r243 = r237 + r211 * r228 + r214 * r220 + r209 * r229;
+    const double r252 = r211 * r225 + r209 * r220 + r209 * r226 + r211 * r219;
+    const double r258 = r252 + r216 * r228 + r214 * r223 + r214 * r229;
+    const double r267 = r218 * r225 + r209 * r224 + r213 * r226 + r211 * r221;
+    const double r273 = r267 + r211 * r227 + r213 * r220 + r209 * r230;
+    const double r282 = r216 * r227 + r213 * r223 + r218 * r228 + r214 * r224;
+    const double r288 = r282 + r213 * r229 + r216 * r221 + r214 * r230;
+    const double r296 = r252 + r218 * r227 + r213 * r224 + r213 * r230, r299 = fabs(r243 + r216 * r219);
+    const double r300 = fabs(r258 + r216 * r222), r301 = fabs(r273 + r218 * r219);
+    const double r302 = fabs(r288 + r218 * r222), r303 = fabs(r296 + r218 * r221);
+    const Shared3 own = { r175, r184, r192, r200, r207, r299, r300, r301, r302, r303 };
     const Shared3 *const shared = &own;
     const double claims0[] = { claim_3_1(shared), claim_3_2(shared), claim_3_3(shared), claim_3_4(shared), claim_3_5(shared) };
     switch (greatest(claims0, 5)) {

@@ -515,202 +515,105 @@ fn chart_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// Block 3: TorsoYaw.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
-    let r8 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
-    let r11 = p.left_px * p.left_r21 - p.left_py * p.left_r11;
-    let r12 = r5 + 0.04519 * p.left_r12;
-    let r13 = r8 + 0.04519 * p.left_r22;
-    let r14 = r11 + 0.04519 * p.left_r32;
-    let r15 = p.left_r31 - p.left_r31;
-    let r17 = 0.0 - (0.0 - p.left_r21);
-    let r18 = 0.0 - p.left_r11;
-    let r19 = r14 - r14;
-    let r21 = 0.0 - (0.0 - r13);
-    let r22 = 0.0 - r12;
-    let r31 = r17 * known.left_c2_;
-    let r32 = (0.0 - p.left_r31) * known.left_s2_;
-    let r34 = p.left_r11 * known.left_c2_ + (0.0 - r15) * known.left_s2_;
-    let r37 = p.left_r31 * known.left_c2_;
-    let r40 = (0.0 - (0.0 - r17)) * known.left_s2_;
-    let r41 = r15 * known.left_c2_ + (0.0 - r18) * known.left_s2_;
-    let r42 = p.left_r21 + (p.left_r21 - p.left_r21) * known.left_c2_;
-    let r43 = r18 + (r18 - r18) * known.left_c2_;
-    let r52 = r21 * known.left_c2_;
-    let r53 = (0.0 - r14) * known.left_s2_;
-    let r55 = r12 * known.left_c2_ + (0.0 - r19) * known.left_s2_;
-    let r58 = r14 * known.left_c2_;
-    let r61 = (0.0 - (0.0 - r21)) * known.left_s2_;
-    let r62 = r19 * known.left_c2_ + (0.0 - r22) * known.left_s2_;
-    let r63 = r13 + (r13 - r13) * known.left_c2_;
-    let r64 = r22 + (r22 - r22) * known.left_c2_;
-    let r81 = (0.0 - (0.0 - r37)) * known.left_s3_;
-    let r84 = r42 * known.left_c3_ + (0.0 - (0.0 - r41)) * known.left_s3_;
-    let r85 = r43 * known.left_c3_ + (0.0 - (0.0 - r40)) * known.left_s3_;
-    let r86 = r37 * known.left_c3_;
-    let r91 = r41 * known.left_c3_ + (0.0 - r42) * known.left_s3_;
-    let r92 = r40 * known.left_c3_ + (0.0 - r43) * known.left_s3_;
-    let r93 = r32 + (r32 - r32) * known.left_c3_;
-    let r94 = r34 + (r34 - r34) * known.left_c3_;
-    let r95 = r31 + (r31 - r31) * known.left_c3_;
-    let r115 = r63 * known.left_c3_ + (0.0 - (0.0 - r62)) * known.left_s3_;
-    let r116 = r64 * known.left_c3_ + (0.0 - (0.0 - r61)) * known.left_s3_;
-    let r122 = r62 * known.left_c3_ + (0.0 - r63) * known.left_s3_;
-    let r123 = r61 * known.left_c3_ + (0.0 - r64) * known.left_s3_;
-    let r133 = 0.5 * r81 + -0.5 * r86;
-    let r134 = 0.5 * r84 + -0.5 * r91;
-    let r135 = 0.5 * r85 + -0.5 * r92;
-    let r139 = r81 - r133;
-    let r140 = r84 - r134;
-    let r141 = r85 - r135;
-    let r157 = 0.0 - (0.0 - r93);
-    let r158 = 0.0 - (0.0 - r94);
-    let r159 = 0.0 - (0.0 - r95);
-    let r178 = r53 + (r53 - r53) * known.left_c3_ - (0.05 * r86 - -0.085 * r81);
-    let r179 = r55 + (r55 - r55) * known.left_c3_ - (0.05 * r91 - -0.085 * r84);
-    let r180 = r52 + (r52 - r52) * known.left_c3_ - (0.05 * r92 - -0.085 * r85);
-    let r181 = (0.0 - (0.0 - r58)) * known.left_s3_ - -0.085 * r93;
-    let r208 = r58 * known.left_c3_ - (0.0 - 0.05 * r93) - (0.0 - r181);
-    let r209 = r122 - (0.0 - 0.05 * r94) - (0.0 - (r115 - -0.085 * r94));
-    let r210 = r123 - (0.0 - 0.05 * r95) - (0.0 - (r116 - -0.085 * r95));
-    let r222 = 0.05 * (r91 - (0.0 - r134));
-    let r223 = 0.05 * r158;
-    let r224 = 0.05 * (r86 - (0.0 - r133));
-    let r226 = 0.05 * (r92 - (0.0 - r135));
-    let r227 = 0.05 * r159;
-    let r228 = 0.05 * r157;
-    let r294 = 0.085 * r140 + r222 - (r222 - -0.085 * r140 + r179);
-    let r295 = 0.085 * r158 + r223 - (r223 - -0.085 * r158 + (0.0 - r209));
-    let r296 = 0.085 * r139 + r224 - (r224 - -0.085 * r139 + r178);
-    let r298 = 0.085 * r141 + r226 - (r226 - -0.085 * r141 + r180);
-    let r299 = 0.085 * r159 + r227 - (r227 - -0.085 * r159 + (0.0 - r210));
-    let r300 = 0.085 * r157 + r228 - (r228 - -0.085 * r157 + (0.0 - r208));
-    let r303 = 0.0 - r294;
-    let r304 = 0.0 - r295;
-    let r305 = 0.0 - r296;
-    let r307 = 0.0 - r298;
-    let r308 = 0.0 - r299;
-    let r309 = 0.0 - r300;
-    let r315 = p.right_py * p.right_r31 - p.right_pz * p.right_r21;
-    let r318 = p.right_pz * p.right_r11 - p.right_px * p.right_r31;
-    let r321 = p.right_px * p.right_r21 - p.right_py * p.right_r11;
-    let r322 = r315 + 0.04519 * p.right_r12;
-    let r323 = r318 + 0.04519 * p.right_r22;
-    let r324 = r321 + 0.04519 * p.right_r32;
-    let r325 = p.right_r31 - p.right_r31;
-    let r327 = 0.0 - (0.0 - p.right_r21);
-    let r328 = 0.0 - p.right_r11;
-    let r329 = r324 - r324;
-    let r331 = 0.0 - (0.0 - r323);
-    let r332 = 0.0 - r322;
-    let r341 = r327 * known.left_c2_;
-    let r342 = (0.0 - p.right_r31) * known.left_s2_;
-    let r344 = p.right_r11 * known.left_c2_ + (0.0 - r325) * known.left_s2_;
-    let r347 = p.right_r31 * known.left_c2_;
-    let r350 = (0.0 - (0.0 - r327)) * known.left_s2_;
-    let r351 = r325 * known.left_c2_ + (0.0 - r328) * known.left_s2_;
-    let r352 = p.right_r21 + (p.right_r21 - p.right_r21) * known.left_c2_;
-    let r353 = r328 + (r328 - r328) * known.left_c2_;
-    let r362 = r331 * known.left_c2_;
-    let r363 = (0.0 - r324) * known.left_s2_;
-    let r365 = r322 * known.left_c2_ + (0.0 - r329) * known.left_s2_;
-    let r368 = r324 * known.left_c2_;
-    let r371 = (0.0 - (0.0 - r331)) * known.left_s2_;
-    let r372 = r329 * known.left_c2_ + (0.0 - r332) * known.left_s2_;
-    let r373 = r323 + (r323 - r323) * known.left_c2_;
-    let r374 = r332 + (r332 - r332) * known.left_c2_;
-    let r391 = (0.0 - (0.0 - r347)) * known.left_s3_;
-    let r394 = r352 * known.left_c3_ + (0.0 - (0.0 - r351)) * known.left_s3_;
-    let r395 = r353 * known.left_c3_ + (0.0 - (0.0 - r350)) * known.left_s3_;
-    let r396 = r347 * known.left_c3_;
-    let r401 = r351 * known.left_c3_ + (0.0 - r352) * known.left_s3_;
-    let r402 = r350 * known.left_c3_ + (0.0 - r353) * known.left_s3_;
-    let r403 = r342 + (r342 - r342) * known.left_c3_;
-    let r404 = r344 + (r344 - r344) * known.left_c3_;
-    let r405 = r341 + (r341 - r341) * known.left_c3_;
-    let r425 = r373 * known.left_c3_ + (0.0 - (0.0 - r372)) * known.left_s3_;
-    let r426 = r374 * known.left_c3_ + (0.0 - (0.0 - r371)) * known.left_s3_;
-    let r432 = r372 * known.left_c3_ + (0.0 - r373) * known.left_s3_;
-    let r433 = r371 * known.left_c3_ + (0.0 - r374) * known.left_s3_;
-    let r443 = 0.5 * r391 + 0.5 * r396;
-    let r444 = 0.5 * r394 + 0.5 * r401;
-    let r445 = 0.5 * r395 + 0.5 * r402;
-    let r446 = r391 - r443;
-    let r447 = r394 - r444;
-    let r448 = r395 - r445;
-    let r455 = 0.0 - r403;
-    let r456 = 0.0 - r404;
-    let r457 = 0.0 - r405;
-    let r482 = r363 + (r363 - r363) * known.left_c3_ - (-0.05 * r396 - -0.085 * r391);
-    let r483 = r365 + (r365 - r365) * known.left_c3_ - (-0.05 * r401 - -0.085 * r394);
-    let r484 = r362 + (r362 - r362) * known.left_c3_ - (-0.05 * r402 - -0.085 * r395);
-    let r485 = (0.0 - (0.0 - r368)) * known.left_s3_ - -0.085 * r403;
-    let r506 = r368 * known.left_c3_ - (0.0 - -0.05 * r403) - r485;
-    let r507 = r432 - (0.0 - -0.05 * r404) - (r425 - -0.085 * r404);
-    let r508 = r433 - (0.0 - -0.05 * r405) - (r426 - -0.085 * r405);
-    let r520 = -0.05 * (r401 - r444);
-    let r521 = -0.05 * (0.0 - r456);
-    let r522 = -0.05 * (r396 - r443);
-    let r524 = -0.05 * (r402 - r445);
-    let r525 = -0.05 * (0.0 - r457);
-    let r526 = -0.05 * (0.0 - r455);
-    let r592 = 0.085 * r447 + r520 - (r520 - -0.085 * r447 + r483);
-    let r593 = 0.085 * r456 + r521 - (r521 - -0.085 * r456 + (0.0 - r507));
-    let r594 = 0.085 * r446 + r522 - (r522 - -0.085 * r446 + r482);
-    let r596 = 0.085 * r448 + r524 - (r524 - -0.085 * r448 + r484);
-    let r597 = 0.085 * r457 + r525 - (r525 - -0.085 * r457 + (0.0 - r508));
-    let r598 = 0.085 * r455 + r526 - (r526 - -0.085 * r455 + (0.0 - r506));
-    let r601 = 0.0 - r592;
-    let r602 = 0.0 - r593;
-    let r603 = 0.0 - r594;
-    let r605 = 0.0 - r596;
-    let r606 = 0.0 - r597;
-    let r607 = 0.0 - r598;
-    let r614 = r307 * r602 - r308 * r601 - r304 * r605 + r303 * r606;
-    let r615 = r304 * r601;
-    let r616 = r303 * r602;
-    let r621 = r615 - r616 - r308 * r605 + r307 * r606;
-    let r628 = r305 * r602 - r309 * r601 - r304 * r603 + r303 * r607;
-    let r635 = r305 * r606 - r308 * r603 - r309 * r605 + r307 * r607;
-    let r640 = r616 - r615 - r309 * r603 + r305 * r607;
-    let r642 = p.magnitude + p.magnitude + 0.72099;
-    let r643 = r642 + r642;
-    let r644 = r642 + r643;
-    let r645 = r643 + r642;
-    let r680 = r645 + r644 + 0.45 + (r644 + r645 + 0.765) + 1.215;
-    let r683 = r642 + r644 + 0.15 + (r644 + r642 + 0.255) + 0.405;
-    let r697 = r644 + (r644 + r644) + 0.81 + 1.62 + 1.62;
-    let r698 = r680 + 1.215;
-    let r699 = r644 + 0.135 + 0.27 + 0.27;
-    let r700 = r644 + 0.54 + 1.08 + 1.08;
-    let r701 = r683 + 0.405;
-    let r702 = r642 + 0.15 + (r642 + 0.255) + 0.405 + 0.405;
-    let r703 = f64::abs(r303);
-    let r704 = f64::abs(r304);
-    let r705 = f64::abs(r305);
-    let r706 = f64::abs(r307);
-    let r707 = f64::abs(r308);
-    let r708 = f64::abs(r309);
-    let r709 = f64::abs(r601);
-    let r710 = f64::abs(r602);
-    let r711 = f64::abs(r603);
-    let r712 = f64::abs(r605);
-    let r713 = f64::abs(r606);
-    let r714 = f64::abs(r607);
-    let r721 = r709 * r701 + r707 * r697 + r710 * r700 + r706 * r698;
-    let r727 = r721 + r712 * r698 + r704 * r700 + r713 * r697;
-    let r736 = r709 * r698 + r704 * r697 + r710 * r697 + r703 * r698;
-    let r742 = r736 + r712 * r701 + r707 * r700 + r713 * r700;
-    let r751 = r709 * r702 + r708 * r697 + r710 * r699 + r705 * r698;
-    let r757 = r751 + r711 * r698 + r704 * r699 + r714 * r697;
-    let r766 = r711 * r701 + r707 * r699 + r712 * r702 + r708 * r700;
-    let r772 = r766 + r713 * r699 + r705 * r701 + r714 * r700;
-    let r780 = r736 + r711 * r702 + r708 * r699 + r714 * r699;
-    let r783 = f64::abs(r727 + r703 * r701);
-    let r784 = f64::abs(r742 + r706 * r701);
-    let r785 = f64::abs(r757 + r703 * r702);
-    let r786 = f64::abs(r772 + r706 * r702);
-    let r787 = f64::abs(r780 + r705 * r702);
-    let shared = &Shared3 { r614, r621, r628, r635, r640, r783, r784, r785, r786, r787 };
+    let r9 = p.left_r31 * known.left_c2_;
+    let r10 = p.left_r11 * known.left_s2_;
+    let r11 = p.left_r21 * known.left_s2_;
+    let r12 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
+    let r14 = r12 + 0.04519 * p.left_r12;
+    let r16 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
+    let r18 = r16 + 0.04519 * p.left_r22;
+    let r20 = p.left_px * p.left_r21 - p.left_py * p.left_r11;
+    let r22 = r20 + 0.04519 * p.left_r32;
+    let r24 = known.left_c2_ * r22;
+    let r25 = known.left_s2_ * r14;
+    let r26 = known.left_s2_ * r18;
+    let r56 = p.right_r31 * known.left_c2_;
+    let r57 = p.right_r11 * known.left_s2_;
+    let r58 = p.right_r21 * known.left_s2_;
+    let r59 = p.right_py * p.right_r31 - p.right_pz * p.right_r21;
+    let r61 = r59 + 0.04519 * p.right_r12;
+    let r63 = p.right_pz * p.right_r11 - p.right_px * p.right_r31;
+    let r65 = r63 + 0.04519 * p.right_r22;
+    let r67 = p.right_px * p.right_r21 - p.right_py * p.right_r11;
+    let r69 = r67 + 0.04519 * p.right_r32;
+    let r71 = known.left_c2_ * r69;
+    let r72 = known.left_s2_ * r61;
+    let r73 = known.left_s2_ * r65;
+    let r96 = 0.085 * (p.left_r21 * known.left_c3_) + 0.085 * (known.left_s3_ * r10);
+    let r100 = r96 + 0.05 * (known.left_c3_ * r10) - 0.05 * (p.left_r21 * known.left_s3_);
+    let r102 = known.left_c2_ * r14 - r100;
+    let r104 = known.left_c3_ * r25 + 0.135 * (p.left_r11 * known.left_c2_);
+    let r106 = known.left_c3_ * r18 + (r104 - known.left_s3_ * r18);
+    let r107 = known.left_s3_ * r25 + r106;
+    let r111 = 0.085 * (known.left_s3_ * r9) + 0.05 * (known.left_c3_ * r9);
+    let r112 = known.left_s2_ * r22 + r111;
+    let r116 = 0.085 * (p.left_r11 * known.left_c3_) - 0.085 * (known.left_s3_ * r11);
+    let r120 = r116 - 0.05 * (known.left_c3_ * r11) - 0.05 * (p.left_r11 * known.left_s3_);
+    let r121 = known.left_c2_ * r18 + r120;
+    let r123 = known.left_c3_ * r26 + 0.135 * (p.left_r21 * known.left_c2_);
+    let r125 = known.left_s3_ * r14 + r123 - known.left_c3_ * r14;
+    let r126 = known.left_s3_ * r26 + r125;
+    let r129 = 0.135 * (p.left_r31 * known.left_s2_) - known.left_c3_ * r24;
+    let r130 = r129 - known.left_s3_ * r24;
+    let r133 = 0.085 * (p.right_r21 * known.left_c3_) + 0.085 * (known.left_s3_ * r57);
+    let r137 = r133 - 0.05 * (known.left_c3_ * r57) + 0.05 * (p.right_r21 * known.left_s3_);
+    let r139 = known.left_c2_ * r61 - r137;
+    let r141 = 0.135 * (p.right_r11 * known.left_c2_) - known.left_c3_ * r72;
+    let r143 = known.left_c3_ * r65 + (known.left_s3_ * r65 + r141);
+    let r144 = known.left_s3_ * r72 + r143;
+    let r147 = 0.085 * (known.left_s3_ * r56) - 0.05 * (known.left_c3_ * r56);
+    let r148 = known.left_s2_ * r69 + r147;
+    let r152 = 0.085 * (p.right_r11 * known.left_c3_) - 0.085 * (known.left_s3_ * r58);
+    let r156 = r152 + 0.05 * (known.left_c3_ * r58) + 0.05 * (p.right_r11 * known.left_s3_);
+    let r157 = known.left_c2_ * r65 + r156;
+    let r159 = 0.135 * (p.right_r21 * known.left_c2_) - known.left_c3_ * r73;
+    let r161 = r159 - known.left_s3_ * r61 - known.left_c3_ * r61;
+    let r162 = known.left_s3_ * r73 + r161;
+    let r164 = known.left_c3_ * r71 + 0.135 * (p.right_r31 * known.left_s2_);
+    let r166 = known.left_s3_ * r71 - r164;
+    let r175 = r121 * r144 + r126 * r139 + r107 * r157 + r102 * r162;
+    let r176 = r107 * r139;
+    let r178 = r102 * r144;
+    let r184 = 0.0 - r176 - r178 + r126 * r157 + r121 * r162;
+    let r190 = 0.0 - r112 * r144 - r130 * r139 - r107 * r148;
+    let r192 = r190 + r102 * r166;
+    let r198 = 0.0 - r112 * r162 - r126 * r148 - r130 * r157;
+    let r200 = r198 + r121 * r166;
+    let r207 = r176 + r178 + r130 * r148 - r112 * r166;
+    let r209 = 18.0 * p.magnitude + 10.53891;
+    let r211 = 24.0 * p.magnitude + 12.29688;
+    let r212 = 6.0 * p.magnitude;
+    let r213 = r212 + 2.83797;
+    let r214 = r212 + 4.86297;
+    let r216 = 16.0 * p.magnitude + 6.98292;
+    let r218 = 4.0 * p.magnitude + 2.65698;
+    let r219 = f64::abs(r102);
+    let r220 = f64::abs(r107);
+    let r221 = f64::abs(r112);
+    let r222 = f64::abs(r121);
+    let r223 = f64::abs(r126);
+    let r224 = f64::abs(r130);
+    let r225 = f64::abs(r139);
+    let r226 = f64::abs(r144);
+    let r227 = f64::abs(r148);
+    let r228 = f64::abs(r157);
+    let r229 = f64::abs(r162);
+    let r230 = f64::abs(r166);
+    let r237 = r216 * r225 + r209 * r223 + r214 * r226 + r211 * r222;
+    let r243 = r237 + r211 * r228 + r214 * r220 + r209 * r229;
+    let r252 = r211 * r225 + r209 * r220 + r209 * r226 + r211 * r219;
+    let r258 = r252 + r216 * r228 + r214 * r223 + r214 * r229;
+    let r267 = r218 * r225 + r209 * r224 + r213 * r226 + r211 * r221;
+    let r273 = r267 + r211 * r227 + r213 * r220 + r209 * r230;
+    let r282 = r216 * r227 + r213 * r223 + r218 * r228 + r214 * r224;
+    let r288 = r282 + r213 * r229 + r216 * r221 + r214 * r230;
+    let r296 = r252 + r218 * r227 + r213 * r224 + r213 * r230;
+    let r299 = f64::abs(r243 + r216 * r219);
+    let r300 = f64::abs(r258 + r216 * r222);
+    let r301 = f64::abs(r273 + r218 * r219);
+    let r302 = f64::abs(r288 + r218 * r222);
+    let r303 = f64::abs(r296 + r218 * r221);
+    let shared = &Shared3 { r175, r184, r192, r200, r207, r299, r300, r301, r302, r303 };
     match greatest(&[claim_3_1(shared), claim_3_2(shared), claim_3_3(shared), claim_3_4(shared), claim_3_5(shared)]) {
         0 => chart_3_1(p, known, shared, answers),
         1 => chart_3_2(p, known, shared, answers),
@@ -724,47 +627,48 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r614: f64,
-    r621: f64,
-    r628: f64,
-    r635: f64,
-    r640: f64,
-    r783: f64,
-    r784: f64,
-    r785: f64,
-    r786: f64,
-    r787: f64,
+    r175: f64,
+    r184: f64,
+    r192: f64,
+    r200: f64,
+    r207: f64,
+    r299: f64,
+    r300: f64,
+    r301: f64,
+    r302: f64,
+    r303: f64,
 }
 
 /// Chart 1 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r791 = 2.0 * shared.r635;
-    let r798 = shared.r628 - shared.r640;
-    let r801 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if !is_away(r798, 1000000000000.0 * (r801 + shared.r787)) {
+    let r306 = 2.0 * shared.r175;
+    let r308 = 2.0 * shared.r200;
+    let r315 = shared.r192 - shared.r207;
+    let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if !is_away(r315, 1000000000000.0 * (shared.r303 + r318)) {
         return;
     }
     let roots0 = real_roots(&[
-        0.0 - shared.r628 - shared.r640,
-        -2.0 * shared.r614 - r791,
-        -4.0 * shared.r621 - 2.0 * shared.r640,
-        2.0 * shared.r614 - r791,
-        r798,
+        0.0 - shared.r192 - shared.r207,
+        0.0 - r306 - r308,
+        0.0 - 4.0 * shared.r184 - 2.0 * shared.r207,
+        r306 - r308,
+        r315,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r804 = 0.5 * shared.r628;
-        let r805 = 0.5 * shared.r640;
-        let r809 = left_w1 * (r804 - r805) + (shared.r614 - shared.r635);
-        let r814 = left_w1 * r809 - (2.0 * shared.r621 + r804 + r805);
-        let r819 = left_w1 * (r805 - r804) + (shared.r635 - shared.r614);
-        let r822 = left_w1 * (shared.r621 * r814 + shared.r614 * r819);
-        let r828 = shared.r614 * shared.r614 + shared.r621 * shared.r621;
-        let r830 = (0.0 - (r822 + shared.r614 * (r804 + r805))) / r828;
-        let r833 = 0.0 - (r830 * left_w1 - 1.0);
-        let r837 = f64::max(r833 * r833 + r830 * r830, 0.0).sqrt();
-        let left_c1 = r833 / r837;
-        let left_s1 = r830 / r837;
+        let r321 = 0.5 * shared.r192;
+        let r322 = 0.5 * shared.r207;
+        let r326 = left_w1 * (r321 - r322) + (shared.r175 - shared.r200);
+        let r331 = left_w1 * r326 - (r322 + (r321 + 2.0 * shared.r184));
+        let r336 = left_w1 * (r322 - r321) + (shared.r200 - shared.r175);
+        let r339 = left_w1 * (shared.r184 * r331 + shared.r175 * r336);
+        let r345 = shared.r175 * shared.r175 + shared.r184 * shared.r184;
+        let r347 = (r339 + shared.r175 * (r321 + r322)) / r345;
+        let r352 = 1.0 - (0.0 - left_w1 * r347);
+        let r356 = f64::max(r352 * r352 + r347 * r347, 0.0).sqrt();
+        let left_c1 = r352 / r356;
+        let left_s1 = 0.0 - r347 / r356;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -772,42 +676,43 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// The pivot of chart 1 of block 3; -1 where it does not run.
 fn claim_3_1(shared: &Shared3) -> f64 {
-    let r798 = shared.r628 - shared.r640;
-    let r801 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if is_away(r798, 1000000000000.0 * (r801 + shared.r787)) { f64::abs(r798) } else { -1.0 }
+    let r315 = shared.r192 - shared.r207;
+    let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if is_away(r315, 1000000000000.0 * (shared.r303 + r318)) { f64::abs(r315) } else { -1.0 }
 }
 
 /// Chart 2 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r791 = 2.0 * shared.r628;
-    let r799 = shared.r621 - shared.r635 + shared.r640;
-    let r802 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if !is_away(r799, 1000000000000.0 * (r802 + shared.r787)) {
+    let r306 = 2.0 * shared.r175;
+    let r308 = 2.0 * shared.r192;
+    let r315 = shared.r207 + (shared.r184 - shared.r200);
+    let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if !is_away(r315, 1000000000000.0 * (shared.r303 + r318)) {
         return;
     }
     let roots0 = real_roots(&[
-        shared.r621 + shared.r635 + shared.r640,
-        -2.0 * shared.r614 - r791,
-        2.0 * shared.r640 - 2.0 * shared.r621,
-        2.0 * shared.r614 - r791,
-        r799,
+        shared.r207 + (shared.r184 + shared.r200),
+        0.0 - r306 - r308,
+        2.0 * shared.r207 - 2.0 * shared.r184,
+        r306 - r308,
+        r315,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r805 = 0.5 * shared.r621;
-        let r806 = 0.5 * shared.r635;
-        let r808 = 0.5 * shared.r640;
-        let r809 = r805 - r806 + r808;
-        let r813 = shared.r614 * (left_w1 * r809 + (shared.r614 - shared.r628));
-        let r818 = r806 - r805 + r808;
-        let r821 = shared.r614 * r818 - shared.r621 * shared.r628;
-        let r823 = left_w1 * (left_w1 * (r813 + shared.r621 * r809) + r821);
-        let r825 = shared.r614 * shared.r614;
-        let r831 = (0.0 - (r823 + (shared.r621 * r818 - r825))) / (r825 + shared.r621 * shared.r621);
-        let r834 = 0.0 - left_w1 * (r831 + 1.0);
-        let r838 = f64::max(r834 * r834 + r831 * r831, 0.0).sqrt();
-        let left_c1 = r834 / r838;
-        let left_s1 = r831 / r838;
+        let r321 = 0.5 * shared.r184;
+        let r322 = 0.5 * shared.r200;
+        let r324 = 0.5 * shared.r207;
+        let r325 = r321 - r322 + r324;
+        let r329 = shared.r175 * (left_w1 * r325 + (shared.r175 - shared.r192));
+        let r334 = r324 + (r322 - r321);
+        let r337 = shared.r175 * r334 - shared.r184 * shared.r192;
+        let r339 = left_w1 * (left_w1 * (r329 + shared.r184 * r325) + r337);
+        let r341 = shared.r175 * shared.r175;
+        let r347 = (r339 + (shared.r184 * r334 - r341)) / (r341 + shared.r184 * shared.r184);
+        let r350 = left_w1 * (1.0 - r347);
+        let r355 = f64::max(r350 * r350 + r347 * r347, 0.0).sqrt();
+        let left_c1 = 0.0 - r350 / r355;
+        let left_s1 = 0.0 - r347 / r355;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -815,40 +720,41 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// The pivot of chart 2 of block 3; -1 where it does not run.
 fn claim_3_2(shared: &Shared3) -> f64 {
-    let r799 = shared.r621 - shared.r635 + shared.r640;
-    let r802 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if is_away(r799, 1000000000000.0 * (r802 + shared.r787)) { f64::abs(r799) } else { -1.0 }
+    let r315 = shared.r207 + (shared.r184 - shared.r200);
+    let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if is_away(r315, 1000000000000.0 * (shared.r303 + r318)) { f64::abs(r315) } else { -1.0 }
 }
 
 /// Chart 3 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r790 = 2.0 * shared.r635;
-    let r797 = shared.r628 + shared.r640;
-    let r800 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if !is_away(r797, 1000000000000.0 * (r800 + shared.r787)) {
+    let r305 = 2.0 * shared.r175;
+    let r306 = 2.0 * shared.r200;
+    let r313 = shared.r192 + shared.r207;
+    let r316 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if !is_away(r313, 1000000000000.0 * (shared.r303 + r316)) {
         return;
     }
     let roots0 = real_roots(&[
-        shared.r640 - shared.r628,
-        2.0 * shared.r614 - r790,
-        4.0 * shared.r621 + 2.0 * shared.r640,
-        -2.0 * shared.r614 - r790,
-        r797,
+        shared.r207 - shared.r192,
+        r305 - r306,
+        4.0 * shared.r184 + 2.0 * shared.r207,
+        0.0 - r305 - r306,
+        r313,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r803 = 0.5 * shared.r628;
-        let r804 = 0.5 * shared.r640;
-        let r807 = shared.r614 + shared.r635;
-        let r813 = left_w1 * (left_w1 * (r803 + r804) - r807) + (2.0 * shared.r621 - r803 + r804);
-        let r819 = shared.r614 * (left_w1 * (-0.5 * shared.r628 - r804) + r807);
-        let r824 = left_w1 * (shared.r621 * r813 + r819) + shared.r614 * (r803 - r804);
-        let r827 = shared.r614 * shared.r614 + shared.r621 * shared.r621;
-        let r829 = (0.0 - r824) / r827;
-        let r832 = 0.0 - (r829 * left_w1 + 1.0);
-        let r836 = f64::max(r832 * r832 + r829 * r829, 0.0).sqrt();
-        let left_c1 = r832 / r836;
-        let left_s1 = r829 / r836;
+        let r319 = 0.5 * shared.r192;
+        let r320 = 0.5 * shared.r207;
+        let r323 = shared.r175 + shared.r200;
+        let r329 = left_w1 * (left_w1 * (r319 + r320) - r323) + (r320 + (2.0 * shared.r184 - r319));
+        let r335 = shared.r175 * (r323 + left_w1 * (0.0 - r319 - r320));
+        let r340 = left_w1 * (shared.r184 * r329 + r335) + shared.r175 * (r319 - r320);
+        let r343 = shared.r175 * shared.r175 + shared.r184 * shared.r184;
+        let r345 = r340 / r343;
+        let r350 = left_w1 * r345 - 1.0;
+        let r354 = f64::max(r350 * r350 + r345 * r345, 0.0).sqrt();
+        let left_c1 = r350 / r354;
+        let left_s1 = 0.0 - r345 / r354;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -856,43 +762,44 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// The pivot of chart 3 of block 3; -1 where it does not run.
 fn claim_3_3(shared: &Shared3) -> f64 {
-    let r797 = shared.r628 + shared.r640;
-    let r800 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if is_away(r797, 1000000000000.0 * (r800 + shared.r787)) { f64::abs(r797) } else { -1.0 }
+    let r313 = shared.r192 + shared.r207;
+    let r316 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if is_away(r313, 1000000000000.0 * (shared.r303 + r316)) { f64::abs(r313) } else { -1.0 }
 }
 
 /// Chart 4 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r790 = 2.0 * shared.r628;
-    let r791 = 2.0 * shared.r614;
-    let r798 = shared.r621 + shared.r635 + shared.r640;
-    let r801 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if !is_away(r798, 1000000000000.0 * (r801 + shared.r787)) {
+    let r306 = 2.0 * shared.r192;
+    let r307 = 2.0 * shared.r175;
+    let r314 = shared.r207 + (shared.r184 + shared.r200);
+    let r317 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if !is_away(r314, 1000000000000.0 * (shared.r303 + r317)) {
         return;
     }
     let roots0 = real_roots(&[
-        shared.r621 - shared.r635 + shared.r640,
-        r790 - r791,
-        2.0 * shared.r640 - 2.0 * shared.r621,
-        r791 + r790,
-        r798,
+        shared.r207 + (shared.r184 - shared.r200),
+        r306 - r307,
+        2.0 * shared.r207 - 2.0 * shared.r184,
+        r306 + r307,
+        r314,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r805 = 0.5 * shared.r635;
-        let r807 = 0.5 * shared.r640;
-        let r811 = left_w1 * (-0.5 * shared.r621 - r805 - r807) - (shared.r614 + shared.r628);
-        let r814 = 0.5 * shared.r621 + r805;
-        let r817 = shared.r614 * r811 - shared.r621 * (r814 + r807);
-        let r819 = r814 - r807;
-        let r822 = shared.r614 * r819 - shared.r621 * shared.r628;
-        let r826 = shared.r614 * shared.r614;
-        let r828 = left_w1 * (left_w1 * r817 + r822) + (shared.r621 * r819 + r826);
-        let r832 = (0.0 - r828) / (r826 + shared.r621 * shared.r621);
-        let r835 = 0.0 - left_w1 * (r832 - 1.0);
-        let r839 = f64::max(r835 * r835 + r832 * r832, 0.0).sqrt();
-        let left_c1 = r835 / r839;
-        let left_s1 = r832 / r839;
+        let r320 = 0.5 * shared.r184;
+        let r322 = 0.5 * shared.r200;
+        let r324 = 0.5 * shared.r207;
+        let r328 = left_w1 * (0.0 - r320 - r322 - r324) - (shared.r175 + shared.r192);
+        let r330 = r320 + r322;
+        let r333 = shared.r175 * r328 - shared.r184 * (r324 + r330);
+        let r335 = r330 - r324;
+        let r338 = shared.r175 * r335 - shared.r184 * shared.r192;
+        let r342 = shared.r175 * shared.r175;
+        let r344 = left_w1 * (left_w1 * r333 + r338) + (shared.r184 * r335 + r342);
+        let r348 = r344 / (r342 + shared.r184 * shared.r184);
+        let r351 = left_w1 * (0.0 - r348 - 1.0);
+        let r356 = f64::max(r351 * r351 + r348 * r348, 0.0).sqrt();
+        let left_c1 = 0.0 - r351 / r356;
+        let left_s1 = 0.0 - r348 / r356;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -900,62 +807,62 @@ fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// The pivot of chart 4 of block 3; -1 where it does not run.
 fn claim_3_4(shared: &Shared3) -> f64 {
-    let r798 = shared.r621 + shared.r635 + shared.r640;
-    let r801 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if is_away(r798, 1000000000000.0 * (r801 + shared.r787)) { f64::abs(r798) } else { -1.0 }
+    let r314 = shared.r207 + (shared.r184 + shared.r200);
+    let r317 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if is_away(r314, 1000000000000.0 * (shared.r303 + r317)) { f64::abs(r314) } else { -1.0 }
 }
 
 /// Chart 5 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r789 = shared.r614 + 1.3333333333333333 * shared.r621;
-    let r790 = 1.25 * shared.r628;
-    let r792 = 1.6666666666666667 * shared.r635;
-    let r794 = 2.0833333333333335 * shared.r640;
-    let r796 = 4.0 * shared.r621;
-    let r797 = 1.1666666666666667 * shared.r614;
-    let r799 = 3.3333333333333335 * shared.r628;
-    let r801 = 2.5 * shared.r635;
-    let r805 = 0.3333333333333333 * shared.r621 - 6.0 * shared.r614;
-    let r813 = r789 - r790 - r792 + r794;
-    let r816 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if !is_away(r813, 1000000000000.0 * (r816 + shared.r787)) {
+    let r305 = shared.r175 + 1.3333333333333333 * shared.r184;
+    let r306 = 1.25 * shared.r192;
+    let r308 = 1.6666666666666667 * shared.r200;
+    let r310 = 2.0833333333333335 * shared.r207;
+    let r312 = 4.0 * shared.r184;
+    let r313 = 1.1666666666666667 * shared.r175;
+    let r315 = 3.3333333333333335 * shared.r192;
+    let r317 = 2.5 * shared.r200;
+    let r321 = 0.3333333333333333 * shared.r184 - 6.0 * shared.r175;
+    let r329 = r310 + (r305 - r306 - r308);
+    let r332 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if !is_away(r329, 1000000000000.0 * (shared.r303 + r332)) {
         return;
     }
     let roots0 = real_roots(&[
-        r789 + r790 + r792 + r794,
-        r796 - r797 - r799 + r801,
-        r805 + 4.166666666666667 * shared.r640,
-        r797 - r796 - r799 + r801,
-        r813,
+        r305 + r306 + r308 + r310,
+        r312 - r313 - r315 + r317,
+        r321 + 4.166666666666667 * shared.r207,
+        r317 + (r313 - r312 - r315),
+        r329,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r822 = 0.24 * shared.r628;
-        let r823 = 0.192 * shared.r614 + 0.112 * shared.r621 - r822;
-        let r824 = 0.32 * shared.r635;
-        let r826 = 0.4 * shared.r640;
-        let r832 = 0.82 * shared.r628;
-        let r833 = 0.368 * shared.r614 - 0.552 * shared.r621 - r832;
-        let r834 = 0.24 * shared.r635;
-        let r836 = 0.3 * shared.r640;
-        let r838 = left_w1 * (r823 - r824 + r826) + (r833 + r834 + r836);
-        let r840 = 0.18 * shared.r628;
-        let r845 = left_w1 * (r840 - 0.192 * shared.r621 + r834 - r836);
-        let r848 = 0.68 * shared.r635;
-        let r851 = r845 + (0.832 * shared.r621 + r822 - r848 + r826);
-        let r854 = left_w1 * (shared.r614 * r838 + shared.r621 * r851);
-        let r858 = 0.464 * shared.r621 - 1.176 * shared.r614 - r822;
-        let r866 = shared.r621 * (r834 - 0.624 * shared.r621 - r832 - r836);
-        let r868 = r854 + (shared.r614 * (r858 + r848 + r826) + r866);
-        let r873 = 0.384 * shared.r621 - 0.656 * shared.r614 + r840;
-        let r881 = shared.r621 * (r822 - 0.544 * shared.r621 + r824 + r826);
-        let r883 = left_w1 * r868 + (shared.r614 * (r873 + r834 + r836) + r881);
-        let r886 = shared.r614 * shared.r614 + shared.r621 * shared.r621;
-        let r888 = (0.0 - r883) / r886;
-        let r892 = 0.0 - (left_w1 * (r888 + 0.8) - 0.6);
-        let r896 = f64::max(r892 * r892 + r888 * r888, 0.0).sqrt();
-        let left_c1 = r892 / r896;
-        let left_s1 = r888 / r896;
+        let r338 = 0.24 * shared.r192;
+        let r339 = 0.192 * shared.r175 + 0.112 * shared.r184 - r338;
+        let r340 = 0.32 * shared.r200;
+        let r342 = 0.4 * shared.r207;
+        let r348 = 0.82 * shared.r192;
+        let r349 = 0.368 * shared.r175 - 0.552 * shared.r184 - r348;
+        let r350 = 0.24 * shared.r200;
+        let r352 = 0.3 * shared.r207;
+        let r354 = left_w1 * (r339 - r340 + r342) + (r349 + r350 + r352);
+        let r356 = 0.18 * shared.r192;
+        let r361 = left_w1 * (r350 + (r356 - 0.192 * shared.r184) - r352);
+        let r364 = 0.68 * shared.r200;
+        let r367 = r361 + (r342 + (r338 + 0.832 * shared.r184 - r364));
+        let r370 = left_w1 * (shared.r175 * r354 + shared.r184 * r367);
+        let r374 = 0.464 * shared.r184 - 1.176 * shared.r175 - r338;
+        let r382 = shared.r184 * (r350 - 0.624 * shared.r184 - r348 - r352);
+        let r384 = r370 + (shared.r175 * (r342 + (r364 + r374)) + r382);
+        let r389 = r356 + (0.384 * shared.r184 - 0.656 * shared.r175);
+        let r397 = shared.r184 * (r342 + (r340 + (r338 - 0.544 * shared.r184)));
+        let r399 = left_w1 * r384 + (shared.r175 * (r352 + (r350 + r389)) + r397);
+        let r402 = shared.r175 * shared.r175 + shared.r184 * shared.r184;
+        let r404 = r399 / r402;
+        let r409 = 0.6 - left_w1 * (0.8 - r404);
+        let r413 = f64::max(r409 * r409 + r404 * r404, 0.0).sqrt();
+        let left_c1 = r409 / r413;
+        let left_s1 = 0.0 - r404 / r413;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -963,18 +870,18 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// The pivot of chart 5 of block 3; -1 where it does not run.
 fn claim_3_5(shared: &Shared3) -> f64 {
-    let r789 = shared.r614 + 1.3333333333333333 * shared.r621;
-    let r812 = r789 - 1.25 * shared.r628 - 1.6666666666666667 * shared.r635;
-    let r813 = r812 + 2.0833333333333335 * shared.r640;
-    let r816 = shared.r783 + shared.r784 + shared.r785 + shared.r786;
-    if is_away(r813, 1000000000000.0 * (r816 + shared.r787)) { f64::abs(r813) } else { -1.0 }
+    let r305 = shared.r175 + 1.3333333333333333 * shared.r184;
+    let r328 = r305 - 1.25 * shared.r192 - 1.6666666666666667 * shared.r200;
+    let r329 = 2.0833333333333335 * shared.r207 + r328;
+    let r332 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    if is_away(r329, 1000000000000.0 * (shared.r303 + r332)) { f64::abs(r329) } else { -1.0 }
 }
 
 /// Chart 6 of block 3: A = B = C = D = E = 0.
 /// It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
 /// Free: TorsoYaw.
 fn chart_3_6(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    if !(is_near(shared.r614, 0.01 * shared.r783) && is_near(shared.r621, 0.01 * shared.r784) && is_near(shared.r628, 0.01 * shared.r785) && is_near(shared.r635, 0.01 * shared.r786) && is_near(shared.r640, 0.01 * shared.r787)) {
+    if !(is_near(shared.r175, 0.01 * shared.r299) && is_near(shared.r184, 0.01 * shared.r300) && is_near(shared.r192, 0.01 * shared.r301) && is_near(shared.r200, 0.01 * shared.r302) && is_near(shared.r207, 0.01 * shared.r303)) {
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
@@ -985,99 +892,58 @@ fn chart_3_6(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: HipYawPitch.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
-    let r8 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
-    let r11 = p.left_px * p.left_r21 - p.left_py * p.left_r11;
-    let r12 = r5 + 0.04519 * p.left_r12;
-    let r13 = r8 + 0.04519 * p.left_r22;
-    let r14 = r11 + 0.04519 * p.left_r32;
-    let r21 = p.left_r11 * known.left_c1 + (0.0 - (0.0 - p.left_r21)) * known.left_s1;
-    let r24 = p.left_r21 * known.left_c1 + (0.0 - p.left_r11) * known.left_s1;
-    let r26 = p.left_r31 + (p.left_r31 - p.left_r31) * known.left_c1;
-    let r33 = r12 * known.left_c1 + (0.0 - (0.0 - r13)) * known.left_s1;
-    let r36 = r13 * known.left_c1 + (0.0 - r12) * known.left_s1;
-    let r38 = r14 + (r14 - r14) * known.left_c1;
-    let r45 = r21 * known.left_c2_ + (0.0 - r26) * known.left_s2_;
-    let r49 = r26 * known.left_c2_ + (0.0 - (0.0 - r21)) * known.left_s2_;
-    let r50 = r24 + (r24 - r24) * known.left_c2_;
-    let r57 = r33 * known.left_c2_ + (0.0 - r38) * known.left_s2_;
-    let r61 = r38 * known.left_c2_ + (0.0 - (0.0 - r33)) * known.left_s2_;
-    let r62 = r36 + (r36 - r36) * known.left_c2_;
-    let r70 = r50 * known.left_c3_ + (0.0 - (0.0 - r49)) * known.left_s3_;
-    let r73 = r49 * known.left_c3_ + (0.0 - r50) * known.left_s3_;
-    let r74 = r45 + (r45 - r45) * known.left_c3_;
-    let r82 = r62 * known.left_c3_ + (0.0 - (0.0 - r61)) * known.left_s3_;
-    let r85 = r61 * known.left_c3_ + (0.0 - r62) * known.left_s3_;
-    let r89 = 0.5 * r70 + -0.5 * r73;
-    let r90 = 0.0 - r89;
-    let r91 = r70 - r89;
-    let r97 = 0.0 - (0.0 - r74);
-    let r104 = r57 + (r57 - r57) * known.left_c3_ - (0.05 * r73 - -0.085 * r70);
-    let r114 = r85 - (0.0 - 0.05 * r74) - (0.0 - (r82 - -0.085 * r74));
-    let r118 = 0.05 * r90;
-    let r119 = 0.05 * (r73 - r90);
-    let r120 = 0.05 * r97;
-    let r143 = 0.085 * r91 + r119 - (r119 - -0.085 * r91 + r104);
-    let r144 = 0.085 * r97 + r120 - (r120 - -0.085 * r97 + (0.0 - r114));
-    let r145 = 0.0 - (0.085 * r89 + r118 - (r118 - -0.085 * r89));
-    let r146 = 0.0 - r143;
-    let r153 = p.right_py * p.right_r31 - p.right_pz * p.right_r21;
-    let r156 = p.right_pz * p.right_r11 - p.right_px * p.right_r31;
-    let r159 = p.right_px * p.right_r21 - p.right_py * p.right_r11;
-    let r160 = r153 + 0.04519 * p.right_r12;
-    let r161 = r156 + 0.04519 * p.right_r22;
-    let r162 = r159 + 0.04519 * p.right_r32;
-    let r169 = p.right_r11 * known.left_c1 + (0.0 - (0.0 - p.right_r21)) * known.left_s1;
-    let r172 = p.right_r21 * known.left_c1 + (0.0 - p.right_r11) * known.left_s1;
-    let r174 = p.right_r31 + (p.right_r31 - p.right_r31) * known.left_c1;
-    let r181 = r160 * known.left_c1 + (0.0 - (0.0 - r161)) * known.left_s1;
-    let r184 = r161 * known.left_c1 + (0.0 - r160) * known.left_s1;
-    let r186 = r162 + (r162 - r162) * known.left_c1;
-    let r193 = r169 * known.left_c2_ + (0.0 - r174) * known.left_s2_;
-    let r197 = r174 * known.left_c2_ + (0.0 - (0.0 - r169)) * known.left_s2_;
-    let r198 = r172 + (r172 - r172) * known.left_c2_;
-    let r205 = r181 * known.left_c2_ + (0.0 - r186) * known.left_s2_;
-    let r209 = r186 * known.left_c2_ + (0.0 - (0.0 - r181)) * known.left_s2_;
-    let r210 = r184 + (r184 - r184) * known.left_c2_;
-    let r218 = r198 * known.left_c3_ + (0.0 - (0.0 - r197)) * known.left_s3_;
-    let r221 = r197 * known.left_c3_ + (0.0 - r198) * known.left_s3_;
-    let r222 = r193 + (r193 - r193) * known.left_c3_;
-    let r230 = r210 * known.left_c3_ + (0.0 - (0.0 - r209)) * known.left_s3_;
-    let r233 = r209 * known.left_c3_ + (0.0 - r210) * known.left_s3_;
-    let r237 = 0.5 * r218 + 0.5 * r221;
-    let r238 = r218 - r237;
-    let r241 = 0.0 - r222;
-    let r250 = r205 + (r205 - r205) * known.left_c3_ - (-0.05 * r221 - -0.085 * r218);
-    let r258 = r233 - (0.0 - -0.05 * r222) - (r230 - -0.085 * r222);
-    let r262 = -0.05 * r237;
-    let r263 = -0.05 * (r221 - r237);
-    let r264 = -0.05 * (0.0 - r241);
-    let r287 = 0.085 * r238 + r263 - (r263 - -0.085 * r238 + r250);
-    let r288 = 0.085 * r241 + r264 - (r264 - -0.085 * r241 + (0.0 - r258));
-    let r289 = 0.0 - (0.085 * r237 + r262 - (r262 - -0.085 * r237));
-    let r290 = 0.0 - r287;
-    let r292 = 0.7071067811865475 * (0.0 - r144);
-    let r293 = 0.7071067811865475 * (0.0 - r288);
-    let r294 = 0.0 - r145;
-    let r295 = 0.0 - r289;
-    let r297 = p.magnitude + p.magnitude + 0.72099;
-    let r298 = r297 + r297;
-    let r299 = r297 + r298;
-    let r301 = r298 + r299;
-    let r302 = r299 + r298;
-    let r303 = r298 + (r298 + r298);
-    let r318 = r302 + r303 + 0.75 + (r303 + r302 + 1.275) + 2.025;
-    let r326 = f64::abs(r301 + (r301 + r301) + 1.485 + 2.97 + 2.97);
-    let r327 = f64::abs(0.7071067811865475 * (r318 + 2.025));
-    let r328 = 0.0 - r294;
-    let r329 = 0.0 - r295;
-    let r330 = r146 * r293;
-    let r331 = r292 * r290;
-    let r332 = r330 - r331;
-    let r333 = r326 * r327;
-    let r334 = r327 * r326;
-    let r336 = 0.001 * (r333 + r334);
-    let shared = &Shared4 { r146, r290, r292, r293, r294, r295, r326, r327, r328, r329, r330, r331, r332, r333, r334, r336 };
+    let r10 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
+    let r12 = r10 + 0.04519 * p.left_r12;
+    let r14 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
+    let r16 = r14 + 0.04519 * p.left_r22;
+    let r20 = p.left_r11 * known.left_c1 + p.left_r21 * known.left_s1;
+    let r25 = known.left_c1 * r12 + known.left_s1 * r16;
+    let r27 = p.left_px * p.left_r21 - p.left_py * p.left_r11;
+    let r29 = r27 + 0.04519 * p.left_r32;
+    let r33 = p.left_r21 * known.left_c1 - p.left_r11 * known.left_s1;
+    let r35 = p.left_r31 * known.left_c2_ + known.left_s2_ * r20;
+    let r39 = known.left_c1 * r16 - known.left_s1 * r12;
+    let r41 = known.left_c2_ * r29 + known.left_s2_ * r25;
+    let r55 = p.right_py * p.right_r31 - p.right_pz * p.right_r21;
+    let r57 = r55 + 0.04519 * p.right_r12;
+    let r59 = p.right_pz * p.right_r11 - p.right_px * p.right_r31;
+    let r61 = r59 + 0.04519 * p.right_r22;
+    let r65 = p.right_r11 * known.left_c1 + p.right_r21 * known.left_s1;
+    let r70 = known.left_c1 * r57 + known.left_s1 * r61;
+    let r72 = p.right_px * p.right_r21 - p.right_py * p.right_r11;
+    let r74 = r72 + 0.04519 * p.right_r32;
+    let r78 = p.right_r21 * known.left_c1 - p.right_r11 * known.left_s1;
+    let r80 = p.right_r31 * known.left_c2_ + known.left_s2_ * r65;
+    let r84 = known.left_c1 * r61 - known.left_s1 * r57;
+    let r86 = known.left_c2_ * r74 + known.left_s2_ * r70;
+    let r92 = 0.085 * (known.left_c3_ * r33) + 0.085 * (known.left_s3_ * r35);
+    let r96 = r92 + 0.05 * (known.left_c3_ * r35) - 0.05 * (known.left_s3_ * r33);
+    let r98 = known.left_s2_ * r29 + (r96 - known.left_c2_ * r25);
+    let r101 = 0.09545941546018391 * (p.left_r31 * known.left_s2_);
+    let r102 = 0.09545941546018391 * (known.left_c2_ * r20) - r101;
+    let r104 = r102 + 0.7071067811865475 * (known.left_c3_ * r41);
+    let r106 = r104 - 0.7071067811865475 * (known.left_s3_ * r39);
+    let r108 = r106 + 0.7071067811865475 * (known.left_c3_ * r39);
+    let r110 = r108 + 0.7071067811865475 * (known.left_s3_ * r41);
+    let r114 = 0.085 * (known.left_c3_ * r78) + 0.085 * (known.left_s3_ * r80);
+    let r118 = r114 - 0.05 * (known.left_c3_ * r80) + 0.05 * (known.left_s3_ * r78);
+    let r120 = known.left_s2_ * r74 + (r118 - known.left_c2_ * r70);
+    let r123 = 0.09545941546018391 * (p.right_r31 * known.left_s2_);
+    let r124 = 0.09545941546018391 * (known.left_c2_ * r65) - r123;
+    let r126 = r124 - 0.7071067811865475 * (known.left_c3_ * r86);
+    let r128 = r126 + 0.7071067811865475 * (known.left_s3_ * r84);
+    let r130 = r128 + 0.7071067811865475 * (known.left_c3_ * r84);
+    let r132 = r130 + 0.7071067811865475 * (known.left_s3_ * r86);
+    let r136 = 31.112698372208087 * p.magnitude + 15.51164589539743;
+    let r137 = f64::abs(30.0 * p.magnitude + 18.23985);
+    let r138 = f64::abs(r136);
+    let r139 = r98 * r132;
+    let r141 = r110 * r120;
+    let r142 = 0.0 - r139 - r141;
+    let r143 = r137 * r138;
+    let r144 = r143 + r143;
+    let r145 = 0.001 * r144;
+    let shared = &Shared4 { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
     chart_4_3(p, known, shared, answers);
@@ -1087,38 +953,27 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r146: f64,
-    r290: f64,
-    r292: f64,
-    r293: f64,
-    r294: f64,
-    r295: f64,
-    r326: f64,
-    r327: f64,
-    r328: f64,
-    r329: f64,
-    r330: f64,
-    r331: f64,
-    r332: f64,
-    r333: f64,
-    r334: f64,
-    r336: f64,
+    r98: f64,
+    r110: f64,
+    r120: f64,
+    r132: f64,
+    r137: f64,
+    r138: f64,
+    r139: f64,
+    r141: f64,
+    r142: f64,
+    r144: f64,
+    r145: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where B*E - A*F is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r337 = shared.r331 - shared.r330;
-    if !is_away(r337, 10000.0 * (shared.r334 + shared.r333)) {
+    if !is_away(shared.r139 + shared.r141, 10000.0 * shared.r144) {
         return;
     }
-    let r342 = shared.r146 * shared.r295 - shared.r290 * shared.r294;
-    let r344 = (0.0 - r342) / r337;
-    let r347 = shared.r293 * shared.r294 - shared.r292 * shared.r295;
-    let r349 = (0.0 - r347) / r337;
-    let r353 = f64::max(r349 * r349 + r344 * r344, 0.0).sqrt();
-    let left_c4 = r349 / r353;
-    let left_s4 = r344 / r353;
+    let left_c4 = -0.0;
+    let left_s4 = -0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, left_c4, left_s4, ..*known };
     block_5(p, &next, answers);
 }
@@ -1126,38 +981,32 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r337 = shared.r146 * shared.r146;
-    let r338 = shared.r292 * shared.r292;
-    let r339 = r337 + r338;
-    let r342 = shared.r326 * shared.r326 + shared.r327 * shared.r327;
-    if !(is_near(shared.r332, shared.r336) && is_away(r339, 10000.0 * r342)) {
+    let r146 = shared.r98 * shared.r98;
+    let r147 = shared.r110 * shared.r110;
+    let r148 = r146 + r147;
+    let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
+    if !(is_near(shared.r142, shared.r145) && is_away(r148, 10000.0 * r151)) {
         return;
     }
-    let roots0 = real_roots(&[
-        shared.r328 * shared.r328 - r337 - r338,
-        0.0,
-        1.0,
-    ], f64::max(r342, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r146 - r147, 0.0, 1.0], f64::max(r151, 0.0).sqrt());
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r350 = shared.r292 * shared.r328 - shared.r146 * left_w4;
-        let r352 = (0.0 - r350) / r339;
-        let r355 = shared.r292 * left_w4 + shared.r146 * shared.r328;
-        let r357 = (0.0 - r355) / r339;
-        let r361 = f64::max(r357 * r357 + r352 * r352, 0.0).sqrt();
-        let left_c4 = r357 / r361;
-        let left_s4 = r352 / r361;
+        let r158 = left_w4 * shared.r98 / r148;
+        let r162 = left_w4 * shared.r110 / r148;
+        let r166 = f64::max(r162 * r162 + r158 * r158, 0.0).sqrt();
+        let left_c4 = r162 / r166;
+        let left_s4 = 0.0 - r158 / r166;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, left_c4, left_s4, ..*known };
         block_5(p, &next, answers);
     }
 }
 
 /// Chart 3 of block 4: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero and C is near zero.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
 fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r339 = shared.r146 * shared.r146 + shared.r292 * shared.r292;
-    let r342 = shared.r326 * shared.r326 + shared.r327 * shared.r327;
-    if !(is_near(shared.r332, shared.r336) && is_near(r339, 1.0000000000000001e-7 * r342) && is_near(shared.r328, 0.029700000000000004)) {
+    let r148 = shared.r98 * shared.r98 + shared.r110 * shared.r110;
+    let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
+    if !(is_near(shared.r142, shared.r145) && is_near(r148, 1.0000000000000001e-7 * r151)) {
         return;
     }
     for [left_c4, left_s4] in SAMPLES_1 {
@@ -1169,38 +1018,32 @@ fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 4 of block 4: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r337 = shared.r290 * shared.r290;
-    let r338 = shared.r293 * shared.r293;
-    let r339 = r337 + r338;
-    let r342 = shared.r326 * shared.r326 + shared.r327 * shared.r327;
-    if !(is_near(shared.r332, shared.r336) && is_away(r339, 10000.0 * r342)) {
+    let r146 = shared.r120 * shared.r120;
+    let r147 = shared.r132 * shared.r132;
+    let r148 = r146 + r147;
+    let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
+    if !(is_near(shared.r142, shared.r145) && is_away(r148, 10000.0 * r151)) {
         return;
     }
-    let roots0 = real_roots(&[
-        shared.r329 * shared.r329 - r337 - r338,
-        0.0,
-        1.0,
-    ], f64::max(r342, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r146 - r147, 0.0, 1.0], f64::max(r151, 0.0).sqrt());
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r350 = shared.r293 * shared.r329 - shared.r290 * left_w4;
-        let r352 = (0.0 - r350) / r339;
-        let r355 = shared.r293 * left_w4 + shared.r290 * shared.r329;
-        let r357 = (0.0 - r355) / r339;
-        let r361 = f64::max(r357 * r357 + r352 * r352, 0.0).sqrt();
-        let left_c4 = r357 / r361;
-        let left_s4 = r352 / r361;
+        let r158 = left_w4 * shared.r120 / r148;
+        let r162 = left_w4 * shared.r132 / r148;
+        let r167 = f64::max(r162 * r162 + r158 * r158, 0.0).sqrt();
+        let left_c4 = 0.0 - r162 / r167;
+        let left_s4 = 0.0 - r158 / r167;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, left_c4, left_s4, ..*known };
         block_5(p, &next, answers);
     }
 }
 
 /// Chart 5 of block 4: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero and C is near zero.
+/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
 fn chart_4_5(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r339 = shared.r290 * shared.r290 + shared.r293 * shared.r293;
-    let r342 = shared.r326 * shared.r326 + shared.r327 * shared.r327;
-    if !(is_near(shared.r332, shared.r336) && is_near(r339, 1.0000000000000001e-7 * r342) && is_near(shared.r329, 0.029700000000000004)) {
+    let r148 = shared.r120 * shared.r120 + shared.r132 * shared.r132;
+    let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
+    if !(is_near(shared.r142, shared.r145) && is_near(r148, 1.0000000000000001e-7 * r151)) {
         return;
     }
     for [left_c4, left_s4] in SAMPLES_1 {
@@ -1211,40 +1054,37 @@ fn chart_4_5(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: KneePitch.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.left_px + 0.04519 * p.left_r13;
-    let r5 = p.left_py + 0.04519 * p.left_r23;
-    let r6 = p.left_pz + 0.04519 * p.left_r33;
-    let r11 = p.left_px * r4 + p.left_py * r5 + p.left_pz * r6;
-    let r16 = p.left_px * p.left_px + p.left_py * p.left_py;
-    let r19 = r11 + r11 - (r16 + p.left_pz * p.left_pz) + 0.0020421361;
-    let r26 = r4 * known.left_c1 + (0.0 - (0.0 - r5)) * known.left_s1;
-    let r29 = r5 * known.left_c1 + (0.0 - r4) * known.left_s1;
-    let r40 = (r6 + (r6 - r6) * known.left_c1) * known.left_c2_;
-    let r42 = r40 + (0.0 - (0.0 - r26)) * known.left_s2_;
-    let r43 = r29 + (r29 - r29) * known.left_c2_;
-    let r51 = r43 * known.left_c3_ + (0.0 - (0.0 - r42)) * known.left_s3_;
-    let r54 = r42 * known.left_c3_ + (0.0 - r43) * known.left_s3_;
-    let r61 = 0.05 * (0.05 - r51) + -0.085 * (-0.085 - r54);
-    let r67 = 0.02058841 - (r19 + r61 - (0.05 * r51 + -0.085 * r54));
-    let shared = &Shared5 { r67 };
+    let r1 = p.left_px + 0.04519 * p.left_r13;
+    let r4 = p.left_py + 0.04519 * p.left_r23;
+    let r7 = p.left_pz + 0.04519 * p.left_r33;
+    let r18 = known.left_s2_ * (known.left_c1 * r1 + known.left_s1 * r4);
+    let r19 = known.left_c1 * r4 - known.left_s1 * r1;
+    let r21 = known.left_c2_ * r7 + r18;
+    let r27 = 2.0 * (p.left_px * r1) + 2.0 * (p.left_py * r4);
+    let r30 = r27 + 2.0 * (p.left_pz * r7) - p.left_px * p.left_px;
+    let r32 = r30 - p.left_py * p.left_py - p.left_pz * p.left_pz;
+    let r36 = r32 - 0.1 * (known.left_c3_ * r19) - 0.1 * (known.left_s3_ * r21);
+    let r40 = r36 + 0.17 * (known.left_c3_ * r21) - 0.17 * (known.left_s3_ * r19);
+    let r41 = 0.0088212739 - r40;
+    let shared = &Shared5 { r41 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r67: f64,
+    r41: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r69 = shared.r67 * shared.r67 - 0.00042353640000000005;
-    let roots0 = real_roots(&[r69, 0.0, 1.0], 1.4142135623730951);
+    let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
+    let roots0 = real_roots(&[r43, 0.0, 1.0], 1.4142135623730951);
     for (i0, &left_w7) in roots0.as_slice().iter().enumerate() {
-        let r73 = (0.0 - (0.0 - 0.02058 * left_w7)) / 0.00042353640000000005;
-        let r76 = (0.0 - 0.02058 * shared.r67) / 0.00042353640000000005;
-        let r80 = f64::max(r76 * r76 + r73 * r73, 0.0).sqrt();
-        let left_c7 = r76 / r80;
-        let left_s7 = r73 / r80;
+        let r45 = 0.02058 * left_w7 / 0.00042353640000000005;
+        let r47 = 0.02058 * shared.r41 / 0.00042353640000000005;
+        let r51 = f64::max(r47 * r47 + r45 * r45, 0.0).sqrt();
+        let left_c7 = 0.0 - r47 / r51;
+        let left_s7 = r45 / r51;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, left_c7, left_s7, ..*known };
         block_6(p, &next, answers);
     }
@@ -1252,45 +1092,41 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 
 /// Block 6: AnkleRoll.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s4;
-    let r1 = 0.0 - p.left_r13;
-    let r2 = 0.0 - p.left_r23;
-    let r3 = 0.0 - p.left_r33;
-    let r10 = p.left_px * p.left_r12 + p.left_py * p.left_r22;
-    let r13 = p.left_px * r1 + p.left_py * r2 + p.left_pz * r3;
-    let r27 = p.left_r12 * known.left_c1 + (0.0 - (0.0 - p.left_r22)) * known.left_s1;
-    let r28 = r1 * known.left_c1 + (0.0 - (0.0 - r2)) * known.left_s1;
-    let r33 = p.left_r22 * known.left_c1 + (0.0 - p.left_r12) * known.left_s1;
-    let r34 = r2 * known.left_c1 + (0.0 - r1) * known.left_s1;
-    let r37 = p.left_r32 + (p.left_r32 - p.left_r32) * known.left_c1;
-    let r38 = r3 + (r3 - r3) * known.left_c1;
-    let r51 = r27 * known.left_c2_ + (0.0 - r37) * known.left_s2_;
-    let r52 = r28 * known.left_c2_ + (0.0 - r38) * known.left_s2_;
-    let r59 = r37 * known.left_c2_ + (0.0 - (0.0 - r27)) * known.left_s2_;
-    let r60 = r38 * known.left_c2_ + (0.0 - (0.0 - r28)) * known.left_s2_;
-    let r61 = r33 + (r33 - r33) * known.left_c2_;
-    let r62 = r34 + (r34 - r34) * known.left_c2_;
-    let r77 = r61 * known.left_c3_ + (0.0 - (0.0 - r59)) * known.left_s3_;
-    let r78 = r62 * known.left_c3_ + (0.0 - (0.0 - r60)) * known.left_s3_;
-    let r83 = r59 * known.left_c3_ + (0.0 - r61) * known.left_s3_;
-    let r84 = r60 * known.left_c3_ + (0.0 - r62) * known.left_s3_;
-    let r93 = 0.05 * r77 + -0.085 * r83 - (r10 + p.left_pz * p.left_r32);
-    let r95 = 0.0 - r93;
-    let r96 = 0.0 - (0.05 * r78 + -0.085 * r84 - (r13 - 0.04519));
-    let r119 = (r51 + (r51 - r51) * known.left_c3_) * known.left_c4;
-    let r120 = (r52 + (r52 - r52) * known.left_c3_) * known.left_c4;
-    let r139 = 0.0 - (r119 + (0.0 - (r83 - (0.0 - r77))) * r0);
-    let r140 = 0.0 - (r120 + (0.0 - (r84 - (0.0 - r78))) * r0);
-    let r142 = p.magnitude + p.magnitude + p.magnitude;
-    let r147 = f64::abs(r142 + 0.1 + 1.485);
-    let r148 = f64::abs(r142 + 0.62099 + 1.485);
-    let r149 = r95 * r140;
-    let r150 = r96 * r139;
-    let r151 = r149 - r150;
-    let r152 = 37.0 * r147;
-    let r153 = 37.0 * r148;
-    let r155 = 0.001 * (r152 + r153);
-    let shared = &Shared6 { r95, r96, r139, r140, r147, r148, r149, r150, r151, r152, r153, r155 };
+    let r14 = p.left_r12 * known.left_c1 + p.left_r22 * known.left_s1;
+    let r16 = p.left_r13 * known.left_c1 + p.left_r23 * known.left_s1;
+    let r24 = p.left_r22 * known.left_c1 - p.left_r12 * known.left_s1;
+    let r25 = known.left_c3_ * r24;
+    let r26 = p.left_r23 * known.left_c1 - p.left_r13 * known.left_s1;
+    let r27 = known.left_c3_ * r26;
+    let r28 = p.left_r32 * known.left_c2_ + known.left_s2_ * r14;
+    let r29 = known.left_s3_ * r28;
+    let r30 = p.left_r33 * known.left_c2_ + known.left_s2_ * r16;
+    let r31 = known.left_s3_ * r30;
+    let r32 = known.left_c3_ * r28;
+    let r33 = known.left_c3_ * r30;
+    let r34 = known.left_s3_ * r24;
+    let r35 = known.left_s3_ * r26;
+    let r36 = known.left_c2_ * r14 - p.left_r32 * known.left_s2_;
+    let r38 = known.left_c2_ * r16 - p.left_r33 * known.left_s2_;
+    let r54 = 0.05 * r25 + 0.05 * r29 - 0.085 * r32 + 0.085 * r34;
+    let r56 = r54 - p.left_px * p.left_r12 - p.left_py * p.left_r22;
+    let r57 = p.left_pz * p.left_r32 - r56;
+    let r64 = 0.05 * r27 + 0.05 * r31 - 0.085 * r33 + 0.085 * r35;
+    let r66 = r64 - p.left_px * p.left_r13 - p.left_py * p.left_r23;
+    let r68 = r66 - p.left_pz * p.left_r33 - 0.04519;
+    let r69 = 0.7071067811865475 * (known.left_s4 * (r29 + (r25 + (r32 - r34))));
+    let r70 = r69 - known.left_c4 * r36;
+    let r71 = 0.7071067811865475 * (known.left_s4 * (r31 + (r27 + (r33 - r35))));
+    let r72 = known.left_c4 * r38 - r71;
+    let r73 = 3.0 * p.magnitude;
+    let r76 = f64::abs(r73 + 1.585);
+    let r77 = f64::abs(r73 + 2.10599);
+    let r78 = r57 * r72;
+    let r79 = r68 * r70;
+    let r80 = r78 - r79;
+    let r83 = 37.0 * r76 + 37.0 * r77;
+    let r84 = 0.001 * r83;
+    let shared = &Shared6 { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 };
     chart_6_1(p, known, shared, answers);
     chart_6_2(p, known, shared, answers);
     chart_6_3(p, known, shared, answers);
@@ -1300,32 +1136,27 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r95: f64,
-    r96: f64,
-    r139: f64,
-    r140: f64,
-    r147: f64,
-    r148: f64,
-    r149: f64,
-    r150: f64,
-    r151: f64,
-    r152: f64,
-    r153: f64,
-    r155: f64,
+    r57: f64,
+    r68: f64,
+    r70: f64,
+    r72: f64,
+    r76: f64,
+    r77: f64,
+    r78: f64,
+    r79: f64,
+    r80: f64,
+    r83: f64,
+    r84: f64,
 }
 
 /// Chart 1 of block 6: generic.
 /// It runs where B*E - A*F is not zero.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r156 = shared.r150 - shared.r149;
-    if !is_away(r156, 10000.0 * (shared.r153 + shared.r152)) {
+    if !is_away(shared.r79 - shared.r78, 10000.0 * shared.r83) {
         return;
     }
-    let r159 = -0.0 / r156;
-    let r160 = r159 * r159;
-    let r163 = r159 / f64::max(r160 + r160, 0.0).sqrt();
-    let left_c9 = r163;
-    let left_s9 = r163;
+    let left_c9 = -0.0;
+    let left_s9 = -0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, left_c9, left_s9, ..*known };
     block_7(p, &next, answers);
 }
@@ -1333,20 +1164,20 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// Chart 2 of block 6: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r156 = shared.r95 * shared.r95;
-    let r157 = shared.r96 * shared.r96;
-    let r158 = r156 + r157;
-    let r161 = shared.r147 * shared.r147 + shared.r148 * shared.r148;
-    if !(is_near(shared.r151, shared.r155) && is_away(r158, 10000.0 * r161)) {
+    let r85 = shared.r57 * shared.r57;
+    let r86 = shared.r68 * shared.r68;
+    let r87 = r85 + r86;
+    let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
+    if !(is_near(shared.r80, shared.r84) && is_away(r87, 10000.0 * r90)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r156 - r157, 0.0, 1.0], f64::max(r161, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r85 - r86, 0.0, 1.0], f64::max(r90, 0.0).sqrt());
     for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r169 = (0.0 - (0.0 - shared.r95 * left_w9)) / r158;
-        let r172 = (0.0 - shared.r96 * left_w9) / r158;
-        let r176 = f64::max(r172 * r172 + r169 * r169, 0.0).sqrt();
-        let left_c9 = r172 / r176;
-        let left_s9 = r169 / r176;
+        let r96 = left_w9 * shared.r57 / r87;
+        let r98 = left_w9 * shared.r68 / r87;
+        let r102 = f64::max(r98 * r98 + r96 * r96, 0.0).sqrt();
+        let left_c9 = 0.0 - r98 / r102;
+        let left_s9 = r96 / r102;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, left_c9, left_s9, ..*known };
         block_7(p, &next, answers);
     }
@@ -1356,9 +1187,9 @@ fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
 fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r158 = shared.r95 * shared.r95 + shared.r96 * shared.r96;
-    let r161 = shared.r147 * shared.r147 + shared.r148 * shared.r148;
-    if !(is_near(shared.r151, shared.r155) && is_near(r158, 1.0000000000000001e-7 * r161)) {
+    let r87 = shared.r57 * shared.r57 + shared.r68 * shared.r68;
+    let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
+    if !(is_near(shared.r80, shared.r84) && is_near(r87, 1.0000000000000001e-7 * r90)) {
         return;
     }
     for [left_c9, left_s9] in SAMPLES_1 {
@@ -1370,19 +1201,19 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// Chart 4 of block 6: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r156 = shared.r139 * shared.r139;
-    let r157 = shared.r140 * shared.r140;
-    let r158 = r156 + r157;
-    if !(is_near(shared.r151, shared.r155) && is_away(r158, 27380000.0)) {
+    let r85 = shared.r70 * shared.r70;
+    let r86 = shared.r72 * shared.r72;
+    let r87 = r85 + r86;
+    if !(is_near(shared.r80, shared.r84) && is_away(r87, 27380000.0)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r156 - r157, 0.0, 1.0], 52.32590180780452);
+    let roots0 = real_roots(&[0.0 - r85 - r86, 0.0, 1.0], 52.32590180780452);
     for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r164 = (0.0 - (0.0 - shared.r139 * left_w9)) / r158;
-        let r167 = (0.0 - shared.r140 * left_w9) / r158;
-        let r171 = f64::max(r167 * r167 + r164 * r164, 0.0).sqrt();
-        let left_c9 = r167 / r171;
-        let left_s9 = r164 / r171;
+        let r91 = left_w9 * shared.r70 / r87;
+        let r93 = left_w9 * shared.r72 / r87;
+        let r97 = f64::max(r93 * r93 + r91 * r91, 0.0).sqrt();
+        let left_c9 = 0.0 - r93 / r97;
+        let left_s9 = r91 / r97;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, left_c9, left_s9, ..*known };
         block_7(p, &next, answers);
     }
@@ -1392,8 +1223,8 @@ fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
 fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r158 = shared.r139 * shared.r139 + shared.r140 * shared.r140;
-    if !(is_near(shared.r151, shared.r155) && is_near(r158, 0.00027380000000000004)) {
+    let r87 = shared.r70 * shared.r70 + shared.r72 * shared.r72;
+    if !(is_near(shared.r80, shared.r84) && is_near(r87, 0.00027380000000000004)) {
         return;
     }
     for [left_c9, left_s9] in SAMPLES_1 {
@@ -1404,84 +1235,62 @@ fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 
 /// Block 7: AnklePitch.
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - known.left_c7;
-    let r3 = 0.0 - known.left_s7;
-    let r4 = 0.0 - r1;
-    let r5 = 0.0 - r3;
-    let r6 = -0.2879 * r1;
-    let r7 = -0.2879 * r5;
-    let r14 = (known.left_s7 - known.left_s7) * known.left_c9;
-    let r16 = (0.0 - r4) * known.left_s9;
-    let r17 = (0.0 - (0.0 - r5)) * known.left_s9;
-    let r18 = r1 * known.left_c9;
-    let r19 = r5 * known.left_c9;
-    let r20 = known.left_s7 + r14;
-    let r21 = r4 + (r4 - r4) * known.left_c9;
-    let r22 = 0.05 * r16;
-    let r23 = 0.05 * r17;
-    let r40 = r20 * p.left_r11 + r16 * p.left_r12 + r18 * p.left_r13;
-    let r41 = r21 * p.left_r11 + r17 * p.left_r12 + r19 * p.left_r13;
-    let r50 = r20 * p.left_r21 + r16 * p.left_r22 + r18 * p.left_r23;
-    let r51 = r21 * p.left_r21 + r17 * p.left_r22 + r19 * p.left_r23;
-    let r60 = r20 * p.left_r31 + r16 * p.left_r32 + r18 * p.left_r33;
-    let r61 = r21 * p.left_r31 + r17 * p.left_r32 + r19 * p.left_r33;
-    let r74 = p.left_px * r40 + p.left_py * r50 + p.left_pz * r60;
-    let r75 = p.left_px * r41 + p.left_py * r51 + p.left_pz * r61;
-    let r76 = r6 - r6 + (r22 + -0.2879 * r18) - (r22 + -0.33309 * r18);
-    let r77 = r7 - r7 + (r23 + -0.2879 * r19) - (r23 + -0.33309 * r19);
-    let r92 = r40 * known.left_c1 + (0.0 - (0.0 - r50)) * known.left_s1;
-    let r93 = r41 * known.left_c1 + (0.0 - (0.0 - r51)) * known.left_s1;
-    let r98 = r50 * known.left_c1 + (0.0 - r40) * known.left_s1;
-    let r99 = r51 * known.left_c1 + (0.0 - r41) * known.left_s1;
-    let r120 = (r60 + (r60 - r60) * known.left_c1) * known.left_c2_;
-    let r121 = (r61 + (r61 - r61) * known.left_c1) * known.left_c2_;
-    let r124 = r120 + (0.0 - (0.0 - r92)) * known.left_s2_;
-    let r125 = r121 + (0.0 - (0.0 - r93)) * known.left_s2_;
-    let r126 = r98 + (r98 - r98) * known.left_c2_;
-    let r127 = r99 + (r99 - r99) * known.left_c2_;
-    let r142 = r126 * known.left_c3_ + (0.0 - (0.0 - r124)) * known.left_s3_;
-    let r143 = r127 * known.left_c3_ + (0.0 - (0.0 - r125)) * known.left_s3_;
-    let r148 = r124 * known.left_c3_ + (0.0 - r126) * known.left_s3_;
-    let r149 = r125 * known.left_c3_ + (0.0 - r127) * known.left_s3_;
-    let r162 = 0.0 - (0.05 * r142 + -0.085 * r148 - (r76 + r74));
-    let r163 = 0.0 - (0.05 * r143 + -0.085 * r149 - (r77 + r75));
-    let r322 = 0.0 - r163;
-    let r323 = 0.0 - (-0.1 - (0.0 - (-0.185 * r1 - r6)));
-    let r324 = 0.0 - (0.0 - (0.0 - (-0.185 * r3 - -0.2879 * r3)));
-    let r325 = 5.0 * p.magnitude;
-    let r329 = r325 + r325 + r325 + 1.29679 + 7.425;
-    let r331 = f64::abs(r329);
-    let r332 = f64::abs(0.0 - r329);
-    let shared = &Shared7 { r162, r322, r323, r324, r331, r332 };
+    let r0 = known.left_c7 * known.left_s9;
+    let r1 = known.left_s7 * known.left_s9;
+    let r2 = known.left_c7 * known.left_c9;
+    let r3 = known.left_s7 * known.left_c9;
+    let r23 = p.left_r11 * known.left_s7 - p.left_r12 * r0 - p.left_r13 * r2;
+    let r26 = p.left_r13 * r3 + (p.left_r11 * known.left_c7 + p.left_r12 * r1);
+    let r29 = p.left_r21 * known.left_s7 - p.left_r22 * r0 - p.left_r23 * r2;
+    let r32 = p.left_r23 * r3 + (p.left_r21 * known.left_c7 + p.left_r22 * r1);
+    let r35 = p.left_r31 * known.left_s7 - p.left_r32 * r0 - p.left_r33 * r2;
+    let r38 = p.left_r33 * r3 + (p.left_r31 * known.left_c7 + p.left_r32 * r1);
+    let r52 = known.left_s2_ * (known.left_c1 * r23 + known.left_s1 * r29);
+    let r53 = known.left_s2_ * (known.left_c1 * r26 + known.left_s1 * r32);
+    let r54 = known.left_c1 * r29 - known.left_s1 * r23;
+    let r56 = known.left_c1 * r32 - known.left_s1 * r26;
+    let r58 = known.left_c2_ * r35 + r52;
+    let r60 = known.left_c2_ * r38 + r53;
+    let r68 = 0.05 * (known.left_c3_ * r54) + 0.05 * (known.left_s3_ * r58);
+    let r72 = r68 - 0.085 * (known.left_c3_ * r58) + 0.085 * (known.left_s3_ * r54);
+    let r76 = r72 + 0.04519 * r2 - p.left_px * r23 - p.left_py * r29;
+    let r77 = p.left_pz * r35 - r76;
+    let r80 = 0.05 * (known.left_c3_ * r56) + 0.05 * (known.left_s3_ * r60);
+    let r84 = r80 - 0.085 * (known.left_c3_ * r60) + 0.085 * (known.left_s3_ * r56);
+    let r88 = r84 - 0.04519 * r3 - p.left_px * r26 - p.left_py * r32;
+    let r89 = r88 - p.left_pz * r38;
+    let r91 = 0.1029 * known.left_c7 + 0.1;
+    let r92 = 0.1029 * known.left_s7;
+    let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
+    let shared = &Shared7 { r77, r89, r91, r92, r95 };
     chart_7_1(p, known, shared, answers);
     chart_7_2(p, known, shared, answers);
 }
 
 /// What the charts of block 7 share.
 struct Shared7 {
-    r162: f64,
-    r322: f64,
-    r323: f64,
-    r324: f64,
-    r331: f64,
-    r332: f64,
+    r77: f64,
+    r89: f64,
+    r91: f64,
+    r92: f64,
+    r95: f64,
 }
 
 /// Chart 1 of block 7: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r335 = shared.r162 * shared.r162 + shared.r322 * shared.r322;
-    let r338 = shared.r331 * shared.r331 + shared.r332 * shared.r332;
-    if !is_away(r335, 10000.0 * r338) {
+    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
+    let r99 = shared.r95 * shared.r95;
+    if !is_away(r98, 10000.0 * (r99 + r99)) {
         return;
     }
-    let r342 = shared.r322 * shared.r323 - shared.r162 * shared.r324;
-    let r344 = (0.0 - r342) / r335;
-    let r348 = 0.0 - shared.r162 * shared.r323 - shared.r322 * shared.r324;
-    let r350 = (0.0 - r348) / r335;
-    let r354 = f64::max(r350 * r350 + r344 * r344, 0.0).sqrt();
-    let left_c8 = r350 / r354;
-    let left_s8 = r344 / r354;
+    let r104 = shared.r77 * shared.r92 - shared.r89 * shared.r91;
+    let r105 = r104 / r98;
+    let r109 = shared.r89 * shared.r92 - (0.0 - shared.r77 * shared.r91);
+    let r110 = r109 / r98;
+    let r114 = f64::max(r110 * r110 + r105 * r105, 0.0).sqrt();
+    let left_c8 = r110 / r114;
+    let left_s8 = r105 / r114;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, left_c8, left_s8, ..*known };
     block_8(p, &next, answers);
 }
@@ -1490,9 +1299,9 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
 fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r335 = shared.r162 * shared.r162 + shared.r322 * shared.r322;
-    let r338 = shared.r331 * shared.r331 + shared.r332 * shared.r332;
-    if !(is_near(r335, 1.0000000000000001e-7 * r338) && is_near(shared.r324, 0.004729) && is_near(shared.r323, 0.011129)) {
+    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
+    let r99 = shared.r95 * shared.r95;
+    if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared.r92, 0.004729) && is_near(shared.r91, 0.011129)) {
         return;
     }
     for [left_c8, left_s8] in SAMPLES_1 {
@@ -1503,150 +1312,128 @@ fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
 
 /// Block 8: HipRoll.
 fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - known.left_s9;
-    let r4 = known.left_c9 * p.left_r12 + r1 * p.left_r13;
-    let r7 = known.left_c9 * p.left_r22 + r1 * p.left_r23;
-    let r10 = known.left_c9 * p.left_r32 + r1 * p.left_r33;
-    let r17 = r4 * known.left_c1 + (0.0 - (0.0 - r7)) * known.left_s1;
-    let r20 = r7 * known.left_c1 + (0.0 - r4) * known.left_s1;
-    let r22 = r10 + (r10 - r10) * known.left_c1;
-    let r29 = r17 * known.left_c2_ + (0.0 - r22) * known.left_s2_;
-    let r33 = r22 * known.left_c2_ + (0.0 - (0.0 - r17)) * known.left_s2_;
-    let r34 = r20 + (r20 - r20) * known.left_c2_;
-    let r42 = r34 * known.left_c3_ + (0.0 - (0.0 - r33)) * known.left_s3_;
-    let r45 = r33 * known.left_c3_ + (0.0 - r34) * known.left_s3_;
-    let r49 = 0.5 * r42 + -0.5 * r45;
-    let r50 = 0.0 - r49;
-    let r57 = 0.0 - (0.0 - (r29 + (r29 - r29) * known.left_c3_));
-    let r62 = r57 * (0.7071067811865475 * known.left_s4);
-    let r68 = 0.0 - (r50 + ((r45 - r50) * known.left_c4 + r62));
-    let r69 = 0.0 - (r49 + ((r42 - r49) * known.left_c4 + r62));
-    let r71 = 0.0 - r68;
-    let r72 = 0.0 - (0.0 - r69);
-    let shared = &Shared8 { r71, r72 };
+    let r6 = p.left_r12 * known.left_c9 - p.left_r13 * known.left_s9;
+    let r8 = p.left_r22 * known.left_c9 - p.left_r23 * known.left_s9;
+    let r12 = known.left_c1 * r6 + known.left_s1 * r8;
+    let r14 = p.left_r32 * known.left_c9 - p.left_r33 * known.left_s9;
+    let r18 = known.left_c1 * r8 - known.left_s1 * r6;
+    let r19 = known.left_c3_ * r18;
+    let r20 = known.left_c2_ * r14 + known.left_s2_ * r12;
+    let r21 = known.left_s3_ * r20;
+    let r22 = known.left_c3_ * r20;
+    let r23 = known.left_s3_ * r18;
+    let r32 = known.left_s4 * (known.left_c2_ * r12 - known.left_s2_ * r14);
+    let r40 = 0.5 * r19 + 0.5 * r21 - 0.5 * r22 + 0.5 * r23;
+    let r41 = 0.5 * (known.left_c4 * (r21 + (r19 + (r22 - r23))));
+    let r43 = 0.7071067811865475 * r32;
+    let r44 = r43 - (r40 - r41);
+    let r45 = 0.5 * (known.left_c4 * (r22 + (r19 + r21) - r23));
+    let r47 = r43 + (r40 + r45);
+    let shared = &Shared8 { r44, r47 };
     chart_8_1(p, known, shared, answers);
 }
 
 /// What the charts of block 8 share.
 struct Shared8 {
-    r71: f64,
-    r72: f64,
+    r44: f64,
+    r47: f64,
 }
 
 /// Chart 1 of block 8: generic.
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r74 = 0.0 - (0.0 - shared.r71);
-    let r77 = 0.0 - (-0.0 - (0.0 - shared.r72));
-    let r81 = f64::max(r77 * r77 + r74 * r74, 0.0).sqrt();
-    let left_c5 = r77 / r81;
-    let left_s5 = r74 / r81;
+    let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44;
+    let r51 = f64::max(r50, 0.0).sqrt();
+    let left_c5 = shared.r47 / r51;
+    let left_s5 = shared.r44 / r51;
     let next = Known { branch: known.branch, last: known.last, left_c5, left_s5, ..*known };
     block_9(p, &next, answers);
 }
 
 /// Block 9: HipPitch.
 fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s4;
-    let r1 = -0.1029 * known.left_s8;
-    let r4 = 0.1029 * known.left_c8 - 0.2879 + 0.2879;
-    let r11 = r1 + (r1 - r1) * known.left_c9;
-    let r14 = (0.0 - (0.0 - r4)) * known.left_s9 + 0.05 - 0.05;
-    let r15 = r4 * known.left_c9 - 0.2879 + 0.33309;
-    let r20 = r11 * p.left_r11 + r14 * p.left_r12 + r15 * p.left_r13;
-    let r25 = r11 * p.left_r21 + r14 * p.left_r22 + r15 * p.left_r23;
-    let r30 = r11 * p.left_r31 + r14 * p.left_r32 + r15 * p.left_r33;
-    let r31 = p.left_px + r20;
-    let r32 = p.left_py + r25;
-    let r33 = p.left_pz + r30;
-    let r40 = r31 * known.left_c1 + (0.0 - (0.0 - r32)) * known.left_s1;
-    let r43 = r32 * known.left_c1 + (0.0 - r31) * known.left_s1;
-    let r45 = r33 + (r33 - r33) * known.left_c1;
-    let r52 = r40 * known.left_c2_ + (0.0 - r45) * known.left_s2_;
-    let r56 = r45 * known.left_c2_ + (0.0 - (0.0 - r40)) * known.left_s2_;
-    let r57 = r43 + (r43 - r43) * known.left_c2_;
-    let r65 = r57 * known.left_c3_ + (0.0 - (0.0 - r56)) * known.left_s3_;
-    let r68 = r56 * known.left_c3_ + (0.0 - r57) * known.left_s3_;
-    let r83 = (r52 + (r52 - r52) * known.left_c3_) * known.left_c4;
-    let r84 = (0.0 - (r68 + 0.085 - (0.0 - (r65 - 0.05)))) * r0;
-    let r96 = 0.0 - known.left_c7;
-    let r97 = 0.0 - known.left_s7;
-    let r103 = r96 * known.left_c8 + (0.0 - r97) * known.left_s8;
-    let r106 = r97 * known.left_c8 + (0.0 - (0.0 - r96)) * known.left_s8;
-    let r111 = (0.0 - (0.0 - r106)) * known.left_s9;
-    let r112 = r106 * known.left_c9;
-    let r113 = r103 + (r103 - r103) * known.left_c9;
-    let r118 = r113 * p.left_r11 + r111 * p.left_r12 + r112 * p.left_r13;
-    let r123 = r113 * p.left_r21 + r111 * p.left_r22 + r112 * p.left_r23;
-    let r128 = r113 * p.left_r31 + r111 * p.left_r32 + r112 * p.left_r33;
-    let r135 = r118 * known.left_c1 + (0.0 - (0.0 - r123)) * known.left_s1;
-    let r138 = r123 * known.left_c1 + (0.0 - r118) * known.left_s1;
-    let r140 = r128 + (r128 - r128) * known.left_c1;
-    let r147 = r135 * known.left_c2_ + (0.0 - r140) * known.left_s2_;
-    let r151 = r140 * known.left_c2_ + (0.0 - (0.0 - r135)) * known.left_s2_;
-    let r152 = r138 + (r138 - r138) * known.left_c2_;
-    let r160 = r152 * known.left_c3_ + (0.0 - (0.0 - r151)) * known.left_s3_;
-    let r163 = r151 * known.left_c3_ + (0.0 - r152) * known.left_s3_;
-    let r176 = (r147 + (r147 - r147) * known.left_c3_) * known.left_c4;
-    let r186 = 0.0 - (r176 + (0.0 - (r163 - (0.0 - r160))) * r0);
-    let r187 = 0.0 - (0.0 - (r83 + r84));
-    let r188 = 0.1 * r186;
-    let shared = &Shared9 { r187, r188 };
+    let r0 = known.left_c8 * known.left_s9;
+    let r5 = 0.1029 * (known.left_c8 * known.left_c9) + 0.04519;
+    let r14 = p.left_px - 0.1029 * (p.left_r11 * known.left_s8);
+    let r17 = p.left_r13 * r5 + (r14 + 0.1029 * (p.left_r12 * r0));
+    let r20 = p.left_py - 0.1029 * (p.left_r21 * known.left_s8);
+    let r23 = p.left_r23 * r5 + (r20 + 0.1029 * (p.left_r22 * r0));
+    let r27 = known.left_c1 * r17 + known.left_s1 * r23;
+    let r30 = p.left_pz - 0.1029 * (p.left_r31 * known.left_s8);
+    let r33 = p.left_r33 * r5 + (r30 + 0.1029 * (p.left_r32 * r0));
+    let r37 = known.left_c1 * r23 - known.left_s1 * r17;
+    let r39 = known.left_c2_ * r33 + known.left_s2_ * r27;
+    let r44 = known.left_c4 * (known.left_c2_ * r27 - known.left_s2_ * r33);
+    let r46 = known.left_c3_ * r37 + (known.left_c3_ * r39 - known.left_s3_ * r37);
+    let r49 = known.left_s4 * (known.left_s3_ * r39 + r46 + 0.035);
+    let r54 = known.left_s7 * known.left_c8 + known.left_c7 * known.left_s8;
+    let r55 = known.left_s9 * r54;
+    let r56 = known.left_c9 * r54;
+    let r57 = known.left_c7 * known.left_c8 - known.left_s7 * known.left_s8;
+    let r68 = p.left_r13 * r56 + (p.left_r11 * r57 + p.left_r12 * r55);
+    let r71 = p.left_r23 * r56 + (p.left_r21 * r57 + p.left_r22 * r55);
+    let r75 = known.left_c1 * r68 + known.left_s1 * r71;
+    let r78 = p.left_r33 * r56 + (p.left_r31 * r57 + p.left_r32 * r55);
+    let r82 = known.left_c1 * r71 - known.left_s1 * r68;
+    let r84 = known.left_c2_ * r78 + known.left_s2_ * r75;
+    let r89 = known.left_c4 * (known.left_c2_ * r75 - known.left_s2_ * r78);
+    let r91 = known.left_c3_ * r82 + (known.left_c3_ * r84 - known.left_s3_ * r82);
+    let r95 = r44 - 0.7071067811865475 * r49;
+    let r97 = 0.07071067811865475 * (known.left_s4 * (known.left_s3_ * r84 + r91));
+    let r98 = 0.1 * r89 - r97;
+    let shared = &Shared9 { r95, r98 };
     chart_9_1(p, known, shared, answers);
 }
 
 /// What the charts of block 9 share.
 struct Shared9 {
-    r187: f64,
-    r188: f64,
+    r95: f64,
+    r98: f64,
 }
 
 /// Chart 1 of block 9: generic.
 fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
-    let r219 = (0.0 - 0.1 * shared.r187) / 0.010000000000000002;
-    let r223 = (0.0 - (-0.0 - 0.1 * shared.r188)) / 0.010000000000000002;
-    let r227 = f64::max(r223 * r223 + r219 * r219, 0.0).sqrt();
-    let left_c6 = r223 / r227;
-    let left_s6 = r219 / r227;
+    let r100 = 0.1 * shared.r95 / 0.010000000000000002;
+    let r102 = 0.1 * shared.r98 / 0.010000000000000002;
+    let r106 = f64::max(r102 * r102 + r100 * r100, 0.0).sqrt();
+    let left_c6 = r102 / r106;
+    let left_s6 = 0.0 - r100 / r106;
     let next = Known { branch: known.branch, last: known.last, left_c6, left_s6, ..*known };
     block_10(p, &next, answers);
 }
 
 /// Block 10: KneePitch.
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.right_px + 0.04519 * p.right_r13;
-    let r5 = p.right_py + 0.04519 * p.right_r23;
-    let r6 = p.right_pz + 0.04519 * p.right_r33;
-    let r11 = p.right_px * r4 + p.right_py * r5 + p.right_pz * r6;
-    let r16 = p.right_px * p.right_px + p.right_py * p.right_py;
-    let r19 = r11 + r11 - (r16 + p.right_pz * p.right_pz) + 0.0020421361;
-    let r26 = r4 * known.left_c1 + (0.0 - (0.0 - r5)) * known.left_s1;
-    let r29 = r5 * known.left_c1 + (0.0 - r4) * known.left_s1;
-    let r40 = (r6 + (r6 - r6) * known.left_c1) * known.left_c2_;
-    let r42 = r40 + (0.0 - (0.0 - r26)) * known.left_s2_;
-    let r43 = r29 + (r29 - r29) * known.left_c2_;
-    let r51 = r43 * known.left_c3_ + (0.0 - (0.0 - r42)) * known.left_s3_;
-    let r54 = r42 * known.left_c3_ + (0.0 - r43) * known.left_s3_;
-    let r61 = -0.05 * (-0.05 - r51) + -0.085 * (-0.085 - r54);
-    let r67 = 0.02058841 - (r19 + r61 - (-0.05 * r51 + -0.085 * r54));
-    let shared = &Shared10 { r67 };
+    let r1 = p.right_px + 0.04519 * p.right_r13;
+    let r4 = p.right_py + 0.04519 * p.right_r23;
+    let r7 = p.right_pz + 0.04519 * p.right_r33;
+    let r18 = known.left_s2_ * (known.left_c1 * r1 + known.left_s1 * r4);
+    let r19 = known.left_c1 * r4 - known.left_s1 * r1;
+    let r21 = known.left_c2_ * r7 + r18;
+    let r27 = 2.0 * (p.right_px * r1) + 2.0 * (p.right_py * r4);
+    let r30 = r27 + 2.0 * (p.right_pz * r7) - p.right_px * p.right_px;
+    let r32 = r30 - p.right_py * p.right_py - p.right_pz * p.right_pz;
+    let r36 = r32 + 0.1 * (known.left_c3_ * r19) + 0.1 * (known.left_s3_ * r21);
+    let r40 = r36 + 0.17 * (known.left_c3_ * r21) - 0.17 * (known.left_s3_ * r19);
+    let r41 = 0.0088212739 - r40;
+    let shared = &Shared10 { r41 };
     chart_10_1(p, known, shared, answers);
 }
 
 /// What the charts of block 10 share.
 struct Shared10 {
-    r67: f64,
+    r41: f64,
 }
 
 /// Chart 1 of block 10: generic.
 fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r69 = shared.r67 * shared.r67 - 0.00042353640000000005;
-    let roots0 = real_roots(&[r69, 0.0, 1.0], 1.4142135623730951);
+    let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
+    let roots0 = real_roots(&[r43, 0.0, 1.0], 1.4142135623730951);
     for (i0, &right_w7) in roots0.as_slice().iter().enumerate() {
-        let r73 = (0.0 - (0.0 - 0.02058 * right_w7)) / 0.00042353640000000005;
-        let r76 = (0.0 - 0.02058 * shared.r67) / 0.00042353640000000005;
-        let r80 = f64::max(r76 * r76 + r73 * r73, 0.0).sqrt();
-        let right_c7 = r76 / r80;
-        let right_s7 = r73 / r80;
+        let r45 = 0.02058 * right_w7 / 0.00042353640000000005;
+        let r47 = 0.02058 * shared.r41 / 0.00042353640000000005;
+        let r51 = f64::max(r47 * r47 + r45 * r45, 0.0).sqrt();
+        let right_c7 = 0.0 - r47 / r51;
+        let right_s7 = r45 / r51;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, right_c7, right_s7, ..*known };
         block_11(p, &next, answers);
     }
@@ -1654,45 +1441,42 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 
 /// Block 11: AnkleRoll.
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s4;
-    let r1 = 0.0 - p.right_r13;
-    let r2 = 0.0 - p.right_r23;
-    let r3 = 0.0 - p.right_r33;
-    let r10 = p.right_px * p.right_r12 + p.right_py * p.right_r22;
-    let r13 = p.right_px * r1 + p.right_py * r2 + p.right_pz * r3;
-    let r27 = p.right_r12 * known.left_c1 + (0.0 - (0.0 - p.right_r22)) * known.left_s1;
-    let r28 = r1 * known.left_c1 + (0.0 - (0.0 - r2)) * known.left_s1;
-    let r33 = p.right_r22 * known.left_c1 + (0.0 - p.right_r12) * known.left_s1;
-    let r34 = r2 * known.left_c1 + (0.0 - r1) * known.left_s1;
-    let r37 = p.right_r32 + (p.right_r32 - p.right_r32) * known.left_c1;
-    let r38 = r3 + (r3 - r3) * known.left_c1;
-    let r51 = r27 * known.left_c2_ + (0.0 - r37) * known.left_s2_;
-    let r52 = r28 * known.left_c2_ + (0.0 - r38) * known.left_s2_;
-    let r59 = r37 * known.left_c2_ + (0.0 - (0.0 - r27)) * known.left_s2_;
-    let r60 = r38 * known.left_c2_ + (0.0 - (0.0 - r28)) * known.left_s2_;
-    let r61 = r33 + (r33 - r33) * known.left_c2_;
-    let r62 = r34 + (r34 - r34) * known.left_c2_;
-    let r77 = r61 * known.left_c3_ + (0.0 - (0.0 - r59)) * known.left_s3_;
-    let r78 = r62 * known.left_c3_ + (0.0 - (0.0 - r60)) * known.left_s3_;
-    let r83 = r59 * known.left_c3_ + (0.0 - r61) * known.left_s3_;
-    let r84 = r60 * known.left_c3_ + (0.0 - r62) * known.left_s3_;
-    let r93 = -0.05 * r77 + -0.085 * r83 - (r10 + p.right_pz * p.right_r32);
-    let r95 = 0.0 - r93;
-    let r96 = 0.0 - (-0.05 * r78 + -0.085 * r84 - (r13 - 0.04519));
-    let r115 = (r51 + (r51 - r51) * known.left_c3_) * known.left_c4;
-    let r116 = (r52 + (r52 - r52) * known.left_c3_) * known.left_c4;
-    let r137 = 0.0 - (r115 + (0.0 - (r83 - r77)) * r0);
-    let r138 = 0.0 - (r116 + (0.0 - (r84 - r78)) * r0);
-    let r140 = p.magnitude + p.magnitude + p.magnitude;
-    let r145 = f64::abs(r140 + 0.1 + 1.485);
-    let r146 = f64::abs(r140 + 0.62099 + 1.485);
-    let r147 = r95 * r138;
-    let r148 = r96 * r137;
-    let r149 = r147 - r148;
-    let r150 = 37.0 * r145;
-    let r151 = 37.0 * r146;
-    let r153 = 0.001 * (r150 + r151);
-    let shared = &Shared11 { r95, r96, r137, r138, r145, r146, r147, r148, r149, r150, r151, r153 };
+    let r14 = p.right_r12 * known.left_c1 + p.right_r22 * known.left_s1;
+    let r16 = p.right_r13 * known.left_c1 + p.right_r23 * known.left_s1;
+    let r24 = p.right_r22 * known.left_c1 - p.right_r12 * known.left_s1;
+    let r25 = known.left_c3_ * r24;
+    let r26 = p.right_r23 * known.left_c1 - p.right_r13 * known.left_s1;
+    let r27 = known.left_c3_ * r26;
+    let r28 = p.right_r32 * known.left_c2_ + known.left_s2_ * r14;
+    let r29 = known.left_s3_ * r28;
+    let r30 = p.right_r33 * known.left_c2_ + known.left_s2_ * r16;
+    let r31 = known.left_s3_ * r30;
+    let r32 = known.left_c3_ * r28;
+    let r33 = known.left_c3_ * r30;
+    let r34 = known.left_s3_ * r24;
+    let r35 = known.left_s3_ * r26;
+    let r36 = known.left_c2_ * r14 - p.right_r32 * known.left_s2_;
+    let r38 = known.left_c2_ * r16 - p.right_r33 * known.left_s2_;
+    let r54 = 0.05 * r25 + 0.05 * r29 + 0.085 * r32 - 0.085 * r34;
+    let r56 = p.right_py * p.right_r22 + (p.right_px * p.right_r12 + r54);
+    let r57 = p.right_pz * p.right_r32 + r56;
+    let r64 = 0.05 * r27 + 0.05 * r31 + 0.085 * r33 - 0.085 * r35;
+    let r66 = p.right_py * p.right_r23 + (p.right_px * p.right_r13 + r64);
+    let r68 = p.right_pz * p.right_r33 + r66 + 0.04519;
+    let r69 = 0.7071067811865475 * (known.left_s4 * (r32 - r34 - r25 - r29));
+    let r70 = r69 - known.left_c4 * r36;
+    let r71 = 0.7071067811865475 * (known.left_s4 * (r33 - r35 - r27 - r31));
+    let r72 = known.left_c4 * r38 - r71;
+    let r73 = 3.0 * p.magnitude;
+    let r76 = f64::abs(r73 + 1.585);
+    let r77 = f64::abs(r73 + 2.10599);
+    let r78 = r57 * r72;
+    let r79 = r68 * r70;
+    let r80 = 0.0 - r79;
+    let r81 = r78 + r79;
+    let r84 = 37.0 * r76 + 37.0 * r77;
+    let r85 = 0.001 * r84;
+    let shared = &Shared11 { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 };
     chart_11_1(p, known, shared, answers);
     chart_11_2(p, known, shared, answers);
     chart_11_3(p, known, shared, answers);
@@ -1702,32 +1486,27 @@ fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 11 share.
 struct Shared11 {
-    r95: f64,
-    r96: f64,
-    r137: f64,
-    r138: f64,
-    r145: f64,
-    r146: f64,
-    r147: f64,
-    r148: f64,
-    r149: f64,
-    r150: f64,
-    r151: f64,
-    r153: f64,
+    r57: f64,
+    r68: f64,
+    r70: f64,
+    r72: f64,
+    r76: f64,
+    r77: f64,
+    r78: f64,
+    r80: f64,
+    r81: f64,
+    r84: f64,
+    r85: f64,
 }
 
 /// Chart 1 of block 11: generic.
 /// It runs where B*E - A*F is not zero.
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r154 = shared.r148 - shared.r147;
-    if !is_away(r154, 10000.0 * (shared.r151 + shared.r150)) {
+    if !is_away(shared.r80 - shared.r78, 10000.0 * shared.r84) {
         return;
     }
-    let r157 = -0.0 / r154;
-    let r158 = r157 * r157;
-    let r161 = r157 / f64::max(r158 + r158, 0.0).sqrt();
-    let right_c9 = r161;
-    let right_s9 = r161;
+    let right_c9 = -0.0;
+    let right_s9 = -0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, right_c9, right_s9, ..*known };
     block_12(p, &next, answers);
 }
@@ -1735,20 +1514,20 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// Chart 2 of block 11: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r154 = shared.r95 * shared.r95;
-    let r155 = shared.r96 * shared.r96;
-    let r156 = r154 + r155;
-    let r159 = shared.r145 * shared.r145 + shared.r146 * shared.r146;
-    if !(is_near(shared.r149, shared.r153) && is_away(r156, 10000.0 * r159)) {
+    let r86 = shared.r57 * shared.r57;
+    let r87 = shared.r68 * shared.r68;
+    let r88 = r86 + r87;
+    let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
+    if !(is_near(shared.r81, shared.r85) && is_away(r88, 10000.0 * r91)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r154 - r155, 0.0, 1.0], f64::max(r159, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r86 - r87, 0.0, 1.0], f64::max(r91, 0.0).sqrt());
     for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r167 = (0.0 - (0.0 - shared.r95 * right_w9)) / r156;
-        let r170 = (0.0 - shared.r96 * right_w9) / r156;
-        let r174 = f64::max(r170 * r170 + r167 * r167, 0.0).sqrt();
-        let right_c9 = r170 / r174;
-        let right_s9 = r167 / r174;
+        let r97 = right_w9 * shared.r57 / r88;
+        let r99 = right_w9 * shared.r68 / r88;
+        let r103 = f64::max(r99 * r99 + r97 * r97, 0.0).sqrt();
+        let right_c9 = r99 / r103;
+        let right_s9 = r97 / r103;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, right_c9, right_s9, ..*known };
         block_12(p, &next, answers);
     }
@@ -1758,9 +1537,9 @@ fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
 fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r156 = shared.r95 * shared.r95 + shared.r96 * shared.r96;
-    let r159 = shared.r145 * shared.r145 + shared.r146 * shared.r146;
-    if !(is_near(shared.r149, shared.r153) && is_near(r156, 1.0000000000000001e-7 * r159)) {
+    let r88 = shared.r57 * shared.r57 + shared.r68 * shared.r68;
+    let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
+    if !(is_near(shared.r81, shared.r85) && is_near(r88, 1.0000000000000001e-7 * r91)) {
         return;
     }
     for [right_c9, right_s9] in SAMPLES_1 {
@@ -1772,19 +1551,19 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// Chart 4 of block 11: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r154 = shared.r137 * shared.r137;
-    let r155 = shared.r138 * shared.r138;
-    let r156 = r154 + r155;
-    if !(is_near(shared.r149, shared.r153) && is_away(r156, 27380000.0)) {
+    let r86 = shared.r70 * shared.r70;
+    let r87 = shared.r72 * shared.r72;
+    let r88 = r86 + r87;
+    if !(is_near(shared.r81, shared.r85) && is_away(r88, 27380000.0)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r154 - r155, 0.0, 1.0], 52.32590180780452);
+    let roots0 = real_roots(&[0.0 - r86 - r87, 0.0, 1.0], 52.32590180780452);
     for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r162 = (0.0 - (0.0 - shared.r137 * right_w9)) / r156;
-        let r165 = (0.0 - shared.r138 * right_w9) / r156;
-        let r169 = f64::max(r165 * r165 + r162 * r162, 0.0).sqrt();
-        let right_c9 = r165 / r169;
-        let right_s9 = r162 / r169;
+        let r92 = right_w9 * shared.r70 / r88;
+        let r94 = right_w9 * shared.r72 / r88;
+        let r98 = f64::max(r94 * r94 + r92 * r92, 0.0).sqrt();
+        let right_c9 = 0.0 - r94 / r98;
+        let right_s9 = r92 / r98;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, right_c9, right_s9, ..*known };
         block_12(p, &next, answers);
     }
@@ -1794,8 +1573,8 @@ fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
 fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r156 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r149, shared.r153) && is_near(r156, 0.00027380000000000004)) {
+    let r88 = shared.r70 * shared.r70 + shared.r72 * shared.r72;
+    if !(is_near(shared.r81, shared.r85) && is_near(r88, 0.00027380000000000004)) {
         return;
     }
     for [right_c9, right_s9] in SAMPLES_1 {
@@ -1806,84 +1585,68 @@ fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 
 /// Block 12: AnklePitch.
 fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - known.right_c7;
-    let r3 = 0.0 - known.right_s7;
-    let r4 = 0.0 - r1;
-    let r5 = 0.0 - r3;
-    let r6 = -0.2879 * r1;
-    let r7 = -0.2879 * r5;
-    let r14 = (known.right_s7 - known.right_s7) * known.right_c9;
-    let r16 = (0.0 - r4) * known.right_s9;
-    let r17 = (0.0 - (0.0 - r5)) * known.right_s9;
-    let r18 = r1 * known.right_c9;
-    let r19 = r5 * known.right_c9;
-    let r20 = known.right_s7 + r14;
-    let r21 = r4 + (r4 - r4) * known.right_c9;
-    let r22 = -0.05 * r16;
-    let r23 = -0.05 * r17;
-    let r40 = r20 * p.right_r11 + r16 * p.right_r12 + r18 * p.right_r13;
-    let r41 = r21 * p.right_r11 + r17 * p.right_r12 + r19 * p.right_r13;
-    let r50 = r20 * p.right_r21 + r16 * p.right_r22 + r18 * p.right_r23;
-    let r51 = r21 * p.right_r21 + r17 * p.right_r22 + r19 * p.right_r23;
-    let r60 = r20 * p.right_r31 + r16 * p.right_r32 + r18 * p.right_r33;
-    let r61 = r21 * p.right_r31 + r17 * p.right_r32 + r19 * p.right_r33;
-    let r74 = p.right_px * r40 + p.right_py * r50 + p.right_pz * r60;
-    let r75 = p.right_px * r41 + p.right_py * r51 + p.right_pz * r61;
-    let r76 = r6 - r6 + (r22 + -0.2879 * r18) - (r22 + -0.33309 * r18);
-    let r77 = r7 - r7 + (r23 + -0.2879 * r19) - (r23 + -0.33309 * r19);
-    let r92 = r40 * known.left_c1 + (0.0 - (0.0 - r50)) * known.left_s1;
-    let r93 = r41 * known.left_c1 + (0.0 - (0.0 - r51)) * known.left_s1;
-    let r98 = r50 * known.left_c1 + (0.0 - r40) * known.left_s1;
-    let r99 = r51 * known.left_c1 + (0.0 - r41) * known.left_s1;
-    let r120 = (r60 + (r60 - r60) * known.left_c1) * known.left_c2_;
-    let r121 = (r61 + (r61 - r61) * known.left_c1) * known.left_c2_;
-    let r124 = r120 + (0.0 - (0.0 - r92)) * known.left_s2_;
-    let r125 = r121 + (0.0 - (0.0 - r93)) * known.left_s2_;
-    let r126 = r98 + (r98 - r98) * known.left_c2_;
-    let r127 = r99 + (r99 - r99) * known.left_c2_;
-    let r142 = r126 * known.left_c3_ + (0.0 - (0.0 - r124)) * known.left_s3_;
-    let r143 = r127 * known.left_c3_ + (0.0 - (0.0 - r125)) * known.left_s3_;
-    let r148 = r124 * known.left_c3_ + (0.0 - r126) * known.left_s3_;
-    let r149 = r125 * known.left_c3_ + (0.0 - r127) * known.left_s3_;
-    let r162 = 0.0 - (-0.05 * r142 + -0.085 * r148 - (r76 + r74));
-    let r163 = 0.0 - (-0.05 * r143 + -0.085 * r149 - (r77 + r75));
-    let r322 = 0.0 - r163;
-    let r323 = 0.0 - (-0.1 - (0.0 - (-0.185 * r1 - r6)));
-    let r324 = 0.0 - (0.0 - (0.0 - (-0.185 * r3 - -0.2879 * r3)));
-    let r325 = 5.0 * p.magnitude;
-    let r329 = r325 + r325 + r325 + 1.29679 + 7.425;
-    let r331 = f64::abs(r329);
-    let r332 = f64::abs(0.0 - r329);
-    let shared = &Shared12 { r162, r322, r323, r324, r331, r332 };
+    let r0 = known.right_c7 * known.right_s9;
+    let r1 = known.right_s7 * known.right_s9;
+    let r2 = known.right_c7 * known.right_c9;
+    let r3 = known.right_s7 * known.right_c9;
+    let r22 = p.right_r11 * known.right_s7 - p.right_r12 * r0;
+    let r23 = r22 - p.right_r13 * r2;
+    let r25 = p.right_r11 * known.right_c7 + p.right_r12 * r1;
+    let r26 = p.right_r13 * r3 + r25;
+    let r28 = p.right_r21 * known.right_s7 - p.right_r22 * r0;
+    let r29 = r28 - p.right_r23 * r2;
+    let r31 = p.right_r21 * known.right_c7 + p.right_r22 * r1;
+    let r32 = p.right_r23 * r3 + r31;
+    let r34 = p.right_r31 * known.right_s7 - p.right_r32 * r0;
+    let r35 = r34 - p.right_r33 * r2;
+    let r37 = p.right_r31 * known.right_c7 + p.right_r32 * r1;
+    let r38 = p.right_r33 * r3 + r37;
+    let r52 = known.left_s2_ * (known.left_c1 * r23 + known.left_s1 * r29);
+    let r53 = known.left_s2_ * (known.left_c1 * r26 + known.left_s1 * r32);
+    let r54 = known.left_c1 * r29 - known.left_s1 * r23;
+    let r56 = known.left_c1 * r32 - known.left_s1 * r26;
+    let r58 = known.left_c2_ * r35 + r52;
+    let r60 = known.left_c2_ * r38 + r53;
+    let r68 = 0.05 * (known.left_c3_ * r54) + 0.05 * (known.left_s3_ * r58);
+    let r72 = r68 + 0.085 * (known.left_c3_ * r58) - 0.085 * (known.left_s3_ * r54);
+    let r76 = p.right_py * r29 + (p.right_px * r23 + (r72 - 0.04519 * r2));
+    let r77 = p.right_pz * r35 + r76;
+    let r80 = 0.05 * (known.left_c3_ * r56) + 0.05 * (known.left_s3_ * r60);
+    let r84 = r80 + 0.085 * (known.left_c3_ * r60) - 0.085 * (known.left_s3_ * r56);
+    let r88 = p.right_py * r32 + (p.right_px * r26 + (r84 + 0.04519 * r3));
+    let r89 = p.right_pz * r38 + r88;
+    let r91 = 0.1029 * known.right_c7 + 0.1;
+    let r92 = 0.1029 * known.right_s7;
+    let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
+    let shared = &Shared12 { r77, r89, r91, r92, r95 };
     chart_12_1(p, known, shared, answers);
     chart_12_2(p, known, shared, answers);
 }
 
 /// What the charts of block 12 share.
 struct Shared12 {
-    r162: f64,
-    r322: f64,
-    r323: f64,
-    r324: f64,
-    r331: f64,
-    r332: f64,
+    r77: f64,
+    r89: f64,
+    r91: f64,
+    r92: f64,
+    r95: f64,
 }
 
 /// Chart 1 of block 12: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
-    let r335 = shared.r162 * shared.r162 + shared.r322 * shared.r322;
-    let r338 = shared.r331 * shared.r331 + shared.r332 * shared.r332;
-    if !is_away(r335, 10000.0 * r338) {
+    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
+    let r99 = shared.r95 * shared.r95;
+    if !is_away(r98, 10000.0 * (r99 + r99)) {
         return;
     }
-    let r342 = shared.r322 * shared.r323 - shared.r162 * shared.r324;
-    let r344 = (0.0 - r342) / r335;
-    let r348 = 0.0 - shared.r162 * shared.r323 - shared.r322 * shared.r324;
-    let r350 = (0.0 - r348) / r335;
-    let r354 = f64::max(r350 * r350 + r344 * r344, 0.0).sqrt();
-    let right_c8 = r350 / r354;
-    let right_s8 = r344 / r354;
+    let r105 = shared.r77 * shared.r92 - (0.0 - shared.r89 * shared.r91);
+    let r106 = r105 / r98;
+    let r109 = shared.r77 * shared.r91 - shared.r89 * shared.r92;
+    let r110 = r109 / r98;
+    let r114 = f64::max(r110 * r110 + r106 * r106, 0.0).sqrt();
+    let right_c8 = r110 / r114;
+    let right_s8 = r106 / r114;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, right_c8, right_s8, ..*known };
     block_13(p, &next, answers);
 }
@@ -1892,9 +1655,9 @@ fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_AnklePitch.
 fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
-    let r335 = shared.r162 * shared.r162 + shared.r322 * shared.r322;
-    let r338 = shared.r331 * shared.r331 + shared.r332 * shared.r332;
-    if !(is_near(r335, 1.0000000000000001e-7 * r338) && is_near(shared.r324, 0.004729) && is_near(shared.r323, 0.011129)) {
+    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
+    let r99 = shared.r95 * shared.r95;
+    if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared.r92, 0.004729) && is_near(shared.r91, 0.011129)) {
         return;
     }
     for [right_c8, right_s8] in SAMPLES_1 {
@@ -1905,108 +1668,91 @@ fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
 
 /// Block 13: HipRoll.
 fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s4;
-    let r1 = 0.0 - known.right_s9;
-    let r4 = known.right_c9 * p.right_r12 + r1 * p.right_r13;
-    let r7 = known.right_c9 * p.right_r22 + r1 * p.right_r23;
-    let r10 = known.right_c9 * p.right_r32 + r1 * p.right_r33;
-    let r17 = r4 * known.left_c1 + (0.0 - (0.0 - r7)) * known.left_s1;
-    let r20 = r7 * known.left_c1 + (0.0 - r4) * known.left_s1;
-    let r22 = r10 + (r10 - r10) * known.left_c1;
-    let r29 = r17 * known.left_c2_ + (0.0 - r22) * known.left_s2_;
-    let r33 = r22 * known.left_c2_ + (0.0 - (0.0 - r17)) * known.left_s2_;
-    let r34 = r20 + (r20 - r20) * known.left_c2_;
-    let r42 = r34 * known.left_c3_ + (0.0 - (0.0 - r33)) * known.left_s3_;
-    let r45 = r33 * known.left_c3_ + (0.0 - r34) * known.left_s3_;
-    let r49 = 0.5 * r42 + 0.5 * r45;
-    let r53 = 0.0 - (r29 + (r29 - r29) * known.left_c3_);
-    let r64 = (r45 - r49) * known.left_c4 + (0.0 - r53) * r0;
-    let r65 = r49 + ((r42 - r49) * known.left_c4 + r53 * r0);
-    let r70 = 0.0 - (0.0 - (r49 + r64));
-    let r71 = 0.0 - (0.0 - (0.0 - r65));
-    let shared = &Shared13 { r70, r71 };
+    let r6 = p.right_r12 * known.right_c9 - p.right_r13 * known.right_s9;
+    let r8 = p.right_r22 * known.right_c9 - p.right_r23 * known.right_s9;
+    let r12 = known.left_c1 * r6 + known.left_s1 * r8;
+    let r14 = p.right_r32 * known.right_c9 - p.right_r33 * known.right_s9;
+    let r18 = known.left_c1 * r8 - known.left_s1 * r6;
+    let r19 = known.left_c3_ * r18;
+    let r20 = known.left_c2_ * r14 + known.left_s2_ * r12;
+    let r21 = known.left_s3_ * r20;
+    let r22 = known.left_c3_ * r20;
+    let r23 = known.left_s3_ * r18;
+    let r32 = known.left_s4 * (known.left_c2_ * r12 - known.left_s2_ * r14);
+    let r40 = 0.5 * r19 + 0.5 * r21 + 0.5 * r22 - 0.5 * r23;
+    let r41 = 0.5 * (known.left_c4 * (r22 - r23 - r19 - r21));
+    let r43 = 0.7071067811865475 * r32;
+    let r44 = r40 + r41 + r43;
+    let r45 = 0.5 * (known.left_c4 * (r23 + (r19 + r21 - r22)));
+    let r47 = r40 + r45 - r43;
+    let shared = &Shared13 { r44, r47 };
     chart_13_1(p, known, shared, answers);
 }
 
 /// What the charts of block 13 share.
 struct Shared13 {
-    r70: f64,
-    r71: f64,
+    r44: f64,
+    r47: f64,
 }
 
 /// Chart 1 of block 13: generic.
 fn chart_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut Answers<'_>) {
-    let r73 = 0.0 - (0.0 - shared.r70);
-    let r76 = 0.0 - (-0.0 - (0.0 - shared.r71));
-    let r80 = f64::max(r76 * r76 + r73 * r73, 0.0).sqrt();
-    let right_c5 = r76 / r80;
-    let right_s5 = r73 / r80;
+    let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44;
+    let r51 = f64::max(r50, 0.0).sqrt();
+    let right_c5 = shared.r47 / r51;
+    let right_s5 = shared.r44 / r51;
     let next = Known { branch: known.branch, last: known.last, right_c5, right_s5, ..*known };
     block_14(p, &next, answers);
 }
 
 /// Block 14: HipPitch.
 fn block_14(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.left_s4;
-    let r1 = -0.1029 * known.right_s8;
-    let r4 = 0.1029 * known.right_c8 - 0.2879 + 0.2879;
-    let r11 = r1 + (r1 - r1) * known.right_c9;
-    let r14 = (0.0 - (0.0 - r4)) * known.right_s9 - 0.05 + 0.05;
-    let r15 = r4 * known.right_c9 - 0.2879 + 0.33309;
-    let r20 = r11 * p.right_r11 + r14 * p.right_r12 + r15 * p.right_r13;
-    let r25 = r11 * p.right_r21 + r14 * p.right_r22 + r15 * p.right_r23;
-    let r30 = r11 * p.right_r31 + r14 * p.right_r32 + r15 * p.right_r33;
-    let r31 = p.right_px + r20;
-    let r32 = p.right_py + r25;
-    let r33 = p.right_pz + r30;
-    let r40 = r31 * known.left_c1 + (0.0 - (0.0 - r32)) * known.left_s1;
-    let r43 = r32 * known.left_c1 + (0.0 - r31) * known.left_s1;
-    let r45 = r33 + (r33 - r33) * known.left_c1;
-    let r52 = r40 * known.left_c2_ + (0.0 - r45) * known.left_s2_;
-    let r56 = r45 * known.left_c2_ + (0.0 - (0.0 - r40)) * known.left_s2_;
-    let r57 = r43 + (r43 - r43) * known.left_c2_;
-    let r65 = r57 * known.left_c3_ + (0.0 - (0.0 - r56)) * known.left_s3_;
-    let r68 = r56 * known.left_c3_ + (0.0 - r57) * known.left_s3_;
-    let r81 = (r52 + (r52 - r52) * known.left_c3_) * known.left_c4;
-    let r83 = r81 + (0.0 - (r68 + 0.085 - (r65 + 0.05))) * r0;
-    let r95 = 0.0 - known.right_c7;
-    let r96 = 0.0 - known.right_s7;
-    let r102 = r95 * known.right_c8 + (0.0 - r96) * known.right_s8;
-    let r105 = r96 * known.right_c8 + (0.0 - (0.0 - r95)) * known.right_s8;
-    let r110 = (0.0 - (0.0 - r105)) * known.right_s9;
-    let r111 = r105 * known.right_c9;
-    let r112 = r102 + (r102 - r102) * known.right_c9;
-    let r117 = r112 * p.right_r11 + r110 * p.right_r12 + r111 * p.right_r13;
-    let r122 = r112 * p.right_r21 + r110 * p.right_r22 + r111 * p.right_r23;
-    let r127 = r112 * p.right_r31 + r110 * p.right_r32 + r111 * p.right_r33;
-    let r134 = r117 * known.left_c1 + (0.0 - (0.0 - r122)) * known.left_s1;
-    let r137 = r122 * known.left_c1 + (0.0 - r117) * known.left_s1;
-    let r139 = r127 + (r127 - r127) * known.left_c1;
-    let r146 = r134 * known.left_c2_ + (0.0 - r139) * known.left_s2_;
-    let r150 = r139 * known.left_c2_ + (0.0 - (0.0 - r134)) * known.left_s2_;
-    let r151 = r137 + (r137 - r137) * known.left_c2_;
-    let r159 = r151 * known.left_c3_ + (0.0 - (0.0 - r150)) * known.left_s3_;
-    let r162 = r150 * known.left_c3_ + (0.0 - r151) * known.left_s3_;
-    let r173 = (r146 + (r146 - r146) * known.left_c3_) * known.left_c4;
-    let r185 = 0.0 - (0.0 - r83);
-    let r186 = 0.1 * (0.0 - (r173 + (0.0 - (r162 - r159)) * r0));
-    let shared = &Shared14 { r185, r186 };
+    let r0 = known.right_c8 * known.right_s9;
+    let r5 = 0.1029 * (known.right_c8 * known.right_c9) + 0.04519;
+    let r14 = p.right_px - 0.1029 * (p.right_r11 * known.right_s8);
+    let r17 = p.right_r13 * r5 + (r14 + 0.1029 * (p.right_r12 * r0));
+    let r20 = p.right_py - 0.1029 * (p.right_r21 * known.right_s8);
+    let r23 = p.right_r23 * r5 + (r20 + 0.1029 * (p.right_r22 * r0));
+    let r27 = known.left_c1 * r17 + known.left_s1 * r23;
+    let r30 = p.right_pz - 0.1029 * (p.right_r31 * known.right_s8);
+    let r33 = p.right_r33 * r5 + (r30 + 0.1029 * (p.right_r32 * r0));
+    let r37 = known.left_c1 * r23 - known.left_s1 * r17;
+    let r39 = known.left_c2_ * r33 + known.left_s2_ * r27;
+    let r44 = known.left_c4 * (known.left_c2_ * r27 - known.left_s2_ * r33);
+    let r46 = known.left_c3_ * r39 - known.left_s3_ * r37 - known.left_c3_ * r37;
+    let r49 = known.left_s4 * (r46 - known.left_s3_ * r39 + 0.035);
+    let r54 = known.right_s7 * known.right_c8 + known.right_c7 * known.right_s8;
+    let r55 = known.right_s9 * r54;
+    let r56 = known.right_c9 * r54;
+    let r57 = known.right_c7 * known.right_c8 - known.right_s7 * known.right_s8;
+    let r68 = p.right_r13 * r56 + (p.right_r11 * r57 + p.right_r12 * r55);
+    let r71 = p.right_r23 * r56 + (p.right_r21 * r57 + p.right_r22 * r55);
+    let r75 = known.left_c1 * r68 + known.left_s1 * r71;
+    let r78 = p.right_r33 * r56 + (p.right_r31 * r57 + p.right_r32 * r55);
+    let r82 = known.left_c1 * r71 - known.left_s1 * r68;
+    let r84 = known.left_c2_ * r78 + known.left_s2_ * r75;
+    let r89 = known.left_c4 * (known.left_c2_ * r75 - known.left_s2_ * r78);
+    let r91 = known.left_c3_ * r84 - known.left_s3_ * r82 - known.left_c3_ * r82;
+    let r95 = r44 - 0.7071067811865475 * r49;
+    let r97 = 0.07071067811865475 * (known.left_s4 * (r91 - known.left_s3_ * r84));
+    let r98 = 0.1 * r89 - r97;
+    let shared = &Shared14 { r95, r98 };
     chart_14_1(p, known, shared, answers);
 }
 
 /// What the charts of block 14 share.
 struct Shared14 {
-    r185: f64,
-    r186: f64,
+    r95: f64,
+    r98: f64,
 }
 
 /// Chart 1 of block 14: generic.
 fn chart_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut Answers<'_>) {
-    let r217 = (0.0 - 0.1 * shared.r185) / 0.010000000000000002;
-    let r221 = (0.0 - (-0.0 - 0.1 * shared.r186)) / 0.010000000000000002;
-    let r225 = f64::max(r221 * r221 + r217 * r217, 0.0).sqrt();
-    let right_c6 = r221 / r225;
-    let right_s6 = r217 / r225;
+    let r100 = 0.1 * shared.r95 / 0.010000000000000002;
+    let r102 = 0.1 * shared.r98 / 0.010000000000000002;
+    let r106 = f64::max(r102 * r102 + r100 * r100, 0.0).sqrt();
+    let right_c6 = r102 / r106;
+    let right_s6 = 0.0 - r100 / r106;
     let q = [
         angle(known.left_c1, known.left_s1),
         angle(known.left_c2_, known.left_s2_),
@@ -2070,244 +1816,195 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let right_s8 = q[12].sin();
     let right_c9 = q[13].cos();
     let right_s9 = q[13].sin();
-    let r6 = left_c1 + (1.0 - left_c1);
-    let r9 = left_c2_ + (1.0 - left_c2_);
-    let r13 = (0.0 - left_s1) * r9;
-    let r14 = left_c1 * r9;
-    let r15 = left_c1 * left_s2_;
-    let r16 = left_s1 * left_s2_;
-    let r17 = r6 * left_c2_;
-    let r19 = left_c3_ + (1.0 - left_c3_);
-    let r20 = 0.0 - left_s3_;
-    let r21 = left_c1 * left_c2_ * r19;
-    let r22 = left_s1 * left_c2_ * r19;
-    let r23 = r6 * (0.0 - left_s2_) * r19;
-    let r26 = r13 * left_c3_ + r15 * left_s3_;
-    let r29 = r14 * left_c3_ + r16 * left_s3_;
-    let r30 = r17 * left_s3_;
-    let r33 = r13 * r20 + r15 * left_c3_;
-    let r36 = r14 * r20 + r16 * left_c3_;
-    let r37 = r17 * left_c3_;
-    let r48 = -0.085 * r33;
-    let r51 = -0.085 * r36;
-    let r54 = -0.085 * r37;
-    let r56 = 0.7071067811865475 * left_s4;
-    let r57 = 1.0 - left_c4;
-    let r58 = 0.0 - r56;
-    let r59 = 0.5 * r57;
-    let r60 = left_c4 + r59;
-    let r61 = -0.5 * r57;
-    let r62 = r21 * left_c4;
-    let r65 = r33 * r58;
-    let r67 = r22 * left_c4;
-    let r70 = r36 * r58;
-    let r72 = r23 * left_c4;
-    let r75 = r37 * r58;
-    let r77 = r21 * r56;
-    let r78 = r26 * r60;
-    let r81 = r77 + r78 + r33 * r61;
-    let r82 = r22 * r56;
-    let r83 = r29 * r60;
-    let r86 = r82 + r83 + r36 * r61;
-    let r87 = r23 * r56;
-    let r88 = r30 * r60;
-    let r91 = r87 + r88 + r37 * r61;
-    let r94 = r33 * r60;
-    let r95 = r77 + r26 * r61 + r94;
-    let r98 = r36 * r60;
-    let r99 = r82 + r29 * r61 + r98;
-    let r102 = r37 * r60;
-    let r103 = r87 + r30 * r61 + r102;
-    let r106 = 0.05 * r81 + -0.085 * r95;
-    let r109 = 0.05 * r86 + -0.085 * r99;
-    let r112 = 0.05 * r91 + -0.085 * r103;
-    let r120 = left_c5 + (1.0 - left_c5);
-    let r121 = 0.0 - left_s5;
-    let r122 = (r62 + r26 * r58 + r65) * r120;
-    let r123 = (r67 + r29 * r58 + r70) * r120;
-    let r124 = (r72 + r30 * r58 + r75) * r120;
-    let r127 = r81 * left_c5 + r95 * left_s5;
-    let r130 = r86 * left_c5 + r99 * left_s5;
-    let r133 = r91 * left_c5 + r103 * left_s5;
-    let r136 = r81 * r121 + r95 * left_c5;
-    let r139 = r86 * r121 + r99 * left_c5;
-    let r142 = r91 * r121 + r103 * left_c5;
-    let r145 = 0.05 * r127 + -0.085 * r136;
-    let r148 = 0.05 * r130 + -0.085 * r139;
-    let r151 = 0.05 * r133 + -0.085 * r142;
-    let r159 = 0.0 - left_s6;
-    let r160 = left_c6 + (1.0 - left_c6);
-    let r163 = r122 * left_c6 + r136 * r159;
-    let r166 = r123 * left_c6 + r139 * r159;
-    let r169 = r124 * left_c6 + r142 * r159;
-    let r170 = r127 * r160;
-    let r171 = r130 * r160;
-    let r172 = r133 * r160;
-    let r175 = r122 * left_s6 + r136 * left_c6;
-    let r178 = r123 * left_s6 + r139 * left_c6;
-    let r181 = r124 * left_s6 + r142 * left_c6;
-    let r182 = 0.05 * r170;
-    let r185 = 0.05 * r171;
-    let r188 = 0.05 * r172;
-    let r191 = 0.05 * r26 + r48 - r106 + r106 - r145 + r145 - (r182 + -0.085 * r175);
-    let r192 = 0.05 * r29 + r51 - r109 + r109 - r148 + r148 - (r185 + -0.085 * r178);
-    let r193 = 0.05 * r30 + r54 - r112 + r112 - r151 + r151 - (r188 + -0.085 * r181);
-    let r204 = 0.0 - left_s7;
-    let r205 = left_c7 + (1.0 - left_c7);
-    let r208 = r163 * left_c7 + r175 * r204;
-    let r211 = r166 * left_c7 + r178 * r204;
-    let r214 = r169 * left_c7 + r181 * r204;
-    let r215 = r170 * r205;
-    let r216 = r171 * r205;
-    let r217 = r172 * r205;
-    let r220 = r163 * left_s7 + r175 * left_c7;
-    let r223 = r166 * left_s7 + r178 * left_c7;
-    let r226 = r169 * left_s7 + r181 * left_c7;
-    let r227 = 0.05 * r215;
-    let r230 = 0.05 * r216;
-    let r233 = 0.05 * r217;
-    let r236 = r191 + (r182 + -0.185 * r175) - (r227 + -0.185 * r220);
-    let r237 = r192 + (r185 + -0.185 * r178) - (r230 + -0.185 * r223);
-    let r238 = r193 + (r188 + -0.185 * r181) - (r233 + -0.185 * r226);
-    let r249 = 0.0 - left_s8;
-    let r250 = left_c8 + (1.0 - left_c8);
-    let r260 = r215 * r250;
-    let r261 = r216 * r250;
-    let r262 = r217 * r250;
-    let r265 = r208 * left_s8 + r220 * left_c8;
-    let r268 = r211 * left_s8 + r223 * left_c8;
-    let r271 = r214 * left_s8 + r226 * left_c8;
-    let r274 = 0.05 * r260 + -0.2879 * r265;
-    let r277 = 0.05 * r261 + -0.2879 * r268;
-    let r280 = 0.05 * r262 + -0.2879 * r271;
-    let r288 = left_c9 + (1.0 - left_c9);
-    let r289 = 0.0 - left_s9;
-    let r295 = r260 * left_c9 + r265 * left_s9;
-    let r298 = r261 * left_c9 + r268 * left_s9;
-    let r301 = r262 * left_c9 + r271 * left_s9;
-    let r304 = r260 * r289 + r265 * left_c9;
-    let r307 = r261 * r289 + r268 * left_c9;
-    let r310 = r262 * r289 + r271 * left_c9;
-    let r311 = 0.05 * r295;
-    let r314 = 0.05 * r298;
-    let r317 = 0.05 * r301;
-    let r320 = r236 + (r227 + -0.2879 * r220) - r274 + r274 - (r311 + -0.2879 * r304);
-    let r321 = r237 + (r230 + -0.2879 * r223) - r277 + r277 - (r314 + -0.2879 * r307);
-    let r322 = r238 + (r233 + -0.2879 * r226) - r280 + r280 - (r317 + -0.2879 * r310);
-    let r666 = r21 * r58 + r78 + r33 * r59;
-    let r670 = r22 * r58 + r83 + r36 * r59;
-    let r674 = r23 * r58 + r88 + r37 * r59;
-    let r677 = r77 + r26 * r59 + r94;
-    let r680 = r82 + r29 * r59 + r98;
-    let r683 = r87 + r30 * r59 + r102;
-    let r686 = -0.05 * r666 + -0.085 * r677;
-    let r689 = -0.05 * r670 + -0.085 * r680;
-    let r692 = -0.05 * r674 + -0.085 * r683;
-    let r700 = right_c5 + (1.0 - right_c5);
-    let r701 = 0.0 - right_s5;
-    let r702 = (r62 + r26 * r56 + r65) * r700;
-    let r703 = (r67 + r29 * r56 + r70) * r700;
-    let r704 = (r72 + r30 * r56 + r75) * r700;
-    let r707 = r666 * right_c5 + r677 * right_s5;
-    let r710 = r670 * right_c5 + r680 * right_s5;
-    let r713 = r674 * right_c5 + r683 * right_s5;
-    let r716 = r666 * r701 + r677 * right_c5;
-    let r719 = r670 * r701 + r680 * right_c5;
-    let r722 = r674 * r701 + r683 * right_c5;
-    let r725 = -0.05 * r707 + -0.085 * r716;
-    let r728 = -0.05 * r710 + -0.085 * r719;
-    let r731 = -0.05 * r713 + -0.085 * r722;
-    let r735 = -0.05 * r26 + r48 - r686 + r686 - r725 + r725;
-    let r736 = -0.05 * r29 + r51 - r689 + r689 - r728 + r728;
-    let r737 = -0.05 * r30 + r54 - r692 + r692 - r731 + r731;
-    let r739 = 0.0 - right_s6;
-    let r740 = right_c6 + (1.0 - right_c6);
-    let r743 = r702 * right_c6 + r716 * r739;
-    let r746 = r703 * right_c6 + r719 * r739;
-    let r749 = r704 * right_c6 + r722 * r739;
-    let r750 = r707 * r740;
-    let r751 = r710 * r740;
-    let r752 = r713 * r740;
-    let r755 = r702 * right_s6 + r716 * right_c6;
-    let r758 = r703 * right_s6 + r719 * right_c6;
-    let r761 = r704 * right_s6 + r722 * right_c6;
-    let r762 = -0.05 * r750;
-    let r765 = -0.05 * r751;
-    let r768 = -0.05 * r752;
-    let r780 = r735 - (r762 + -0.085 * r755) + (r762 + -0.185 * r755);
-    let r781 = r736 - (r765 + -0.085 * r758) + (r765 + -0.185 * r758);
-    let r782 = r737 - (r768 + -0.085 * r761) + (r768 + -0.185 * r761);
-    let r784 = 0.0 - right_s7;
-    let r785 = right_c7 + (1.0 - right_c7);
-    let r788 = r743 * right_c7 + r755 * r784;
-    let r791 = r746 * right_c7 + r758 * r784;
-    let r794 = r749 * right_c7 + r761 * r784;
-    let r795 = r750 * r785;
-    let r796 = r751 * r785;
-    let r797 = r752 * r785;
-    let r800 = r743 * right_s7 + r755 * right_c7;
-    let r803 = r746 * right_s7 + r758 * right_c7;
-    let r806 = r749 * right_s7 + r761 * right_c7;
-    let r807 = -0.05 * r795;
-    let r810 = -0.05 * r796;
-    let r813 = -0.05 * r797;
-    let r825 = r780 - (r807 + -0.185 * r800) + (r807 + -0.2879 * r800);
-    let r826 = r781 - (r810 + -0.185 * r803) + (r810 + -0.2879 * r803);
-    let r827 = r782 - (r813 + -0.185 * r806) + (r813 + -0.2879 * r806);
-    let r829 = 0.0 - right_s8;
-    let r830 = right_c8 + (1.0 - right_c8);
-    let r840 = r795 * r830;
-    let r841 = r796 * r830;
-    let r842 = r797 * r830;
-    let r845 = r788 * right_s8 + r800 * right_c8;
-    let r848 = r791 * right_s8 + r803 * right_c8;
-    let r851 = r794 * right_s8 + r806 * right_c8;
-    let r854 = -0.05 * r840 + -0.2879 * r845;
-    let r857 = -0.05 * r841 + -0.2879 * r848;
-    let r860 = -0.05 * r842 + -0.2879 * r851;
-    let r868 = right_c9 + (1.0 - right_c9);
-    let r869 = 0.0 - right_s9;
-    let r875 = r840 * right_c9 + r845 * right_s9;
-    let r878 = r841 * right_c9 + r848 * right_s9;
-    let r881 = r842 * right_c9 + r851 * right_s9;
-    let r884 = r840 * r869 + r845 * right_c9;
-    let r887 = r841 * r869 + r848 * right_c9;
-    let r890 = r842 * r869 + r851 * right_c9;
-    let r891 = -0.05 * r875;
-    let r894 = -0.05 * r878;
-    let r897 = -0.05 * r881;
-    let r909 = r825 - r854 + r854 - (r891 + -0.2879 * r884) + (r891 + -0.33309 * r884);
-    let r910 = r826 - r857 + r857 - (r894 + -0.2879 * r887) + (r894 + -0.33309 * r887);
-    let r911 = r827 - r860 + r860 - (r897 + -0.2879 * r890) + (r897 + -0.33309 * r890);
+    let r4 = left_c1 * left_c2_;
+    let r5 = left_s1 * left_c2_;
+    let r6 = left_c1 * left_s2_;
+    let r7 = left_s1 * left_s2_;
+    let r8 = left_s1 * left_c3_;
+    let r9 = left_s3_ * r6;
+    let r10 = left_c1 * left_c3_;
+    let r11 = left_s3_ * r7;
+    let r12 = left_c2_ * left_s3_;
+    let r13 = left_s1 * left_s3_;
+    let r14 = left_c3_ * r6;
+    let r15 = left_c1 * left_s3_;
+    let r16 = left_c3_ * r7;
+    let r17 = left_c2_ * left_c3_;
+    let r18 = left_c4 * r4;
+    let r19 = r8 - r9;
+    let r21 = r13 + r14;
+    let r23 = left_c4 * r5;
+    let r24 = r10 + r11;
+    let r26 = r15 - r16;
+    let r28 = left_s2_ * left_c4;
+    let r32 = left_c4 + 1.0;
+    let r34 = left_c4 - 1.0;
+    let r48 = 0.7071067811865475 * (left_s4 * r4);
+    let r49 = 0.5 * (r19 * r32);
+    let r51 = 0.5 * (r21 * r34);
+    let r52 = r48 - r49 + r51;
+    let r54 = 0.5 * (r19 * r34);
+    let r56 = 0.5 * (r21 * r32);
+    let r57 = r48 - r54 + r56;
+    let r59 = 0.7071067811865475 * (left_s4 * r5);
+    let r60 = 0.5 * (r24 * r32);
+    let r62 = 0.5 * (r26 * r34);
+    let r63 = r59 + r60 - r62;
+    let r65 = 0.5 * (r24 * r34);
+    let r67 = 0.5 * (r26 * r32);
+    let r68 = r59 + r65 - r67;
+    let r70 = 0.7071067811865475 * (left_s2_ * left_s4);
+    let r71 = 0.5 * (r12 * r32);
+    let r73 = 0.5 * (r17 * r34);
+    let r74 = r70 - r71 - r73;
+    let r76 = 0.5 * (r12 * r34);
+    let r78 = 0.5 * (r17 * r32);
+    let r79 = r70 - r76 - r78;
+    let r87 = 0.7071067811865475 * (left_s4 * r19);
+    let r89 = 0.7071067811865475 * (left_s4 * r21);
+    let r90 = r18 + r87 - r89;
+    let r92 = left_s5 * r52 - left_c5 * r57;
+    let r94 = 0.7071067811865475 * (left_s4 * r24);
+    let r96 = 0.7071067811865475 * (left_s4 * r26);
+    let r97 = r23 - r94 + r96;
+    let r99 = left_s5 * r63 - left_c5 * r68;
+    let r101 = 0.7071067811865475 * (left_s4 * r12);
+    let r103 = 0.7071067811865475 * (left_s4 * r17);
+    let r104 = r28 + r101 + r103;
+    let r106 = left_s5 * r74 - left_c5 * r79;
+    let r108 = left_s6 * r90;
+    let r109 = left_c6 * r92;
+    let r110 = left_s6 * r97;
+    let r111 = left_c6 * r99;
+    let r112 = left_s6 * r104;
+    let r113 = left_c6 * r106;
+    let r114 = left_c6 * r90 + left_s6 * r92;
+    let r116 = r108 - r109;
+    let r118 = left_c6 * r97 + left_s6 * r99;
+    let r120 = r110 - r111;
+    let r122 = left_c6 * r104 + left_s6 * r106;
+    let r124 = r112 - r113;
+    let r126 = left_s7 * r114;
+    let r127 = left_c7 * r116;
+    let r128 = left_s7 * r118;
+    let r129 = left_c7 * r120;
+    let r130 = left_s7 * r122;
+    let r131 = left_c7 * r124;
+    let r132 = left_c7 * r114 - left_s7 * r116;
+    let r134 = r126 + r127;
+    let r136 = left_c7 * r118 - left_s7 * r120;
+    let r138 = r128 + r129;
+    let r140 = left_c7 * r122 - left_s7 * r124;
+    let r142 = r130 + r131;
+    let r150 = left_c5 * r52 + left_s5 * r57;
+    let r152 = left_s8 * r132 + left_c8 * r134;
+    let r154 = left_c5 * r63 + left_s5 * r68;
+    let r156 = left_s8 * r136 + left_c8 * r138;
+    let r158 = left_c5 * r74 + left_s5 * r79;
+    let r160 = left_s8 * r140 + left_c8 * r142;
+    let r162 = left_s9 * r150;
+    let r163 = left_c9 * r152;
+    let r164 = left_s9 * r154;
+    let r165 = left_c9 * r156;
+    let r166 = left_s9 * r158;
+    let r167 = left_c9 * r160;
+    let r168 = 0.05 * r12;
+    let r169 = 0.085 * r17;
+    let r176 = r168 - r169 + 0.1 * r112 - 0.1 * r113 + 0.1029 * r130;
+    let r182 = r176 + 0.1029 * r131 - 0.04519 * r166 + 0.04519 * r167;
+    let r185 = 0.05 * r10 + 0.05 * r11;
+    let r186 = 0.085 * r15;
+    let r188 = 0.085 * r16;
+    let r195 = r185 + r186 - r188 - 0.1 * r110 + 0.1 * r111 - 0.1029 * r128;
+    let r201 = r195 - 0.1029 * r129 + 0.04519 * r164 - 0.04519 * r165;
+    let r204 = 0.05 * r8 - 0.05 * r9;
+    let r205 = 0.085 * r13;
+    let r207 = 0.085 * r14;
+    let r214 = r204 + r205 + r207 + 0.1 * r108 - 0.1 * r109 + 0.1029 * r126;
+    let r220 = r214 + 0.1029 * r127 - 0.04519 * r162 + 0.04519 * r163;
+    let r245 = r48 + r49 + r51;
+    let r248 = r48 + r54 + r56;
+    let r251 = r59 - r60 - r62;
+    let r254 = r59 - r65 - r67;
+    let r257 = r70 + r71 - r73;
+    let r260 = r70 + r76 - r78;
+    let r269 = r18 - r87 - r89;
+    let r271 = right_s5 * r245 + right_c5 * r248;
+    let r274 = r23 + r94 + r96;
+    let r276 = right_s5 * r251 + right_c5 * r254;
+    let r279 = r28 - r101 + r103;
+    let r281 = right_s5 * r257 + right_c5 * r260;
+    let r283 = right_s6 * r269;
+    let r284 = right_c6 * r271;
+    let r285 = right_s6 * r274;
+    let r286 = right_c6 * r276;
+    let r287 = right_s6 * r279;
+    let r288 = right_c6 * r281;
+    let r289 = right_c6 * r269 - right_s6 * r271;
+    let r291 = r283 + r284;
+    let r293 = right_c6 * r274 - right_s6 * r276;
+    let r295 = r285 + r286;
+    let r297 = right_c6 * r279 - right_s6 * r281;
+    let r299 = r287 + r288;
+    let r301 = right_s7 * r289;
+    let r302 = right_c7 * r291;
+    let r303 = right_s7 * r293;
+    let r304 = right_c7 * r295;
+    let r305 = right_s7 * r297;
+    let r306 = right_c7 * r299;
+    let r307 = right_c7 * r289 - right_s7 * r291;
+    let r309 = r301 + r302;
+    let r311 = right_c7 * r293 - right_s7 * r295;
+    let r313 = r303 + r304;
+    let r315 = right_c7 * r297 - right_s7 * r299;
+    let r317 = r305 + r306;
+    let r325 = right_c5 * r245 - right_s5 * r248;
+    let r327 = right_s8 * r307 + right_c8 * r309;
+    let r329 = right_c5 * r251 - right_s5 * r254;
+    let r331 = right_s8 * r311 + right_c8 * r313;
+    let r333 = right_c5 * r257 - right_s5 * r260;
+    let r335 = right_s8 * r315 + right_c8 * r317;
+    let r337 = right_s9 * r325;
+    let r338 = right_c9 * r327;
+    let r339 = right_s9 * r329;
+    let r340 = right_c9 * r331;
+    let r341 = right_s9 * r333;
+    let r342 = right_c9 * r335;
+    let r349 = r168 + r169 - 0.1 * r287 - 0.1 * r288 - 0.1029 * r305;
+    let r362 = r185 - r186 + r188 + 0.1 * r285 + 0.1 * r286 + 0.1029 * r303;
+    let r368 = r362 + 0.1029 * r304 + 0.04519 * r339 + 0.04519 * r340;
+    let r376 = r204 - r205 - r207 - 0.1 * r283 - 0.1 * r284 - 0.1029 * r301;
+    let r382 = r376 - 0.1029 * r302 - 0.04519 * r337 - 0.04519 * r338;
+    let r391 = 0.04519 * r342 - (r349 - 0.1029 * r306 - 0.04519 * r341);
     [
         left_c2_,
         left_s2_,
         left_c3_,
         left_s3_,
-        r320 + (r311 + -0.33309 * r304),
-        r321 + (r314 + -0.33309 * r307),
-        r322 + (r317 + -0.33309 * r310),
-        (r208 * left_c8 + r220 * r249) * r288,
-        (r211 * left_c8 + r223 * r249) * r288,
-        (r214 * left_c8 + r226 * r249) * r288,
-        r295,
-        r298,
-        r301,
-        r304,
-        r307,
-        r310,
-        r909,
-        r910,
-        r911,
-        (r788 * right_c8 + r800 * r829) * r868,
-        (r791 * right_c8 + r803 * r829) * r868,
-        (r794 * right_c8 + r806 * r829) * r868,
-        r875,
-        r878,
-        r881,
-        r884,
-        r887,
-        r890,
+        0.0 - r220,
+        r201,
+        r182,
+        left_c8 * r132 - left_s8 * r134,
+        left_c8 * r136 - left_s8 * r138,
+        left_s8 * r142 - left_c8 * r140,
+        left_c9 * r150 + left_s9 * r152,
+        left_c9 * r154 + left_s9 * r156,
+        0.0 - (left_c9 * r158 + left_s9 * r160),
+        r163 - r162,
+        r165 - r164,
+        r166 - r167,
+        r382,
+        0.0 - r368,
+        r391,
+        right_c8 * r307 - right_s8 * r309,
+        right_c8 * r311 - right_s8 * r313,
+        right_s8 * r317 - right_c8 * r315,
+        right_s9 * r327 - right_c9 * r325,
+        right_s9 * r331 - right_c9 * r329,
+        right_c9 * r333 - right_s9 * r335,
+        r337 + r338,
+        r339 + r340,
+        0.0 - (r341 + r342),
     ]
 }
 
@@ -2413,329 +2110,329 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let right_s8 = q[12].sin();
     let right_c9 = q[13].cos();
     let right_s9 = q[13].sin();
-    let r5 = 0.0 - left_s1;
-    let r6 = left_c1 + (1.0 - left_c1);
-    let r9 = left_c2_ + (1.0 - left_c2_);
-    let r10 = left_c1 * left_c2_;
-    let r11 = left_s1 * left_c2_;
-    let r12 = r6 * (0.0 - left_s2_);
-    let r13 = r5 * r9;
-    let r14 = left_c1 * r9;
-    let r15 = left_c1 * left_s2_;
-    let r16 = left_s1 * left_s2_;
-    let r17 = r6 * left_c2_;
-    let r19 = left_c3_ + (1.0 - left_c3_);
-    let r20 = 0.0 - left_s3_;
-    let r21 = r10 * r19;
-    let r22 = r11 * r19;
-    let r23 = r12 * r19;
-    let r26 = r13 * left_c3_ + r15 * left_s3_;
-    let r29 = r14 * left_c3_ + r16 * left_s3_;
-    let r30 = r17 * left_s3_;
-    let r33 = r13 * r20 + r15 * left_c3_;
-    let r36 = r14 * r20 + r16 * left_c3_;
-    let r37 = r17 * left_c3_;
-    let r44 = 0.7071067811865475 * (r26 + (0.0 - r33));
-    let r45 = 0.7071067811865475 * (r29 + (0.0 - r36));
-    let r46 = 0.7071067811865475 * (r30 + (0.0 - r37));
-    let r48 = -0.085 * r33;
-    let r49 = 0.05 * r26 + r48;
-    let r51 = -0.085 * r36;
-    let r52 = 0.05 * r29 + r51;
-    let r54 = -0.085 * r37;
-    let r55 = 0.05 * r30 + r54;
-    let r56 = 0.7071067811865475 * left_s4;
-    let r57 = 1.0 - left_c4;
-    let r58 = 0.0 - r56;
-    let r59 = 0.5 * r57;
-    let r60 = left_c4 + r59;
-    let r61 = -0.5 * r57;
-    let r62 = r21 * left_c4;
-    let r65 = r33 * r58;
-    let r66 = r62 + r26 * r58 + r65;
-    let r67 = r22 * left_c4;
-    let r70 = r36 * r58;
-    let r71 = r67 + r29 * r58 + r70;
-    let r72 = r23 * left_c4;
-    let r75 = r37 * r58;
-    let r76 = r72 + r30 * r58 + r75;
-    let r77 = r21 * r56;
-    let r78 = r26 * r60;
-    let r81 = r77 + r78 + r33 * r61;
-    let r82 = r22 * r56;
-    let r83 = r29 * r60;
-    let r86 = r82 + r83 + r36 * r61;
-    let r87 = r23 * r56;
-    let r88 = r30 * r60;
-    let r91 = r87 + r88 + r37 * r61;
-    let r94 = r33 * r60;
-    let r95 = r77 + r26 * r61 + r94;
-    let r98 = r36 * r60;
-    let r99 = r82 + r29 * r61 + r98;
-    let r102 = r37 * r60;
-    let r103 = r87 + r30 * r61 + r102;
-    let r106 = 0.05 * r81 + -0.085 * r95;
-    let r109 = 0.05 * r86 + -0.085 * r99;
-    let r112 = 0.05 * r91 + -0.085 * r103;
-    let r116 = r49 - r106 + r106;
-    let r117 = r52 - r109 + r109;
-    let r118 = r55 - r112 + r112;
-    let r120 = left_c5 + (1.0 - left_c5);
-    let r121 = 0.0 - left_s5;
-    let r122 = r66 * r120;
-    let r123 = r71 * r120;
-    let r124 = r76 * r120;
-    let r127 = r81 * left_c5 + r95 * left_s5;
-    let r130 = r86 * left_c5 + r99 * left_s5;
-    let r133 = r91 * left_c5 + r103 * left_s5;
-    let r136 = r81 * r121 + r95 * left_c5;
-    let r139 = r86 * r121 + r99 * left_c5;
-    let r142 = r91 * r121 + r103 * left_c5;
-    let r145 = 0.05 * r127 + -0.085 * r136;
-    let r148 = 0.05 * r130 + -0.085 * r139;
-    let r151 = 0.05 * r133 + -0.085 * r142;
-    let r155 = r116 - r145 + r145;
-    let r156 = r117 - r148 + r148;
-    let r157 = r118 - r151 + r151;
-    let r159 = 0.0 - left_s6;
-    let r160 = left_c6 + (1.0 - left_c6);
-    let r163 = r122 * left_c6 + r136 * r159;
-    let r166 = r123 * left_c6 + r139 * r159;
-    let r169 = r124 * left_c6 + r142 * r159;
-    let r170 = r127 * r160;
-    let r171 = r130 * r160;
-    let r172 = r133 * r160;
-    let r175 = r122 * left_s6 + r136 * left_c6;
-    let r178 = r123 * left_s6 + r139 * left_c6;
-    let r181 = r124 * left_s6 + r142 * left_c6;
-    let r182 = 0.05 * r170;
-    let r185 = 0.05 * r171;
-    let r188 = 0.05 * r172;
-    let r200 = r155 - (r182 + -0.085 * r175) + (r182 + -0.185 * r175);
-    let r201 = r156 - (r185 + -0.085 * r178) + (r185 + -0.185 * r178);
-    let r202 = r157 - (r188 + -0.085 * r181) + (r188 + -0.185 * r181);
-    let r204 = 0.0 - left_s7;
-    let r205 = left_c7 + (1.0 - left_c7);
-    let r208 = r163 * left_c7 + r175 * r204;
-    let r211 = r166 * left_c7 + r178 * r204;
-    let r214 = r169 * left_c7 + r181 * r204;
-    let r215 = r170 * r205;
-    let r216 = r171 * r205;
-    let r217 = r172 * r205;
-    let r220 = r163 * left_s7 + r175 * left_c7;
-    let r223 = r166 * left_s7 + r178 * left_c7;
-    let r226 = r169 * left_s7 + r181 * left_c7;
-    let r227 = 0.05 * r215;
-    let r230 = 0.05 * r216;
-    let r233 = 0.05 * r217;
-    let r245 = r200 - (r227 + -0.185 * r220) + (r227 + -0.2879 * r220);
-    let r246 = r201 - (r230 + -0.185 * r223) + (r230 + -0.2879 * r223);
-    let r247 = r202 - (r233 + -0.185 * r226) + (r233 + -0.2879 * r226);
-    let r249 = 0.0 - left_s8;
-    let r250 = left_c8 + (1.0 - left_c8);
-    let r253 = r208 * left_c8 + r220 * r249;
-    let r256 = r211 * left_c8 + r223 * r249;
-    let r259 = r214 * left_c8 + r226 * r249;
-    let r260 = r215 * r250;
-    let r261 = r216 * r250;
-    let r262 = r217 * r250;
-    let r265 = r208 * left_s8 + r220 * left_c8;
-    let r268 = r211 * left_s8 + r223 * left_c8;
-    let r271 = r214 * left_s8 + r226 * left_c8;
-    let r274 = 0.05 * r260 + -0.2879 * r265;
-    let r277 = 0.05 * r261 + -0.2879 * r268;
-    let r280 = 0.05 * r262 + -0.2879 * r271;
-    let r284 = r245 - r274 + r274;
-    let r285 = r246 - r277 + r277;
-    let r286 = r247 - r280 + r280;
-    let r288 = left_c9 + (1.0 - left_c9);
-    let r289 = 0.0 - left_s9;
-    let r290 = r253 * r288;
-    let r291 = r256 * r288;
-    let r292 = r259 * r288;
-    let r295 = r260 * left_c9 + r265 * left_s9;
-    let r298 = r261 * left_c9 + r268 * left_s9;
-    let r301 = r262 * left_c9 + r271 * left_s9;
-    let r304 = r260 * r289 + r265 * left_c9;
-    let r307 = r261 * r289 + r268 * left_c9;
-    let r310 = r262 * r289 + r271 * left_c9;
-    let r311 = 0.05 * r295;
-    let r314 = 0.05 * r298;
-    let r317 = 0.05 * r301;
-    let r329 = r284 - (r311 + -0.2879 * r304) + (r311 + -0.33309 * r304);
-    let r330 = r285 - (r314 + -0.2879 * r307) + (r314 + -0.33309 * r307);
-    let r331 = r286 - (r317 + -0.2879 * r310) + (r317 + -0.33309 * r310);
-    let r348 = r329 - r49;
-    let r349 = r330 - r52;
-    let r350 = r331 - r55;
-    let r360 = r329 - r116;
-    let r361 = r330 - r117;
-    let r362 = r331 - r118;
-    let r372 = r329 - r155;
-    let r373 = r330 - r156;
-    let r374 = r331 - r157;
-    let r384 = r329 - r200;
-    let r385 = r330 - r201;
-    let r386 = r331 - r202;
-    let r396 = r329 - r245;
-    let r397 = r330 - r246;
-    let r398 = r331 - r247;
-    let r408 = r329 - r284;
-    let r409 = r330 - r285;
-    let r410 = r331 - r286;
-    let r645 = 0.7071067811865475 * (r26 + r33);
-    let r646 = 0.7071067811865475 * (r29 + r36);
-    let r647 = 0.7071067811865475 * (r30 + r37);
-    let r649 = -0.05 * r26 + r48;
-    let r651 = -0.05 * r29 + r51;
-    let r653 = -0.05 * r30 + r54;
-    let r656 = r62 + r26 * r56 + r65;
-    let r659 = r67 + r29 * r56 + r70;
-    let r662 = r72 + r30 * r56 + r75;
-    let r666 = r21 * r58 + r78 + r33 * r59;
-    let r670 = r22 * r58 + r83 + r36 * r59;
-    let r674 = r23 * r58 + r88 + r37 * r59;
-    let r677 = r77 + r26 * r59 + r94;
-    let r680 = r82 + r29 * r59 + r98;
-    let r683 = r87 + r30 * r59 + r102;
-    let r686 = -0.05 * r666 + -0.085 * r677;
-    let r689 = -0.05 * r670 + -0.085 * r680;
-    let r692 = -0.05 * r674 + -0.085 * r683;
-    let r696 = r649 - r686 + r686;
-    let r697 = r651 - r689 + r689;
-    let r698 = r653 - r692 + r692;
-    let r700 = right_c5 + (1.0 - right_c5);
-    let r701 = 0.0 - right_s5;
-    let r702 = r656 * r700;
-    let r703 = r659 * r700;
-    let r704 = r662 * r700;
-    let r707 = r666 * right_c5 + r677 * right_s5;
-    let r710 = r670 * right_c5 + r680 * right_s5;
-    let r713 = r674 * right_c5 + r683 * right_s5;
-    let r716 = r666 * r701 + r677 * right_c5;
-    let r719 = r670 * r701 + r680 * right_c5;
-    let r722 = r674 * r701 + r683 * right_c5;
-    let r725 = -0.05 * r707 + -0.085 * r716;
-    let r728 = -0.05 * r710 + -0.085 * r719;
-    let r731 = -0.05 * r713 + -0.085 * r722;
-    let r735 = r696 - r725 + r725;
-    let r736 = r697 - r728 + r728;
-    let r737 = r698 - r731 + r731;
-    let r739 = 0.0 - right_s6;
-    let r740 = right_c6 + (1.0 - right_c6);
-    let r743 = r702 * right_c6 + r716 * r739;
-    let r746 = r703 * right_c6 + r719 * r739;
-    let r749 = r704 * right_c6 + r722 * r739;
-    let r750 = r707 * r740;
-    let r751 = r710 * r740;
-    let r752 = r713 * r740;
-    let r755 = r702 * right_s6 + r716 * right_c6;
-    let r758 = r703 * right_s6 + r719 * right_c6;
-    let r761 = r704 * right_s6 + r722 * right_c6;
-    let r762 = -0.05 * r750;
-    let r765 = -0.05 * r751;
-    let r768 = -0.05 * r752;
-    let r780 = r735 - (r762 + -0.085 * r755) + (r762 + -0.185 * r755);
-    let r781 = r736 - (r765 + -0.085 * r758) + (r765 + -0.185 * r758);
-    let r782 = r737 - (r768 + -0.085 * r761) + (r768 + -0.185 * r761);
-    let r784 = 0.0 - right_s7;
-    let r785 = right_c7 + (1.0 - right_c7);
-    let r788 = r743 * right_c7 + r755 * r784;
-    let r791 = r746 * right_c7 + r758 * r784;
-    let r794 = r749 * right_c7 + r761 * r784;
-    let r795 = r750 * r785;
-    let r796 = r751 * r785;
-    let r797 = r752 * r785;
-    let r800 = r743 * right_s7 + r755 * right_c7;
-    let r803 = r746 * right_s7 + r758 * right_c7;
-    let r806 = r749 * right_s7 + r761 * right_c7;
-    let r807 = -0.05 * r795;
-    let r810 = -0.05 * r796;
-    let r813 = -0.05 * r797;
-    let r825 = r780 - (r807 + -0.185 * r800) + (r807 + -0.2879 * r800);
-    let r826 = r781 - (r810 + -0.185 * r803) + (r810 + -0.2879 * r803);
-    let r827 = r782 - (r813 + -0.185 * r806) + (r813 + -0.2879 * r806);
-    let r829 = 0.0 - right_s8;
-    let r830 = right_c8 + (1.0 - right_c8);
-    let r833 = r788 * right_c8 + r800 * r829;
-    let r836 = r791 * right_c8 + r803 * r829;
-    let r839 = r794 * right_c8 + r806 * r829;
-    let r840 = r795 * r830;
-    let r841 = r796 * r830;
-    let r842 = r797 * r830;
-    let r845 = r788 * right_s8 + r800 * right_c8;
-    let r848 = r791 * right_s8 + r803 * right_c8;
-    let r851 = r794 * right_s8 + r806 * right_c8;
-    let r854 = -0.05 * r840 + -0.2879 * r845;
-    let r857 = -0.05 * r841 + -0.2879 * r848;
-    let r860 = -0.05 * r842 + -0.2879 * r851;
-    let r864 = r825 - r854 + r854;
-    let r865 = r826 - r857 + r857;
-    let r866 = r827 - r860 + r860;
-    let r868 = right_c9 + (1.0 - right_c9);
-    let r869 = 0.0 - right_s9;
-    let r870 = r833 * r868;
-    let r871 = r836 * r868;
-    let r872 = r839 * r868;
-    let r875 = r840 * right_c9 + r845 * right_s9;
-    let r878 = r841 * right_c9 + r848 * right_s9;
-    let r881 = r842 * right_c9 + r851 * right_s9;
-    let r884 = r840 * r869 + r845 * right_c9;
-    let r887 = r841 * r869 + r848 * right_c9;
-    let r890 = r842 * r869 + r851 * right_c9;
-    let r891 = -0.05 * r875;
-    let r894 = -0.05 * r878;
-    let r897 = -0.05 * r881;
-    let r909 = r864 - (r891 + -0.2879 * r884) + (r891 + -0.33309 * r884);
-    let r910 = r865 - (r894 + -0.2879 * r887) + (r894 + -0.33309 * r887);
-    let r911 = r866 - (r897 + -0.2879 * r890) + (r897 + -0.33309 * r890);
-    let r928 = r909 - r649;
-    let r929 = r910 - r651;
-    let r930 = r911 - r653;
-    let r940 = r909 - r696;
-    let r941 = r910 - r697;
-    let r942 = r911 - r698;
-    let r952 = r909 - r735;
-    let r953 = r910 - r736;
-    let r954 = r911 - r737;
-    let r964 = r909 - r780;
-    let r965 = r910 - r781;
-    let r966 = r911 - r782;
-    let r976 = r909 - r825;
-    let r977 = r910 - r826;
-    let r978 = r911 - r827;
-    let r988 = r909 - r864;
-    let r989 = r910 - r865;
-    let r990 = r911 - r866;
+    let r4 = left_c1 * left_c2_;
+    let r5 = left_s1 * left_c2_;
+    let r6 = left_c1 * left_s2_;
+    let r7 = left_s1 * left_s2_;
+    let r8 = left_s1 * left_c3_;
+    let r9 = left_s3_ * r6;
+    let r10 = left_c1 * left_c3_;
+    let r11 = left_s3_ * r7;
+    let r12 = left_c2_ * left_s3_;
+    let r13 = left_s1 * left_s3_;
+    let r14 = left_c3_ * r6;
+    let r15 = left_c1 * left_s3_;
+    let r16 = left_c3_ * r7;
+    let r17 = left_c2_ * left_c3_;
+    let r18 = left_c4 * r4;
+    let r19 = r8 - r9;
+    let r21 = r13 + r14;
+    let r23 = left_c4 * r5;
+    let r24 = r10 + r11;
+    let r26 = r15 - r16;
+    let r28 = left_s2_ * left_c4;
+    let r32 = left_c4 + 1.0;
+    let r34 = left_c4 - 1.0;
+    let r48 = 0.7071067811865475 * (left_s4 * r4);
+    let r49 = 0.5 * (r19 * r32);
+    let r51 = 0.5 * (r21 * r34);
+    let r52 = r48 - r49 + r51;
+    let r54 = 0.5 * (r19 * r34);
+    let r56 = 0.5 * (r21 * r32);
+    let r57 = r48 - r54 + r56;
+    let r59 = 0.7071067811865475 * (left_s4 * r5);
+    let r60 = 0.5 * (r24 * r32);
+    let r62 = 0.5 * (r26 * r34);
+    let r63 = r59 + r60 - r62;
+    let r65 = 0.5 * (r24 * r34);
+    let r67 = 0.5 * (r26 * r32);
+    let r68 = r59 + r65 - r67;
+    let r70 = 0.7071067811865475 * (left_s2_ * left_s4);
+    let r71 = 0.5 * (r12 * r32);
+    let r73 = 0.5 * (r17 * r34);
+    let r74 = r70 - r71 - r73;
+    let r76 = 0.5 * (r12 * r34);
+    let r78 = 0.5 * (r17 * r32);
+    let r79 = r70 - r76 - r78;
+    let r87 = 0.7071067811865475 * (left_s4 * r19);
+    let r89 = 0.7071067811865475 * (left_s4 * r21);
+    let r90 = r18 + r87 - r89;
+    let r92 = left_s5 * r52 - left_c5 * r57;
+    let r94 = 0.7071067811865475 * (left_s4 * r24);
+    let r96 = 0.7071067811865475 * (left_s4 * r26);
+    let r97 = r23 - r94 + r96;
+    let r99 = left_s5 * r63 - left_c5 * r68;
+    let r101 = 0.7071067811865475 * (left_s4 * r12);
+    let r103 = 0.7071067811865475 * (left_s4 * r17);
+    let r104 = r28 + r101 + r103;
+    let r106 = left_s5 * r74 - left_c5 * r79;
+    let r108 = left_s6 * r90;
+    let r109 = left_c6 * r92;
+    let r110 = left_s6 * r97;
+    let r111 = left_c6 * r99;
+    let r112 = left_s6 * r104;
+    let r113 = left_c6 * r106;
+    let r114 = left_c6 * r90 + left_s6 * r92;
+    let r116 = r108 - r109;
+    let r118 = left_c6 * r97 + left_s6 * r99;
+    let r120 = r110 - r111;
+    let r122 = left_c6 * r104 + left_s6 * r106;
+    let r124 = r112 - r113;
+    let r126 = left_s7 * r114;
+    let r127 = left_c7 * r116;
+    let r128 = left_s7 * r118;
+    let r129 = left_c7 * r120;
+    let r130 = left_s7 * r122;
+    let r131 = left_c7 * r124;
+    let r132 = left_c7 * r114 - left_s7 * r116;
+    let r134 = r126 + r127;
+    let r136 = left_c7 * r118 - left_s7 * r120;
+    let r137 = left_c8 * r136;
+    let r138 = r128 + r129;
+    let r139 = left_s8 * r138;
+    let r140 = left_c7 * r122 - left_s7 * r124;
+    let r142 = r130 + r131;
+    let r150 = left_c5 * r52 + left_s5 * r57;
+    let r152 = left_s8 * r132 + left_c8 * r134;
+    let r154 = left_c5 * r63 + left_s5 * r68;
+    let r156 = left_s8 * r136 + left_c8 * r138;
+    let r158 = left_c5 * r74 + left_s5 * r79;
+    let r160 = left_s8 * r140 + left_c8 * r142;
+    let r162 = left_s9 * r150;
+    let r163 = left_c9 * r152;
+    let r164 = left_s9 * r154;
+    let r165 = left_c9 * r156;
+    let r166 = left_s9 * r158;
+    let r167 = left_c9 * r160;
+    let r168 = 0.05 * r12;
+    let r169 = 0.085 * r17;
+    let r171 = 0.1 * r112;
+    let r173 = 0.1 * r113;
+    let r175 = 0.1029 * r130;
+    let r177 = 0.1029 * r131;
+    let r179 = 0.04519 * r166;
+    let r180 = r168 - r169 + r171 - r173 + r175 + r177 - r179;
+    let r181 = 0.04519 * r167;
+    let r182 = r180 + r181;
+    let r185 = 0.05 * r10 + 0.05 * r11;
+    let r186 = 0.085 * r15;
+    let r188 = 0.085 * r16;
+    let r190 = 0.1 * r110;
+    let r192 = 0.1 * r111;
+    let r194 = 0.1029 * r128;
+    let r196 = 0.1029 * r129;
+    let r197 = r185 + r186 - r188 - r190 + r192 - r194 - r196;
+    let r198 = 0.04519 * r164;
+    let r199 = r197 + r198;
+    let r200 = 0.04519 * r165;
+    let r201 = r199 - r200;
+    let r204 = 0.05 * r8 - 0.05 * r9;
+    let r205 = 0.085 * r13;
+    let r207 = 0.085 * r14;
+    let r209 = 0.1 * r108;
+    let r211 = 0.1 * r109;
+    let r213 = 0.1029 * r126;
+    let r215 = 0.1029 * r127;
+    let r216 = r204 + r205 + r207 + r209 - r211 + r213 + r215;
+    let r217 = 0.04519 * r162;
+    let r219 = 0.04519 * r163;
+    let r220 = r216 - r217 + r219;
+    let r221 = r166 - r167;
+    let r222 = r137 - r139;
+    let r223 = left_c8 * r132 - left_s8 * r134;
+    let r232 = left_c9 * r158 + left_s9 * r160;
+    let r233 = left_c9 * r154 + left_s9 * r156;
+    let r234 = left_c9 * r150 + left_s9 * r152;
+    let r245 = r48 + r49 + r51;
+    let r248 = r48 + r54 + r56;
+    let r251 = r59 - r60 - r62;
+    let r254 = r59 - r65 - r67;
+    let r257 = r70 + r71 - r73;
+    let r260 = r70 + r76 - r78;
+    let r269 = r18 - r87 - r89;
+    let r271 = right_s5 * r245 + right_c5 * r248;
+    let r274 = r23 + r94 + r96;
+    let r276 = right_s5 * r251 + right_c5 * r254;
+    let r279 = r28 - r101 + r103;
+    let r281 = right_s5 * r257 + right_c5 * r260;
+    let r283 = right_s6 * r269;
+    let r284 = right_c6 * r271;
+    let r285 = right_s6 * r274;
+    let r286 = right_c6 * r276;
+    let r287 = right_s6 * r279;
+    let r288 = right_c6 * r281;
+    let r289 = right_c6 * r269 - right_s6 * r271;
+    let r291 = r283 + r284;
+    let r293 = right_c6 * r274 - right_s6 * r276;
+    let r295 = r285 + r286;
+    let r297 = right_c6 * r279 - right_s6 * r281;
+    let r299 = r287 + r288;
+    let r301 = right_s7 * r289;
+    let r302 = right_c7 * r291;
+    let r303 = right_s7 * r293;
+    let r304 = right_c7 * r295;
+    let r305 = right_s7 * r297;
+    let r306 = right_c7 * r299;
+    let r307 = right_c7 * r289 - right_s7 * r291;
+    let r309 = r301 + r302;
+    let r311 = right_c7 * r293 - right_s7 * r295;
+    let r312 = right_c8 * r311;
+    let r313 = r303 + r304;
+    let r314 = right_s8 * r313;
+    let r315 = right_c7 * r297 - right_s7 * r299;
+    let r317 = r305 + r306;
+    let r325 = right_c5 * r245 - right_s5 * r248;
+    let r326 = right_c9 * r325;
+    let r327 = right_s8 * r307 + right_c8 * r309;
+    let r328 = right_s9 * r327;
+    let r329 = right_c5 * r251 - right_s5 * r254;
+    let r331 = right_s8 * r311 + right_c8 * r313;
+    let r333 = right_c5 * r257 - right_s5 * r260;
+    let r335 = right_s8 * r315 + right_c8 * r317;
+    let r337 = right_s9 * r325;
+    let r338 = right_c9 * r327;
+    let r339 = right_s9 * r329;
+    let r340 = right_c9 * r331;
+    let r341 = right_s9 * r333;
+    let r342 = right_c9 * r335;
+    let r344 = 0.1 * r287;
+    let r346 = 0.1 * r288;
+    let r348 = 0.1029 * r305;
+    let r350 = 0.1029 * r306;
+    let r352 = 0.04519 * r341;
+    let r353 = r168 + r169 - r344 - r346 - r348 - r350 - r352;
+    let r354 = 0.04519 * r342;
+    let r357 = 0.1 * r285;
+    let r359 = 0.1 * r286;
+    let r361 = 0.1029 * r303;
+    let r363 = 0.1029 * r304;
+    let r364 = r185 - r186 + r188 + r357 + r359 + r361 + r363;
+    let r365 = 0.04519 * r339;
+    let r367 = 0.04519 * r340;
+    let r368 = r364 + r365 + r367;
+    let r371 = 0.1 * r283;
+    let r373 = 0.1 * r284;
+    let r375 = 0.1029 * r301;
+    let r377 = 0.1029 * r302;
+    let r378 = r204 - r205 - r207 - r371 - r373 - r375 - r377;
+    let r379 = 0.04519 * r337;
+    let r381 = 0.04519 * r338;
+    let r382 = r378 - r379 - r381;
+    let r383 = r341 + r342;
+    let r384 = r339 + r340;
+    let r385 = r337 + r338;
+    let r386 = r312 - r314;
+    let r387 = right_c8 * r307 - right_s8 * r309;
+    let r397 = right_c9 * r333 - right_s9 * r335;
+    let r428 = r15 + r24 - r16;
+    let r433 = r181 + (r177 + (r175 + (r171 - r173)) - r179);
+    let r435 = r12 - r17;
+    let r440 = r200 + (r196 + (r194 + (r190 - r192)) - r198);
+    let r446 = r219 + (r215 + (r213 + (r209 - r211)) - r217);
+    let r449 = r14 + (r13 + r19);
+    let r467 = r181 + (r175 + r177 - r179);
+    let r471 = r200 + (r194 + r196 - r198);
+    let r475 = r219 + (r213 + r215 - r217);
+    let r481 = r164 - r165;
+    let r483 = r162 - r163;
+    let r486 = r150 * r481;
+    let r487 = r154 * r483;
+    let r489 = left_c8 * r140 - left_s8 * r142;
+    let r493 = r481 * r223;
+    let r494 = r483 * r222;
+    let r498 = 0.7071067811865475 * (r428 * r433 + r435 * r440);
+    let r502 = r154 * r221 - r158 * r481;
+    let r505 = r221 * r222 - r481 * r489;
+    let r510 = 0.7071067811865475 * (r435 * r446 - r433 * r449);
+    let r515 = r158 * r483 - r150 * r221;
+    let r518 = r483 * r489 - r221 * r223;
+    let r524 = 0.7071067811865475 * (r440 * r449 + r428 * r446);
+    let r564 = 0.7071067811865475 * (r428 * r489 + r435 * r222);
+    let r567 = r158 * r222 - r154 * r489;
+    let r571 = 0.7071067811865475 * (r435 * r223 - r449 * r489);
+    let r573 = r150 * r489 - r158 * r223;
+    let r578 = 0.7071067811865475 * (r449 * r222 + r428 * r223);
+    let r581 = r150 * r222 - r154 * r223;
+    let r620 = 0.7071067811865475 * (r428 * r232 + r435 * r233);
+    let r623 = r158 * r233 - r154 * r232;
+    let r628 = 0.7071067811865475 * (r435 * r234 - r449 * r232);
+    let r630 = r150 * r232 - r158 * r234;
+    let r636 = 0.7071067811865475 * (r449 * r233 + r428 * r234);
+    let r639 = r150 * r233 - r154 * r234;
+    let r665 = 0.7071067811865475 * (r428 * r221 + r435 * r481);
+    let r669 = 0.7071067811865475 * (r435 * r483 - r449 * r221);
+    let r675 = 0.7071067811865475 * (r449 * r481 + r428 * r483);
+    let r677 = r487 - r486;
+    let r683 = r353 - r354;
+    let r695 = r16 + (r24 - r15);
+    let r700 = r354 + (r352 + (r350 + (r348 + (r344 + r346))));
+    let r702 = r12 + r17;
+    let r707 = r367 + (r365 + (r363 + (r361 + (r357 + r359))));
+    let r713 = r381 + (r379 + (r377 + (r375 + (r371 + r373))));
+    let r716 = r19 - r13 - r14;
+    let r734 = r354 + (r352 + (r348 + r350));
+    let r738 = r367 + (r365 + (r361 + r363));
+    let r742 = r381 + (r379 + (r375 + r377));
+    let r751 = r325 * r384;
+    let r752 = r329 * r385;
+    let r753 = r383 * r386;
+    let r754 = right_c8 * r315 - right_s8 * r317;
+    let r755 = r384 * r754;
+    let r756 = r385 * r754;
+    let r757 = r383 * r387;
+    let r764 = 0.7071067811865475 * (r695 * r700 + r702 * r707);
+    let r768 = r329 * r383 - r333 * r384;
+    let r776 = 0.7071067811865475 * (r702 * r713 - r700 * r716);
+    let r781 = r333 * r385 - r325 * r383;
+    let r790 = 0.7071067811865475 * (r707 * r716 + r695 * r713);
+    let r796 = r384 * r387 - r385 * r386;
+    let r831 = 0.7071067811865475 * (r695 * r754 + r702 * r386);
+    let r834 = r329 * r754 - r333 * r386;
+    let r838 = 0.7071067811865475 * (r702 * r387 - r716 * r754);
+    let r840 = r333 * r387 - r325 * r754;
+    let r845 = 0.7071067811865475 * (r716 * r386 + r695 * r387);
+    let r848 = r329 * r387 - r325 * r386;
+    let r851 = right_c9 * r329 - right_s9 * r331;
+    let r853 = r326 - r328;
+    let r887 = 0.7071067811865475 * (r695 * r397 + r702 * r851);
+    let r889 = r333 * r851 - r329 * r397;
+    let r893 = 0.7071067811865475 * (r702 * r853 - r716 * r397);
+    let r896 = r325 * r397 - r333 * r853;
+    let r901 = 0.7071067811865475 * (r716 * r851 + r695 * r853);
+    let r903 = r325 * r851 - r329 * r853;
+    let r931 = 0.7071067811865475 * (r695 * r383 + r702 * r384);
+    let r938 = 0.7071067811865475 * (r702 * r385 - r716 * r383);
+    let r945 = 0.7071067811865475 * (r716 * r384 + r695 * r385);
+    let r948 = r752 - r751;
     [
         [0.0, -1.0 * left_s2_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         [0.0, left_c2_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         [0.0, 0.0, -1.0 * left_s3_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         [0.0, 0.0, left_c3_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - r330, left_c1 * r331, r11 * r331 - r12 * r330, r45 * r350 - r46 * r349, r71 * r362 - r76 * r361, r130 * r374 - r133 * r373, r171 * r386 - r172 * r385, r216 * r398 - r217 * r397, r256 * r410 - r259 * r409, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r329, 0.0 - r5 * r331, r12 * r329 - r10 * r331, r46 * r348 - r44 * r350, r76 * r360 - r66 * r362, r133 * r372 - r127 * r374, r172 * r384 - r170 * r386, r217 * r396 - r215 * r398, r259 * r408 - r253 * r410, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0, r5 * r330 - left_c1 * r329, r10 * r330 - r11 * r329, r44 * r349 - r45 * r348, r66 * r361 - r71 * r360, r127 * r373 - r130 * r372, r170 * r385 - r171 * r384, r215 * r397 - r216 * r396, r253 * r409 - r256 * r408, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - r291, left_c1 * r292, r11 * r292 - r12 * r291, r45 * r292 - r46 * r291, r71 * r292 - r76 * r291, r130 * r292 - r133 * r291, r171 * r292 - r172 * r291, r216 * r292 - r217 * r291, r256 * r292 - r259 * r291, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r290, 0.0 - r5 * r292, r12 * r290 - r10 * r292, r46 * r290 - r44 * r292, r76 * r290 - r66 * r292, r133 * r290 - r127 * r292, r172 * r290 - r170 * r292, r217 * r290 - r215 * r292, r259 * r290 - r253 * r292, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0, r5 * r291 - left_c1 * r290, r10 * r291 - r11 * r290, r44 * r291 - r45 * r290, r66 * r291 - r71 * r290, r127 * r291 - r130 * r290, r170 * r291 - r171 * r290, r215 * r291 - r216 * r290, r253 * r291 - r256 * r290, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - r298, left_c1 * r301, r11 * r301 - r12 * r298, r45 * r301 - r46 * r298, r71 * r301 - r76 * r298, r130 * r301 - r133 * r298, r171 * r301 - r172 * r298, r216 * r301 - r217 * r298, r256 * r301 - r259 * r298, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r295, 0.0 - r5 * r301, r12 * r295 - r10 * r301, r46 * r295 - r44 * r301, r76 * r295 - r66 * r301, r133 * r295 - r127 * r301, r172 * r295 - r170 * r301, r217 * r295 - r215 * r301, r259 * r295 - r253 * r301, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0, r5 * r298 - left_c1 * r295, r10 * r298 - r11 * r295, r44 * r298 - r45 * r295, r66 * r298 - r71 * r295, r127 * r298 - r130 * r295, r170 * r298 - r171 * r295, r215 * r298 - r216 * r295, r253 * r298 - r256 * r295, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - r307, left_c1 * r310, r11 * r310 - r12 * r307, r45 * r310 - r46 * r307, r71 * r310 - r76 * r307, r130 * r310 - r133 * r307, r171 * r310 - r172 * r307, r216 * r310 - r217 * r307, r256 * r310 - r259 * r307, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [r304, 0.0 - r5 * r310, r12 * r304 - r10 * r310, r46 * r304 - r44 * r310, r76 * r304 - r66 * r310, r133 * r304 - r127 * r310, r172 * r304 - r170 * r310, r217 * r304 - r215 * r310, r259 * r304 - r253 * r310, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0, r5 * r307 - left_c1 * r304, r10 * r307 - r11 * r304, r44 * r307 - r45 * r304, r66 * r307 - r71 * r304, r127 * r307 - r130 * r304, r170 * r307 - r171 * r304, r215 * r307 - r216 * r304, r253 * r307 - r256 * r304, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [0.0 - r910, left_c1 * r911, r11 * r911 - r12 * r910, r646 * r930 - r647 * r929, 0.0, 0.0, 0.0, 0.0, 0.0, r659 * r942 - r662 * r941, r710 * r954 - r713 * r953, r751 * r966 - r752 * r965, r796 * r978 - r797 * r977, r836 * r990 - r839 * r989],
-        [r909, 0.0 - r5 * r911, r12 * r909 - r10 * r911, r647 * r928 - r645 * r930, 0.0, 0.0, 0.0, 0.0, 0.0, r662 * r940 - r656 * r942, r713 * r952 - r707 * r954, r752 * r964 - r750 * r966, r797 * r976 - r795 * r978, r839 * r988 - r833 * r990],
-        [0.0, r5 * r910 - left_c1 * r909, r10 * r910 - r11 * r909, r645 * r929 - r646 * r928, 0.0, 0.0, 0.0, 0.0, 0.0, r656 * r941 - r659 * r940, r707 * r953 - r710 * r952, r750 * r965 - r751 * r964, r795 * r977 - r796 * r976, r833 * r989 - r836 * r988],
-        [0.0 - r871, left_c1 * r872, r11 * r872 - r12 * r871, r646 * r872 - r647 * r871, 0.0, 0.0, 0.0, 0.0, 0.0, r659 * r872 - r662 * r871, r710 * r872 - r713 * r871, r751 * r872 - r752 * r871, r796 * r872 - r797 * r871, r836 * r872 - r839 * r871],
-        [r870, 0.0 - r5 * r872, r12 * r870 - r10 * r872, r647 * r870 - r645 * r872, 0.0, 0.0, 0.0, 0.0, 0.0, r662 * r870 - r656 * r872, r713 * r870 - r707 * r872, r752 * r870 - r750 * r872, r797 * r870 - r795 * r872, r839 * r870 - r833 * r872],
-        [0.0, r5 * r871 - left_c1 * r870, r10 * r871 - r11 * r870, r645 * r871 - r646 * r870, 0.0, 0.0, 0.0, 0.0, 0.0, r656 * r871 - r659 * r870, r707 * r871 - r710 * r870, r750 * r871 - r751 * r870, r795 * r871 - r796 * r870, r833 * r871 - r836 * r870],
-        [0.0 - r878, left_c1 * r881, r11 * r881 - r12 * r878, r646 * r881 - r647 * r878, 0.0, 0.0, 0.0, 0.0, 0.0, r659 * r881 - r662 * r878, r710 * r881 - r713 * r878, r751 * r881 - r752 * r878, r796 * r881 - r797 * r878, r836 * r881 - r839 * r878],
-        [r875, 0.0 - r5 * r881, r12 * r875 - r10 * r881, r647 * r875 - r645 * r881, 0.0, 0.0, 0.0, 0.0, 0.0, r662 * r875 - r656 * r881, r713 * r875 - r707 * r881, r752 * r875 - r750 * r881, r797 * r875 - r795 * r881, r839 * r875 - r833 * r881],
-        [0.0, r5 * r878 - left_c1 * r875, r10 * r878 - r11 * r875, r645 * r878 - r646 * r875, 0.0, 0.0, 0.0, 0.0, 0.0, r656 * r878 - r659 * r875, r707 * r878 - r710 * r875, r750 * r878 - r751 * r875, r795 * r878 - r796 * r875, r833 * r878 - r836 * r875],
-        [0.0 - r887, left_c1 * r890, r11 * r890 - r12 * r887, r646 * r890 - r647 * r887, 0.0, 0.0, 0.0, 0.0, 0.0, r659 * r890 - r662 * r887, r710 * r890 - r713 * r887, r751 * r890 - r752 * r887, r796 * r890 - r797 * r887, r836 * r890 - r839 * r887],
-        [r884, 0.0 - r5 * r890, r12 * r884 - r10 * r890, r647 * r884 - r645 * r890, 0.0, 0.0, 0.0, 0.0, 0.0, r662 * r884 - r656 * r890, r713 * r884 - r707 * r890, r752 * r884 - r750 * r890, r797 * r884 - r795 * r890, r839 * r884 - r833 * r890],
-        [0.0, r5 * r887 - left_c1 * r884, r10 * r887 - r11 * r884, r645 * r887 - r646 * r884, 0.0, 0.0, 0.0, 0.0, 0.0, r656 * r887 - r659 * r884, r707 * r887 - r710 * r884, r750 * r887 - r751 * r884, r795 * r887 - r796 * r884, r833 * r887 - r836 * r884],
+        [r200 - r199, left_c1 * r182, r5 * r182 + left_s2_ * r201, r498, r97 * r433 - r104 * r440, r154 * r433 - r158 * r440, r154 * r467 - r158 * r471, 0.0 - 0.04519 * r502, 0.0 - 0.04519 * r505, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0 - r220, left_s1 * r182, left_s2_ * r220 - r4 * r182, 0.0 - r510, r104 * r446 - r90 * r433, r158 * r446 - r150 * r433, r158 * r475 - r150 * r467, 0.0 - 0.04519 * r515, 0.0 - 0.04519 * r518, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, left_c1 * r220 - left_s1 * r201, r4 * r201 + r5 * r220, r524, r97 * r446 - r90 * r440, r154 * r446 - r150 * r440, r154 * r475 - r150 * r471, 0.04519 * (r486 - r487), 0.04519 * (r493 - r494), 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r139 - r137, 0.0 - left_c1 * r489, left_s2_ * r222 - r5 * r489, 0.0 - r564, r104 * r222 - r97 * r489, r567, r567, r567, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r223, 0.0 - left_s1 * r489, r4 * r489 - left_s2_ * r223, r571, r90 * r489 - r104 * r223, r573, r573, r573, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0 - (left_s1 * r222 + left_c1 * r223), r4 * r222 - r5 * r223, 0.0 - r578, r90 * r222 - r97 * r223, r581, r581, r581, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0 - r233, 0.0 - left_c1 * r232, left_s2_ * r233 - r5 * r232, 0.0 - r620, r104 * r233 - r97 * r232, r623, r623, r623, r489 * r233 - r222 * r232, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r234, 0.0 - left_s1 * r232, r4 * r232 - left_s2_ * r234, r628, r90 * r232 - r104 * r234, r630, r630, r630, r223 * r232 - r489 * r234, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0 - (left_s1 * r233 + left_c1 * r234), r4 * r233 - r5 * r234, 0.0 - r636, r90 * r233 - r97 * r234, r639, r639, r639, r223 * r233 - r222 * r234, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r481, left_c1 * r221, r5 * r221 - left_s2_ * r481, r665, r97 * r221 - r104 * r481, r502, r502, r502, r505, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r163 - r162, left_s1 * r221, left_s2_ * r483 - r4 * r221, 0.0 - r669, r104 * r483 - r90 * r221, r515, r515, r515, r518, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, left_s1 * r481 + left_c1 * r483, r5 * r483 - r4 * r481, r675, r97 * r483 - r90 * r481, r677, r677, r677, r494 - r493, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [r368, 0.0 - left_c1 * r683, 0.0 - (r5 * r683 + left_s2_ * r368), r764, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r700 - r279 * r707, r333 * r707 - r329 * r700, r333 * r738 - r329 * r734, 0.0 - 0.04519 * r768, 0.04519 * (r753 - r755)],
+        [r382, 0.0 - left_s1 * r683, r4 * r683 - left_s2_ * r382, 0.0 - r776, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r713 - r269 * r700, r325 * r700 - r333 * r713, r325 * r734 - r333 * r742, 0.0 - 0.04519 * r781, 0.04519 * (r756 - r757)],
+        [0.0, left_s1 * r368 - left_c1 * r382, 0.0 - (r4 * r368 + r5 * r382), r790, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r713 - r269 * r707, r325 * r707 - r329 * r713, r325 * r738 - r329 * r742, 0.04519 * (r751 - r752), 0.0 - 0.04519 * r796],
+        [r314 - r312, 0.0 - left_c1 * r754, left_s2_ * r386 - r5 * r754, 0.0 - r831, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r386 - r274 * r754, r834, r834, r834, 0.0],
+        [r387, 0.0 - left_s1 * r754, r4 * r754 - left_s2_ * r387, r838, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r754 - r279 * r387, r840, r840, r840, 0.0],
+        [0.0, 0.0 - (left_s1 * r386 + left_c1 * r387), r4 * r386 - r5 * r387, 0.0 - r845, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r386 - r274 * r387, r848, r848, r848, 0.0],
+        [r851, left_c1 * r397, r5 * r397 - left_s2_ * r851, r887, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r397 - r279 * r851, r889, r889, r889, r386 * r397 - r754 * r851],
+        [r328 - r326, left_s1 * r397, left_s2_ * r853 - r4 * r397, 0.0 - r893, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r853 - r269 * r397, r896, r896, r896, r754 * r853 - r387 * r397],
+        [0.0, left_s1 * r851 + left_c1 * r853, r5 * r853 - r4 * r851, r901, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r853 - r269 * r851, r903, r903, r903, r386 * r853 - r387 * r851],
+        [0.0 - r384, 0.0 - left_c1 * r383, left_s2_ * r384 - r5 * r383, 0.0 - r931, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r384 - r274 * r383, r768, r768, r768, r755 - r753],
+        [r385, 0.0 - left_s1 * r383, r4 * r383 - left_s2_ * r385, r938, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r383 - r279 * r385, r781, r781, r781, r757 - r756],
+        [0.0, 0.0 - (left_s1 * r384 + left_c1 * r385), r4 * r384 - r5 * r385, 0.0 - r945, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r384 - r274 * r385, r948, r948, r948, r796],
     ]
 }
 

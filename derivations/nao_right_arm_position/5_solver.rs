@@ -370,51 +370,38 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 
 /// Block 2: ElbowRoll.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.1137 * known.c3_;
-    let r3 = 0.1137 * known.s3_;
-    let r4 = 0.01231 * known.s3_ - 0.113;
-    let r5 = -0.01231 * known.c3_ + 0.1;
-    let r8 = 0.1 * r5;
-    let r9 = 0.1 * r3;
-    let r11 = -0.113 * r4 + 0.011025 + r8;
-    let r12 = -0.113 * r0 + r9;
-    let r31 = r11 + r11 - 0.033794 + 0.0130792261 + (-0.098 * (-0.098 - r4) + 0.1 * (0.1 - r5));
-    let r32 = r12 + r12 + (-0.098 * (0.0 - r0) + 0.1 * (0.0 - r3));
-    let r34 = r32 - (-0.098 * r0 + r9);
-    let r39 = p.px * p.px + p.py * p.py + p.pz * p.pz;
-    let r47 = -0.098 * (-0.098 - p.py) + 0.1 * (0.1 - p.pz);
-    let r52 = r39 + r39 - r39 + r47 - (-0.098 * p.py + 0.1 * p.pz);
-    let r53 = r31 - (-0.098 * r4 + r8) - r52;
-    let shared = &Shared2 { r34, r53 };
+    let r3 = 0.003411 * known.c3_;
+    let r6 = p.py * p.py + (p.px * p.px + 0.0003693 * known.s3_);
+    let r12 = 0.0047252261 - (p.pz * p.pz + r6 + 0.196 * p.py - 0.2 * p.pz);
+    let shared = &Shared2 { r3, r12 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r34: f64,
-    r53: f64,
+    r3: f64,
+    r12: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r54 = shared.r34 * shared.r34;
-    let r55 = r54 + 0.0005701111289999999;
-    if !is_away(r55, 20000.0) {
+    let r13 = shared.r3 * shared.r3;
+    let r14 = r13 + 0.0005701111289999999;
+    if !is_away(r14, 20000.0) {
         return;
     }
     let f4 = 1.0;
-    let r57 = shared.r53 * shared.r53 - 0.0005701111289999999;
-    let roots0 = real_roots(&[r57 - r54, 0.0, 1.0], 1.4142135623730951);
+    let r16 = shared.r12 * shared.r12 - 0.0005701111289999999;
+    let roots0 = real_roots(&[r16 - r13, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r62 = 0.0 - (shared.r34 * shared.r53 - 0.023877 * w4);
-        let r63 = r62 / r55;
-        let r67 = 0.0 - (shared.r34 * w4 + 0.023877 * shared.r53);
-        let r68 = r67 / r55;
-        let r72 = f64::max(r68 * r68 + r63 * r63, 0.0).sqrt();
-        let c4 = r68 / r72;
-        let s4 = r63 / r72;
+        let r21 = 0.023877 * w4 - (0.0 - shared.r3 * shared.r12);
+        let r22 = r21 / r14;
+        let r26 = (w4 * shared.r3 - 0.023877 * shared.r12) / r14;
+        let r30 = f64::max(r26 * r26 + r22 * r22, 0.0).sqrt();
+        let c4 = r26 / r30;
+        let s4 = r22 / r30;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, f4, ..*known };
         block_3(p, &next, answers);
     }
@@ -424,8 +411,8 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: ElbowRoll.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r55 = shared.r34 * shared.r34 + 0.0005701111289999999;
-    if !(is_near(r55, 2.0000000000000002e-7) && is_near(shared.r53, 0.01)) {
+    let r14 = shared.r3 * shared.r3 + 0.0005701111289999999;
+    if !(is_near(r14, 2.0000000000000002e-7) && is_near(shared.r12, 0.01)) {
         return;
     }
     let f4 = 1000000.0;
@@ -437,49 +424,42 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: ShoulderPitch.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r12 = (0.1137 * known.s4 - 0.113 + 0.113) * known.s3_;
-    let r22 = 0.0 - (p.pz - 0.1);
-    let r25 = -0.01231 * known.c3_ + r12 + 0.1 - 0.1;
-    let r26 = 0.0 - (0.0 - (0.0 - p.px));
-    let r31 = f64::abs(p.magnitude + 0.1);
-    let r32 = f64::abs(p.magnitude);
-    let shared = &Shared3 { r22, r25, r26, r31, r32 };
+    let r1 = 0.1 - p.pz;
+    let r4 = 0.1137 * (known.s3_ * known.s4) - 0.01231 * known.c3_;
+    let r6 = f64::abs(p.magnitude + 0.1);
+    let shared = &Shared3 { r1, r4, r6 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r22: f64,
-    r25: f64,
-    r26: f64,
-    r31: f64,
-    r32: f64,
+    r1: f64,
+    r4: f64,
+    r6: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r33 = shared.r22 * shared.r22;
-    let r34 = shared.r26 * shared.r26;
-    let r35 = r33 + r34;
-    let r38 = shared.r31 * shared.r31 + shared.r32 * shared.r32;
-    if !is_away(r35, 10000.0 * r38) {
+    let r7 = shared.r1 * shared.r1;
+    let r8 = p.px * p.px;
+    let r9 = r7 + r8;
+    let r12 = shared.r6 * shared.r6 + p.magnitude * p.magnitude;
+    if !is_away(r9, 10000.0 * r12) {
         return;
     }
     let roots0 = real_roots(&[
-        shared.r25 * shared.r25 - r33 - r34,
+        shared.r4 * shared.r4 - r7 - r8,
         0.0,
         1.0,
-    ], known.f4 * f64::max(r38, 0.0).sqrt());
+    ], known.f4 * f64::max(r12, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r48 = 0.0 - (shared.r26 * shared.r25 - shared.r22 * w1);
-        let r49 = r48 / r35;
-        let r53 = 0.0 - (shared.r26 * w1 + shared.r22 * shared.r25);
-        let r54 = r53 / r35;
-        let r58 = f64::max(r54 * r54 + r49 * r49, 0.0).sqrt();
-        let c1 = r54 / r58;
-        let s1 = r49 / r58;
+        let r23 = (w1 * shared.r1 - (0.0 - p.px * shared.r4)) / r9;
+        let r27 = (p.px * w1 - shared.r1 * shared.r4) / r9;
+        let r31 = f64::max(r27 * r27 + r23 * r23, 0.0).sqrt();
+        let c1 = r27 / r31;
+        let s1 = r23 / r31;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c1, s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -489,9 +469,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: ShoulderPitch.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r35 = shared.r22 * shared.r22 + shared.r26 * shared.r26;
-    let r38 = shared.r31 * shared.r31 + shared.r32 * shared.r32;
-    if !(is_near(r35, 1.0000000000000001e-7 * r38) && is_near(shared.r25, 0.0173877)) {
+    let r12 = shared.r6 * shared.r6 + p.magnitude * p.magnitude;
+    if !(is_near(shared.r1 * shared.r1 + p.px * p.px, 1.0000000000000001e-7 * r12) && is_near(shared.r4, 0.0173877)) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -502,44 +481,42 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: ShoulderRoll.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = 0.1137 * known.c4 + 0.105 - 0.105;
-    let r8 = (0.1137 * known.s4 - 0.113 + 0.113) * known.c3_;
-    let r18 = r8 + 0.01231 * known.s3_ - 0.113 + 0.098;
-    let r24 = 0.0 - (r4 + (r4 - r4) * known.c3_ + 0.105);
-    let r34 = p.px * known.c1 + (0.0 - (p.pz - 0.1)) * known.s1;
-    let r44 = 0.0 - (-0.098 - p.py);
-    let r45 = 0.0 - (0.0 - (0.0 - r34));
-    let r56 = f64::abs(0.0 - (p.magnitude + 0.098));
-    let r57 = f64::abs(0.0 - (p.magnitude + (p.magnitude + 0.1)));
-    let shared = &Shared4 { r18, r24, r44, r45, r56, r57 };
+    let r6 = 0.1137 * (known.c3_ * known.s4) + 0.01231 * known.s3_;
+    let r7 = r6 - 0.015;
+    let r9 = 0.1137 * known.c4 + 0.105;
+    let r10 = p.py + 0.098;
+    let r11 = known.s1 * (p.pz - 0.1) - p.px * known.c1;
+    let r15 = f64::abs(p.magnitude + 0.098);
+    let r16 = f64::abs(2.0 * p.magnitude + 0.1);
+    let shared = &Shared4 { r7, r9, r10, r11, r15, r16 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r18: f64,
-    r24: f64,
-    r44: f64,
-    r45: f64,
-    r56: f64,
-    r57: f64,
+    r7: f64,
+    r9: f64,
+    r10: f64,
+    r11: f64,
+    r15: f64,
+    r16: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r60 = shared.r18 * shared.r18 + shared.r24 * shared.r24;
-    if !is_away(r60, 87456.27862900001) {
+    let r19 = shared.r7 * shared.r7 + shared.r9 * shared.r9;
+    if !is_away(r19, 87456.27862900001) {
         return;
     }
-    let r63 = shared.r24 * shared.r44 - shared.r18 * shared.r45;
-    let r65 = (0.0 - r63) / r60;
-    let r69 = 0.0 - shared.r18 * shared.r44 - shared.r24 * shared.r45;
-    let r71 = (0.0 - r69) / r60;
-    let r75 = f64::max(r71 * r71 + r65 * r65, 0.0).sqrt();
-    let c2 = r71 / r75;
-    let s2 = r65 / r75;
+    let r23 = shared.r7 * shared.r11 - (0.0 - shared.r9 * shared.r10);
+    let r24 = r23 / r19;
+    let r27 = shared.r7 * shared.r10 - shared.r9 * shared.r11;
+    let r28 = r27 / r19;
+    let r32 = f64::max(r28 * r28 + r24 * r24, 0.0).sqrt();
+    let c2 = r28 / r32;
+    let s2 = r24 / r32;
     let q = [
         angle(known.c1, known.s1),
         angle(c2, s2),
@@ -553,8 +530,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: ShoulderRoll.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r60 = shared.r18 * shared.r18 + shared.r24 * shared.r24;
-    if !(is_near(r60, 8.745627862900002e-7) && is_near(shared.r45, 0.01 * shared.r57) && is_near(shared.r44, 0.01 * shared.r56)) {
+    let r19 = shared.r7 * shared.r7 + shared.r9 * shared.r9;
+    if !(is_near(r19, 8.745627862900002e-7) && is_near(shared.r11, 0.01 * shared.r16) && is_near(shared.r10, 0.01 * shared.r15)) {
         return;
     }
     for [c2, s2] in SAMPLES_1 {
@@ -581,61 +558,19 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s3_ = q[2].sin();
     let c4 = q[3].cos();
     let s4 = q[3].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.1 * s1;
-    let r4 = -0.098 * r2;
-    let r5 = 0.1 * c1;
-    let r13 = 0.0 - s2;
-    let r14 = c2 + (1.0 - c2);
-    let r15 = c1 * c2;
-    let r16 = r2 * s2;
-    let r17 = r1 * c2;
-    let r18 = c1 * r13;
-    let r19 = r2 * c2;
-    let r20 = r1 * r13;
-    let r21 = s1 * r14;
-    let r22 = c1 * r14;
-    let r24 = 0.1 * r21;
-    let r28 = 0.1 * r22;
-    let r44 = 0.0 - r3 + r3 - (-0.098 * r18 + r24) + (0.105 * r15 + -0.113 * r18 + r24);
-    let r45 = -0.098 - r4 + r4 - -0.098 * r19 + (0.105 * r16 + -0.113 * r19);
-    let r46 = 0.1 - r5 + r5 - (-0.098 * r20 + r28) + (0.105 * r17 + -0.113 * r20 + r28);
-    let r48 = c3_ + (1.0 - c3_);
-    let r49 = 0.0 - s3_;
-    let r50 = r15 * r48;
-    let r51 = r16 * r48;
-    let r52 = r17 * r48;
-    let r55 = r18 * c3_ + r21 * s3_;
-    let r56 = r19 * c3_;
-    let r59 = r20 * c3_ + r22 * s3_;
-    let r62 = r18 * r49 + r21 * c3_;
-    let r63 = r19 * r49;
-    let r66 = r20 * r49 + r22 * c3_;
-    let r71 = 0.105 * r50 + -0.113 * r55 + 0.1 * r62;
-    let r76 = 0.105 * r51 + -0.113 * r56 + 0.1 * r63;
-    let r81 = 0.105 * r52 + -0.113 * r59 + 0.1 * r66;
-    let r89 = 0.0 - s4;
-    let r90 = c4 + (1.0 - c4);
-    let r93 = r50 * c4 + r55 * s4;
-    let r96 = r51 * c4 + r56 * s4;
-    let r99 = r52 * c4 + r59 * s4;
-    let r109 = r62 * r90;
-    let r110 = r63 * r90;
-    let r111 = r66 * r90;
-    let r113 = -0.113 * (r50 * r89 + r55 * c4);
-    let r118 = -0.113 * (r51 * r89 + r56 * c4);
-    let r123 = -0.113 * (r52 * r89 + r59 * c4);
-    let r127 = r44 - r71 + r71 - (0.105 * r93 + r113 + 0.1 * r109);
-    let r128 = r45 - r76 + r76 - (0.105 * r96 + r118 + 0.1 * r110);
-    let r129 = r46 - r81 + r81 - (0.105 * r99 + r123 + 0.1 * r111);
-    let r142 = r127 + (0.2187 * r93 + r113 + 0.08769 * r109);
-    let r143 = r128 + (0.2187 * r96 + r118 + 0.08769 * r110);
-    let r144 = r129 + (0.2187 * r99 + r123 + 0.08769 * r111);
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r28 = 0.015 * c2 - 0.105 * s2 - 0.1137 * (s2 * c4) - 0.1137 * (s4 * (c2 * c3_));
+    let r37 = 0.015 * r2 + 0.105 * r0 + 0.1137 * (c4 * r0) - 0.1137 * (s4 * (c3_ * r2 - s1 * s3_));
+    let r41 = r37 - 0.01231 * (s3_ * r2) - 0.01231 * (s1 * c3_);
+    let r48 = 0.015 * r3 + 0.105 * r1 + 0.1137 * (c4 * r1) - 0.1137 * (s4 * (c3_ * r3 + c1 * s3_));
+    let r52 = r48 - 0.01231 * (s3_ * r3) + 0.01231 * (c1 * c3_);
     [
-        r142,
-        r143,
-        r144,
+        r41,
+        0.0 - (r28 - 0.01231 * (c2 * s3_) + 0.098),
+        0.1 - r52,
         c3_,
         s3_,
     ]
@@ -677,72 +612,39 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s3_ = q[2].sin();
     let c4 = q[3].cos();
     let s4 = q[3].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.1 * s1;
-    let r4 = -0.098 * r2;
-    let r5 = 0.1 * c1;
-    let r9 = 0.0 - r3 + r3;
-    let r10 = -0.098 - r4 + r4;
-    let r11 = 0.1 - r5 + r5;
-    let r13 = 0.0 - s2;
-    let r14 = c2 + (1.0 - c2);
-    let r15 = c1 * c2;
-    let r16 = r2 * s2;
-    let r17 = r1 * c2;
-    let r18 = c1 * r13;
-    let r19 = r2 * c2;
-    let r20 = r1 * r13;
-    let r21 = s1 * r14;
-    let r22 = c1 * r14;
-    let r24 = 0.1 * r21;
-    let r28 = 0.1 * r22;
-    let r44 = r9 - (-0.098 * r18 + r24) + (0.105 * r15 + -0.113 * r18 + r24);
-    let r45 = r10 - -0.098 * r19 + (0.105 * r16 + -0.113 * r19);
-    let r46 = r11 - (-0.098 * r20 + r28) + (0.105 * r17 + -0.113 * r20 + r28);
-    let r48 = c3_ + (1.0 - c3_);
-    let r49 = 0.0 - s3_;
-    let r50 = r15 * r48;
-    let r51 = r16 * r48;
-    let r52 = r17 * r48;
-    let r55 = r18 * c3_ + r21 * s3_;
-    let r56 = r19 * c3_;
-    let r59 = r20 * c3_ + r22 * s3_;
-    let r62 = r18 * r49 + r21 * c3_;
-    let r63 = r19 * r49;
-    let r66 = r20 * r49 + r22 * c3_;
-    let r71 = 0.105 * r50 + -0.113 * r55 + 0.1 * r62;
-    let r76 = 0.105 * r51 + -0.113 * r56 + 0.1 * r63;
-    let r81 = 0.105 * r52 + -0.113 * r59 + 0.1 * r66;
-    let r85 = r44 - r71 + r71;
-    let r86 = r45 - r76 + r76;
-    let r87 = r46 - r81 + r81;
-    let r89 = 0.0 - s4;
-    let r90 = c4 + (1.0 - c4);
-    let r93 = r50 * c4 + r55 * s4;
-    let r96 = r51 * c4 + r56 * s4;
-    let r99 = r52 * c4 + r59 * s4;
-    let r109 = r62 * r90;
-    let r110 = r63 * r90;
-    let r111 = r66 * r90;
-    let r113 = -0.113 * (r50 * r89 + r55 * c4);
-    let r118 = -0.113 * (r51 * r89 + r56 * c4);
-    let r123 = -0.113 * (r52 * r89 + r59 * c4);
-    let r142 = r85 - (0.105 * r93 + r113 + 0.1 * r109) + (0.2187 * r93 + r113 + 0.08769 * r109);
-    let r143 = r86 - (0.105 * r96 + r118 + 0.1 * r110) + (0.2187 * r96 + r118 + 0.08769 * r110);
-    let r144 = r87 - (0.105 * r99 + r123 + 0.1 * r111) + (0.2187 * r99 + r123 + 0.08769 * r111);
-    let r149 = r143 - r10;
-    let r157 = r142 - r44;
-    let r158 = r143 - r45;
-    let r159 = r144 - r46;
-    let r169 = r142 - r85;
-    let r170 = r143 - r86;
-    let r171 = r144 - r87;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r9 = s3_ * r2;
+    let r10 = s1 * c3_;
+    let r11 = c2 * s3_;
+    let r12 = s3_ * r3;
+    let r13 = c1 * c3_;
+    let r25 = 0.1137 * (s2 * c4);
+    let r27 = 0.1137 * (s4 * (c2 * c3_));
+    let r29 = 0.01231 * r11;
+    let r30 = 0.015 * c2 - 0.105 * s2 - r25 - r27 - r29;
+    let r34 = 0.1137 * (c4 * r0);
+    let r36 = 0.1137 * (s4 * (c3_ * r2 - s1 * s3_));
+    let r38 = 0.01231 * r9;
+    let r39 = 0.015 * r2 + 0.105 * r0 + r34 - r36 - r38;
+    let r40 = 0.01231 * r10;
+    let r45 = 0.1137 * (c4 * r1);
+    let r47 = 0.1137 * (s4 * (c3_ * r3 + c1 * s3_));
+    let r49 = 0.01231 * r12;
+    let r51 = 0.01231 * r13;
+    let r52 = 0.015 * r3 + 0.105 * r1 + r45 - r47 - r49 + r51;
+    let r67 = r51 + (r45 - r47 - r49);
+    let r70 = r29 + (r25 + r27);
+    let r74 = r34 - r36 - r38 - r40;
+    let r80 = r12 - r13;
+    let r83 = r9 + r10;
     [
-        [r144 - 0.1, 0.0 - c1 * r149, r16 * r159 - r17 * r158, r63 * r171 - r66 * r170],
-        [0.0, c1 * (r142 - r9) - s1 * (r144 - r11), r17 * r157 - r15 * r159, r66 * r169 - r62 * r171],
-        [0.0 - r142, s1 * r149, r15 * r158 - r16 * r157, r62 * r170 - r63 * r169],
-        [0.0, 0.0, r49, 0.0],
+        [0.0 - r52, c1 * r30, r1 * r70 - s2 * r67, r11 * r67 + r70 * r80],
+        [0.0, c1 * (r39 - r40) + s1 * r52, r0 * r67 - r1 * r74, r67 * r83 - r74 * r80],
+        [r40 - r39, 0.0 - s1 * r30, r0 * r70 - s2 * r74, r70 * r83 + r11 * r74],
+        [0.0, 0.0, 0.0 - s3_, 0.0],
         [0.0, 0.0, c3_, 0.0],
     ]
 }

@@ -441,32 +441,30 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: KneePitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r4 = p.py + 0.04519 * p.r23_;
-    let r5 = p.pz + 0.04519 * p.r33_;
-    let r10 = p.px * (p.px + 0.04519 * p.r13_) + p.py * r4 + p.pz * r5;
-    let r17 = r10 + r10 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r24 = -0.05 * (-0.05 - r4) + -0.085 * (-0.085 - r5);
-    let r29 = r17 + 0.0020421361 + r24 - (-0.05 * r4 + -0.085 * r5);
-    let r30 = 0.02058841 - r29;
-    let shared = &Shared1 { r30 };
+    let r14 = 2.0 * (p.px * (p.px + 0.04519 * p.r13_)) + 2.0 * (p.py * (p.py + 0.04519 * p.r23_));
+    let r16 = r14 + 2.0 * (p.pz * (p.pz + 0.04519 * p.r33_));
+    let r19 = r16 - p.px * p.px - p.py * p.py - p.pz * p.pz;
+    let r25 = r19 + 0.1 * p.py + 0.004519 * p.r23_ + 0.17 * p.pz;
+    let r28 = 0.0088212739 - (r25 + 0.0076823 * p.r33_);
+    let shared = &Shared1 { r28 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r30: f64,
+    r28: f64,
 }
 
 /// Chart 1 of block 1: generic.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r32 = shared.r30 * shared.r30 - 0.00042353640000000005;
-    let roots0 = real_roots(&[r32, 0.0, 1.0], 1.4142135623730951);
+    let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
+    let roots0 = real_roots(&[r30, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r36 = (0.0 - (0.0 - 0.02058 * w4)) / 0.00042353640000000005;
-        let r39 = (0.0 - 0.02058 * shared.r30) / 0.00042353640000000005;
-        let r43 = f64::max(r39 * r39 + r36 * r36, 0.0).sqrt();
-        let c4 = r39 / r43;
-        let s4 = r36 / r43;
+        let r32 = 0.02058 * w4 / 0.00042353640000000005;
+        let r34 = 0.02058 * shared.r28 / 0.00042353640000000005;
+        let r38 = f64::max(r34 * r34 + r32 * r32, 0.0).sqrt();
+        let c4 = 0.0 - r34 / r38;
+        let s4 = r32 / r38;
         let next = Known { branch: i0, last: 2, c4, s4, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -474,46 +472,44 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: AnkleRoll.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - p.r23_;
-    let r2 = 0.0 - p.r33_;
-    let r11 = p.px * p.r12_ + p.py * p.r22_ + p.pz * p.r32_;
-    let r12 = p.px * (0.0 - p.r13_) + p.py * r1 + p.pz * r2;
-    let r22 = 0.0 - (-0.05 * p.r22_ + -0.085 * p.r32_ - r11);
-    let r23 = 0.0 - (-0.05 * r1 + -0.085 * r2 - (r12 - 0.04519));
-    let r25 = p.magnitude + p.magnitude + p.magnitude;
-    let r30 = f64::abs(r25 + 0.1 + 0.135);
-    let r31 = f64::abs(r25 + 0.62099 + 0.135);
-    let shared = &Shared2 { r22, r23, r30, r31 };
+    let r9 = p.px * p.r12_ + (0.05 * p.r22_ + 0.085 * p.r32_);
+    let r11 = p.pz * p.r32_ + (p.py * p.r22_ + r9);
+    let r15 = p.px * p.r13_ + (0.05 * p.r23_ + 0.085 * p.r33_);
+    let r18 = p.pz * p.r33_ + (p.py * p.r23_ + r15) + 0.04519;
+    let r19 = 3.0 * p.magnitude;
+    let r22 = f64::abs(r19 + 0.235);
+    let r23 = f64::abs(r19 + 0.75599);
+    let shared = &Shared2 { r11, r18, r22, r23 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
+    r11: f64,
+    r18: f64,
     r22: f64,
     r23: f64,
-    r30: f64,
-    r31: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r32 = shared.r22 * shared.r22;
-    let r33 = shared.r23 * shared.r23;
-    let r34 = r32 + r33;
-    let r37 = shared.r30 * shared.r30 + shared.r31 * shared.r31;
-    if !is_away(r34, 10000.0 * r37) {
+    let r24 = shared.r11 * shared.r11;
+    let r25 = shared.r18 * shared.r18;
+    let r26 = r24 + r25;
+    let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
+    if !is_away(r26, 10000.0 * r29) {
         return;
     }
     let f6 = 1.0;
-    let roots0 = real_roots(&[0.0 - r32 - r33, 0.0, 1.0], f64::max(r37, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r24 - r25, 0.0, 1.0], f64::max(r29, 0.0).sqrt());
     for (i0, &w6) in roots0.as_slice().iter().enumerate() {
-        let r45 = (0.0 - (0.0 - shared.r22 * w6)) / r34;
-        let r48 = (0.0 - shared.r23 * w6) / r34;
-        let r52 = f64::max(r48 * r48 + r45 * r45, 0.0).sqrt();
-        let c6 = r48 / r52;
-        let s6 = r45 / r52;
+        let r35 = w6 * shared.r11 / r26;
+        let r37 = w6 * shared.r18 / r26;
+        let r41 = f64::max(r37 * r37 + r35 * r35, 0.0).sqrt();
+        let c6 = r37 / r41;
+        let s6 = r35 / r41;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c6, s6, f6, ..*known };
         block_3(p, &next, answers);
     }
@@ -523,9 +519,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: AnkleRoll.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r34 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
-    let r37 = shared.r30 * shared.r30 + shared.r31 * shared.r31;
-    if !is_near(r34, 1.0000000000000001e-7 * r37) {
+    let r26 = shared.r11 * shared.r11 + shared.r18 * shared.r18;
+    let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
+    if !is_near(r26, 1.0000000000000001e-7 * r29) {
         return;
     }
     let f6 = 1000000.0;
@@ -537,78 +533,62 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: AnklePitch.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.1029 * known.s6;
-    let r1 = 0.1029 * known.c6;
-    let r2 = -0.05 * r0;
-    let r4 = r2 + -0.2879 * r1;
-    let r11 = -0.1029 * p.r21_;
-    let r15 = r0 * p.r22_ + r1 * p.r23_;
-    let r16 = -0.1029 * p.r31_;
-    let r20 = r0 * p.r32_ + r1 * p.r33_;
-    let r22 = p.py + 0.04519 * p.r23_;
-    let r23 = p.pz + 0.04519 * p.r33_;
-    let r25 = r2 + -0.33309 * r1;
-    let r37 = p.px * (p.px + 0.04519 * p.r13_) + p.py * r22;
-    let r38 = p.px * (r0 * p.r12_ + r1 * p.r13_) + p.py * r15;
-    let r40 = r37 + p.pz * r23;
-    let r41 = r38 + p.pz * r20;
-    let r42 = p.px * (-0.1029 * p.r11_) + p.py * r11 + p.pz * r16;
-    let r51 = r40 + r40 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r69 = -0.05 * (-0.05 - r22) + -0.085 * (-0.085 - r23);
-    let r82 = r4 + r4 - (r25 + r25) + (r41 + r41) + (-0.05 * (0.0 - r15) + -0.085 * (0.0 - r20));
-    let r83 = r42 + r42 + (-0.05 * (0.0 - r11) + -0.085 * (0.0 - r16));
-    let r84 = r51 + 0.0126305461 + r69 - (-0.05 * r22 + -0.085 * r23);
-    let r88 = 0.0 - (r82 - (-0.05 * r15 + -0.085 * r20));
-    let r135 = 0.0 - (0.0 - (r83 - (-0.05 * r11 + -0.085 * r16)));
-    let r136 = 0.0 - (0.01 - r84);
-    let r137 = -0.2058 * (-0.085 * known.s4 - -0.185 * known.s4);
-    let r138 = p.magnitude + 2.27259;
-    let r139 = p.magnitude * r138;
-    let r140 = 1.3458 * p.magnitude;
-    let r141 = 1.4187 * p.magnitude;
-    let r145 = r139 + r139 + r139;
-    let r146 = r140 + r140 + r140;
-    let r147 = r141 + r141 + r141;
-    let r151 = p.magnitude * p.magnitude;
-    let r155 = r145 + r145 + (r151 + r151 + r151) + 2.4510423541;
-    let r161 = 0.05 * (r138 + 0.05) + 0.085 * (r138 + 0.085);
-    let r169 = r146 + r146 + 1.554899982 + 0.181683 + 0.181683;
-    let r171 = r155 + r161 + (0.05 * r138 + 0.085 * r138) + 0.0829;
-    let r183 = f64::abs(r169);
-    let r184 = f64::abs(0.0 - (r147 + r147 + 0.1915245 + 0.1915245));
-    let r185 = f64::abs(0.0 - r171);
-    let shared = &Shared3 { r88, r135, r136, r137, r183, r184, r185 };
+    let r2 = p.r22_ * known.s6;
+    let r3 = p.r23_ * known.c6;
+    let r4 = p.r32_ * known.s6;
+    let r5 = p.r33_ * known.c6;
+    let r10 = p.px * (p.r12_ * known.s6 + p.r13_ * known.c6);
+    let r31 = 0.009300102 * known.c6 + 0.2058 * r10 + 0.2058 * (p.py * (r2 + r3));
+    let r35 = r31 + 0.2058 * (p.pz * (r4 + r5)) + 0.01029 * r2;
+    let r41 = r35 + 0.01029 * r3 + 0.017493 * r4 + 0.017493 * r5;
+    let r44 = 0.2058 * (p.px * p.r11_) + 0.2058 * (p.py * p.r21_);
+    let r48 = r44 + 0.2058 * (p.pz * p.r31_) + 0.01029 * p.r21_;
+    let r50 = r48 + 0.017493 * p.r31_;
+    let r53 = 2.0 * (p.px * (p.px + 0.04519 * p.r13_)) + 2.0 * (p.py * (p.py + 0.04519 * p.r23_));
+    let r55 = r53 + 2.0 * (p.pz * (p.pz + 0.04519 * p.r33_));
+    let r58 = r55 - p.px * p.px - p.py * p.py - p.pz * p.pz;
+    let r64 = r58 + 0.1 * p.py + 0.004519 * p.r23_ + 0.17 * p.pz;
+    let r67 = r64 + 0.0076823 * p.r33_ + 0.0123555461;
+    let r68 = 0.02058 * known.s4;
+    let r69 = 0.0 - r68;
+    let r77 = 6.0 * (p.magnitude * (p.magnitude + 2.27259));
+    let r81 = r77 + 3.0 * (p.magnitude * p.magnitude) + 0.27 * p.magnitude;
+    let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
+    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049);
+    let r85 = f64::abs(r81 + 3.1572666541);
+    let shared = &Shared3 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r88: f64,
-    r135: f64,
-    r136: f64,
-    r137: f64,
-    r183: f64,
-    r184: f64,
-    r185: f64,
+    r41: f64,
+    r50: f64,
+    r67: f64,
+    r68: f64,
+    r69: f64,
+    r83: f64,
+    r84: f64,
+    r85: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r188 = shared.r88 * shared.r88 + shared.r135 * shared.r135;
-    let r191 = shared.r183 * shared.r183 + shared.r184 * shared.r184;
-    if !is_away(r188, 10000.0 * r191) {
+    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
+    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
+    if !is_away(r88, 10000.0 * r91) {
         return;
     }
     let f5 = 1.0;
-    let r195 = shared.r135 * shared.r136 - shared.r88 * shared.r137;
-    let r197 = (0.0 - r195) / r188;
-    let r201 = 0.0 - shared.r88 * shared.r136 - shared.r135 * shared.r137;
-    let r203 = (0.0 - r201) / r188;
-    let r207 = f64::max(r203 * r203 + r197 * r197, 0.0).sqrt();
-    let c5 = r203 / r207;
-    let s5 = r197 / r207;
+    let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
+    let r97 = r96 / r88;
+    let r100 = shared.r50 * shared.r68 - shared.r41 * shared.r67;
+    let r101 = r100 / r88;
+    let r105 = f64::max(r101 * r101 + r97 * r97, 0.0).sqrt();
+    let c5 = r101 / r105;
+    let s5 = r97 / r105;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c5, s5, f5, ..*known };
     block_4(p, &next, answers);
 }
@@ -617,9 +597,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: AnklePitch.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r188 = shared.r88 * shared.r88 + shared.r135 * shared.r135;
-    let r191 = shared.r183 * shared.r183 + shared.r184 * shared.r184;
-    if !(is_near(r188, 1.0000000000000001e-7 * r191) && is_near(shared.r137, 0.00055566) && is_near(shared.r136, 0.01 * shared.r185)) {
+    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
+    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
+    if !(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared.r69, 0.00055566) && is_near(shared.r67, 0.01 * shared.r85)) {
         return;
     }
     let f5 = 1000000.0;
@@ -631,41 +611,40 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: HipYawPitch.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - known.s6;
-    let r15 = known.c6 * p.r32_ + r0 * p.r33_ - (known.c6 * p.r22_ + r0 * p.r23_);
-    let r16 = 0.0 - (known.c6 * p.r12_ + r0 * p.r13_);
-    let r20 = 0.7071067811865475 * (0.0 - (0.0 - r15));
-    let shared = &Shared4 { r16, r20 };
+    let r6 = p.r13_ * known.s6 - p.r12_ * known.c6;
+    let r8 = p.r32_ * known.c6 - p.r33_ * known.s6 - p.r22_ * known.c6;
+    let r10 = 0.7071067811865475 * (p.r23_ * known.s6 + r8);
+    let shared = &Shared4 { r6, r10 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r16: f64,
-    r20: f64,
+    r6: f64,
+    r10: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r21 = shared.r16 * shared.r16;
-    let r22 = shared.r20 * shared.r20;
-    let r23 = r21 + r22;
-    if !is_away(r23, 119999.99999999999) {
+    let r11 = shared.r6 * shared.r6;
+    let r12 = shared.r10 * shared.r10;
+    let r13 = r11 + r12;
+    if !is_away(r13, 119999.99999999999) {
         return;
     }
     let roots0 = real_roots(&[
-        0.0 - r21 - r22,
+        0.0 - r11 - r12,
         0.0,
         1.0,
     ], known.f5 * (3.4641016151377544 * known.f6));
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r31 = (0.0 - (0.0 - shared.r16 * w1)) / r23;
-        let r34 = (0.0 - shared.r20 * w1) / r23;
-        let r38 = f64::max(r34 * r34 + r31 * r31, 0.0).sqrt();
-        let c1 = r34 / r38;
-        let s1 = r31 / r38;
+        let r19 = w1 * shared.r6 / r13;
+        let r21 = w1 * shared.r10 / r13;
+        let r25 = f64::max(r21 * r21 + r19 * r19, 0.0).sqrt();
+        let c1 = 0.0 - r21 / r25;
+        let s1 = r19 / r25;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c1, s1, ..*known };
         block_5(p, &next, answers);
     }
@@ -675,8 +654,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r23 = shared.r16 * shared.r16 + shared.r20 * shared.r20;
-    if !is_near(r23, 1.2e-6) {
+    let r13 = shared.r6 * shared.r6 + shared.r10 * shared.r10;
+    if !is_near(r13, 1.2e-6) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -687,77 +666,71 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: HipRoll.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.s1;
-    let r1 = 0.0 - known.s6;
-    let r7 = known.c6 * p.r22_ + r1 * p.r23_;
-    let r10 = known.c6 * p.r32_ + r1 * p.r33_;
-    let r13 = 0.5 * r7 + 0.5 * r10;
-    let r17 = 0.0 - (known.c6 * p.r12_ + r1 * p.r13_);
-    let r30 = r13 + ((r10 - r13) * known.c1 + (0.0 - r17) * r0);
-    let r32 = 0.0 - (r13 + ((r7 - r13) * known.c1 + r17 * r0));
-    let r34 = 0.0 - (0.0 - r30);
-    let r35 = 0.0 - (0.0 - r32);
-    let shared = &Shared5 { r34, r35 };
+    let r2 = p.r22_ * known.c6;
+    let r3 = p.r23_ * known.s6;
+    let r4 = p.r32_ * known.c6;
+    let r5 = p.r33_ * known.s6;
+    let r14 = known.s1 * (p.r12_ * known.c6 - p.r13_ * known.s6);
+    let r22 = 0.5 * r2 - 0.5 * r3 + 0.5 * r4 - 0.5 * r5;
+    let r24 = r22 + 0.5 * (known.c1 * (r3 + (r4 - r5 - r2)));
+    let r25 = 0.7071067811865475 * r14;
+    let r26 = r24 + r25;
+    let r28 = r22 + 0.5 * (known.c1 * (r5 + (r2 - r3 - r4)));
+    let r29 = r28 - r25;
+    let shared = &Shared5 { r26, r29 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r34: f64,
-    r35: f64,
+    r26: f64,
+    r29: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r37 = 0.0 - (0.0 - shared.r34);
-    let r40 = 0.0 - (-0.0 - (0.0 - shared.r35));
-    let r44 = f64::max(r40 * r40 + r37 * r37, 0.0).sqrt();
-    let c2 = r40 / r44;
-    let s2 = r37 / r44;
+    let r32 = shared.r29 * shared.r29 + shared.r26 * shared.r26;
+    let r33 = f64::max(r32, 0.0).sqrt();
+    let c2 = shared.r29 / r33;
+    let s2 = shared.r26 / r33;
     let next = Known { branch: known.branch, last: known.last, c2, s2, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: HipPitch.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.7071067811865475 * known.s1;
-    let r1 = -0.1029 * known.s5;
-    let r4 = 0.1029 * known.c5 - 0.2879 + 0.2879;
-    let r11 = r1 + (r1 - r1) * known.c6;
-    let r14 = (0.0 - (0.0 - r4)) * known.s6 - 0.05 + 0.05;
-    let r15 = r4 * known.c6 - 0.2879 + 0.33309;
-    let r31 = p.px + (r11 * p.r11_ + r14 * p.r12_ + r15 * p.r13_);
-    let r32 = p.py + (r11 * p.r21_ + r14 * p.r22_ + r15 * p.r23_);
-    let r33 = p.pz + (r11 * p.r31_ + r14 * p.r32_ + r15 * p.r33_);
-    let r47 = r31 * known.c1 + (0.0 - (r33 + 0.085 - (r32 + 0.05))) * r0;
-    let r59 = 0.0 - known.c4;
-    let r60 = 0.0 - known.s4;
-    let r66 = r59 * known.c5 + (0.0 - r60) * known.s5;
-    let r69 = r60 * known.c5 + (0.0 - (0.0 - r59)) * known.s5;
-    let r74 = (0.0 - (0.0 - r69)) * known.s6;
-    let r75 = r69 * known.c6;
-    let r76 = r66 + (r66 - r66) * known.c6;
-    let r97 = r76 * p.r31_ + r74 * p.r32_ + r75 * p.r33_ - (r76 * p.r21_ + r74 * p.r22_ + r75 * p.r23_);
-    let r101 = (r76 * p.r11_ + r74 * p.r12_ + r75 * p.r13_) * known.c1;
-    let r113 = 0.0 - (0.0 - r47);
-    let r114 = 0.1 * (0.0 - (r101 + (0.0 - r97) * r0));
-    let shared = &Shared6 { r113, r114 };
+    let r0 = known.c5 * known.s6;
+    let r5 = 0.1029 * (known.c5 * known.c6) + 0.04519;
+    let r16 = p.px - 0.1029 * (p.r11_ * known.s5) + 0.1029 * (p.r12_ * r0);
+    let r22 = p.pz - 0.1029 * (p.r31_ * known.s5) + 0.1029 * (p.r32_ * r0);
+    let r26 = p.r33_ * r5 + r22 - p.py + 0.1029 * (p.r21_ * known.s5);
+    let r30 = r26 - 0.1029 * (p.r22_ * r0) - p.r23_ * r5 + 0.035;
+    let r36 = known.s4 * known.c5 + known.c4 * known.s5;
+    let r37 = known.s6 * r36;
+    let r38 = known.c6 * r36;
+    let r39 = known.c4 * known.c5 - known.s4 * known.s5;
+    let r51 = known.c1 * (p.r13_ * r38 + (p.r11_ * r39 + p.r12_ * r37));
+    let r54 = p.r33_ * r38 + (p.r31_ * r39 + p.r32_ * r37) - p.r21_ * r39;
+    let r57 = known.s1 * (r54 - p.r22_ * r37 - p.r23_ * r38);
+    let r59 = known.c1 * (p.r13_ * r5 + r16) - 0.7071067811865475 * (known.s1 * r30);
+    let r62 = 0.1 * r51 - 0.07071067811865475 * r57;
+    let shared = &Shared6 { r59, r62 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r113: f64,
-    r114: f64,
+    r59: f64,
+    r62: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r135 = (0.0 - 0.1 * shared.r113) / 0.010000000000000002;
-    let r139 = (0.0 - (-0.0 - 0.1 * shared.r114)) / 0.010000000000000002;
-    let r143 = f64::max(r139 * r139 + r135 * r135, 0.0).sqrt();
-    let c3 = r139 / r143;
-    let s3 = r135 / r143;
+    let r64 = 0.1 * shared.r59 / 0.010000000000000002;
+    let r66 = 0.1 * shared.r62 / 0.010000000000000002;
+    let r70 = f64::max(r66 * r66 + r64 * r64, 0.0).sqrt();
+    let c3 = r66 / r70;
+    let s3 = 0.0 - r64 / r70;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -786,101 +759,73 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r0 = 0.7071067811865475 * s1;
-    let r2 = 0.0 - r0;
-    let r3 = 0.5 * (1.0 - c1);
-    let r4 = c1 + r3;
-    let r7 = -0.05 * r2 + -0.085 * r0;
-    let r10 = -0.05 * r4 + -0.085 * r3;
-    let r13 = -0.05 * r3 + -0.085 * r4;
-    let r21 = c2 + (1.0 - c2);
-    let r22 = 0.0 - s2;
-    let r23 = c1 * r21;
-    let r24 = r0 * r21;
-    let r25 = r2 * r21;
-    let r28 = r2 * c2 + r0 * s2;
-    let r29 = r4 * c2;
-    let r31 = r29 + r3 * s2;
-    let r32 = r3 * c2;
-    let r34 = r32 + r4 * s2;
-    let r37 = r2 * r22 + r0 * c2;
-    let r39 = r4 * r22 + r32;
-    let r41 = r3 * r22 + r29;
-    let r44 = -0.05 * r28 + -0.085 * r37;
-    let r47 = -0.05 * r31 + -0.085 * r39;
-    let r50 = -0.05 * r34 + -0.085 * r41;
-    let r58 = 0.0 - s3;
-    let r59 = c3 + (1.0 - c3);
-    let r62 = r23 * c3 + r37 * r58;
-    let r65 = r24 * c3 + r39 * r58;
-    let r68 = r25 * c3 + r41 * r58;
-    let r69 = r28 * r59;
-    let r70 = r31 * r59;
-    let r71 = r34 * r59;
-    let r74 = r23 * s3 + r37 * c3;
-    let r77 = r24 * s3 + r39 * c3;
-    let r80 = r25 * s3 + r41 * c3;
-    let r81 = -0.05 * r69;
-    let r84 = -0.05 * r70;
-    let r87 = -0.05 * r71;
-    let r90 = 0.0 - r7 + r7 - r44 + r44 - (r81 + -0.085 * r74);
-    let r91 = -0.05 - r10 + r10 - r47 + r47 - (r84 + -0.085 * r77);
-    let r92 = -0.085 - r13 + r13 - r50 + r50 - (r87 + -0.085 * r80);
-    let r103 = 0.0 - s4;
-    let r104 = c4 + (1.0 - c4);
-    let r107 = r62 * c4 + r74 * r103;
-    let r110 = r65 * c4 + r77 * r103;
-    let r113 = r68 * c4 + r80 * r103;
-    let r114 = r69 * r104;
-    let r115 = r70 * r104;
-    let r116 = r71 * r104;
-    let r119 = r62 * s4 + r74 * c4;
-    let r122 = r65 * s4 + r77 * c4;
-    let r125 = r68 * s4 + r80 * c4;
-    let r126 = -0.05 * r114;
-    let r129 = -0.05 * r115;
-    let r132 = -0.05 * r116;
-    let r135 = r90 + (r81 + -0.185 * r74) - (r126 + -0.185 * r119);
-    let r136 = r91 + (r84 + -0.185 * r77) - (r129 + -0.185 * r122);
-    let r137 = r92 + (r87 + -0.185 * r80) - (r132 + -0.185 * r125);
-    let r148 = 0.0 - s5;
-    let r149 = c5 + (1.0 - c5);
-    let r159 = r114 * r149;
-    let r160 = r115 * r149;
-    let r161 = r116 * r149;
-    let r164 = r107 * s5 + r119 * c5;
-    let r167 = r110 * s5 + r122 * c5;
-    let r170 = r113 * s5 + r125 * c5;
-    let r173 = -0.05 * r159 + -0.2879 * r164;
-    let r176 = -0.05 * r160 + -0.2879 * r167;
-    let r179 = -0.05 * r161 + -0.2879 * r170;
-    let r187 = c6 + (1.0 - c6);
-    let r188 = 0.0 - s6;
-    let r194 = r159 * c6 + r164 * s6;
-    let r197 = r160 * c6 + r167 * s6;
-    let r200 = r161 * c6 + r170 * s6;
-    let r203 = r159 * r188 + r164 * c6;
-    let r206 = r160 * r188 + r167 * c6;
-    let r209 = r161 * r188 + r170 * c6;
-    let r210 = -0.05 * r194;
-    let r213 = -0.05 * r197;
-    let r216 = -0.05 * r200;
-    let r219 = r135 + (r126 + -0.2879 * r119) - r173 + r173 - (r210 + -0.2879 * r203);
-    let r220 = r136 + (r129 + -0.2879 * r122) - r176 + r176 - (r213 + -0.2879 * r206);
-    let r221 = r137 + (r132 + -0.2879 * r125) - r179 + r179 - (r216 + -0.2879 * r209);
+    let r0 = s1 * c2;
+    let r1 = s1 * s2;
+    let r2 = c1 + 1.0;
+    let r3 = c2 * r2;
+    let r4 = c1 - 1.0;
+    let r5 = s2 * r4;
+    let r6 = c2 * r4;
+    let r7 = s2 * r2;
+    let r9 = r0 + r1;
+    let r12 = r6 + r7;
+    let r14 = r3 + r5;
+    let r16 = c1 * s3;
+    let r17 = c3 * r9;
+    let r18 = s1 * s3;
+    let r19 = c3 * r12;
+    let r20 = c3 * r14;
+    let r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
+    let r25 = r16 + 0.7071067811865475 * r17;
+    let r27 = 0.7071067811865475 * (s1 * c3);
+    let r29 = r27 + 0.5 * (s3 * r12);
+    let r31 = 0.7071067811865475 * r18;
+    let r33 = r31 - 0.5 * r19;
+    let r36 = r27 + 0.5 * (s3 * r14);
+    let r39 = r31 - 0.5 * r20;
+    let r41 = s4 * r22;
+    let r42 = c4 * r25;
+    let r43 = s4 * r29;
+    let r44 = c4 * r33;
+    let r45 = s4 * r36;
+    let r46 = c4 * r39;
+    let r47 = c4 * r22 - s4 * r25;
+    let r49 = r41 + r42;
+    let r51 = c4 * r29 - s4 * r33;
+    let r53 = r43 + r44;
+    let r55 = c4 * r36 - s4 * r39;
+    let r57 = r45 + r46;
+    let r65 = r0 - r1;
+    let r67 = s5 * r47 + c5 * r49;
+    let r69 = r3 - r5;
+    let r71 = s5 * r51 + c5 * r53;
+    let r73 = r6 - r7;
+    let r75 = s5 * r55 + c5 * r57;
+    let r77 = s6 * r65;
+    let r78 = c6 * r67;
+    let r79 = s6 * r69;
+    let r80 = c6 * r71;
+    let r81 = s6 * r73;
+    let r82 = c6 * r75;
+    let r83 = 0.07071067811865475 * r18;
+    let r89 = r83 - 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
+    let r99 = r83 - 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
+    let r108 = 0.1 * r16 + 0.07071067811865475 * r17 + 0.1029 * r41;
+    let r112 = r108 + 0.1029 * r42 + 0.03195415544182008 * r77;
+    let r120 = 0.0 - (r99 - 0.022595 * r79 + 0.04519 * r80 + 0.05);
     [
-        r219 + (r210 + -0.33309 * r203),
-        r220 + (r213 + -0.33309 * r206),
-        r221 + (r216 + -0.33309 * r209),
-        (r107 * c5 + r119 * r148) * r187,
-        (r110 * c5 + r122 * r148) * r187,
-        (r113 * c5 + r125 * r148) * r187,
-        r194,
-        r197,
-        r200,
-        r203,
-        r206,
-        r209,
+        0.0 - (r112 + 0.04519 * r78),
+        r120,
+        r89 - 0.022595 * r81 + 0.04519 * r82 - 0.085,
+        c5 * r47 - s5 * r49,
+        c5 * r51 - s5 * r53,
+        s5 * r57 - c5 * r55,
+        s6 * r67 - 0.7071067811865475 * (c6 * r65),
+        s6 * r71 + 0.5 * (c6 * r69),
+        0.0 - (s6 * r75 + 0.5 * (c6 * r73)),
+        r78 + 0.7071067811865475 * r77,
+        r80 - 0.5 * r79,
+        0.5 * r81 - r82,
     ]
 }
 
@@ -938,139 +883,147 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r0 = 0.7071067811865475 * s1;
-    let r2 = 0.0 - r0;
-    let r3 = 0.5 * (1.0 - c1);
-    let r4 = c1 + r3;
-    let r7 = -0.05 * r2 + -0.085 * r0;
-    let r10 = -0.05 * r4 + -0.085 * r3;
-    let r13 = -0.05 * r3 + -0.085 * r4;
-    let r17 = 0.0 - r7 + r7;
-    let r18 = -0.05 - r10 + r10;
-    let r19 = -0.085 - r13 + r13;
-    let r21 = c2 + (1.0 - c2);
-    let r22 = 0.0 - s2;
-    let r23 = c1 * r21;
-    let r24 = r0 * r21;
-    let r25 = r2 * r21;
-    let r28 = r2 * c2 + r0 * s2;
-    let r29 = r4 * c2;
-    let r31 = r29 + r3 * s2;
-    let r32 = r3 * c2;
-    let r34 = r32 + r4 * s2;
-    let r37 = r2 * r22 + r0 * c2;
-    let r39 = r4 * r22 + r32;
-    let r41 = r3 * r22 + r29;
-    let r44 = -0.05 * r28 + -0.085 * r37;
-    let r47 = -0.05 * r31 + -0.085 * r39;
-    let r50 = -0.05 * r34 + -0.085 * r41;
-    let r54 = r17 - r44 + r44;
-    let r55 = r18 - r47 + r47;
-    let r56 = r19 - r50 + r50;
-    let r58 = 0.0 - s3;
-    let r59 = c3 + (1.0 - c3);
-    let r62 = r23 * c3 + r37 * r58;
-    let r65 = r24 * c3 + r39 * r58;
-    let r68 = r25 * c3 + r41 * r58;
-    let r69 = r28 * r59;
-    let r70 = r31 * r59;
-    let r71 = r34 * r59;
-    let r74 = r23 * s3 + r37 * c3;
-    let r77 = r24 * s3 + r39 * c3;
-    let r80 = r25 * s3 + r41 * c3;
-    let r81 = -0.05 * r69;
-    let r84 = -0.05 * r70;
-    let r87 = -0.05 * r71;
-    let r99 = r54 - (r81 + -0.085 * r74) + (r81 + -0.185 * r74);
-    let r100 = r55 - (r84 + -0.085 * r77) + (r84 + -0.185 * r77);
-    let r101 = r56 - (r87 + -0.085 * r80) + (r87 + -0.185 * r80);
-    let r103 = 0.0 - s4;
-    let r104 = c4 + (1.0 - c4);
-    let r107 = r62 * c4 + r74 * r103;
-    let r110 = r65 * c4 + r77 * r103;
-    let r113 = r68 * c4 + r80 * r103;
-    let r114 = r69 * r104;
-    let r115 = r70 * r104;
-    let r116 = r71 * r104;
-    let r119 = r62 * s4 + r74 * c4;
-    let r122 = r65 * s4 + r77 * c4;
-    let r125 = r68 * s4 + r80 * c4;
-    let r126 = -0.05 * r114;
-    let r129 = -0.05 * r115;
-    let r132 = -0.05 * r116;
-    let r144 = r99 - (r126 + -0.185 * r119) + (r126 + -0.2879 * r119);
-    let r145 = r100 - (r129 + -0.185 * r122) + (r129 + -0.2879 * r122);
-    let r146 = r101 - (r132 + -0.185 * r125) + (r132 + -0.2879 * r125);
-    let r148 = 0.0 - s5;
-    let r149 = c5 + (1.0 - c5);
-    let r152 = r107 * c5 + r119 * r148;
-    let r155 = r110 * c5 + r122 * r148;
-    let r158 = r113 * c5 + r125 * r148;
-    let r159 = r114 * r149;
-    let r160 = r115 * r149;
-    let r161 = r116 * r149;
-    let r164 = r107 * s5 + r119 * c5;
-    let r167 = r110 * s5 + r122 * c5;
-    let r170 = r113 * s5 + r125 * c5;
-    let r173 = -0.05 * r159 + -0.2879 * r164;
-    let r176 = -0.05 * r160 + -0.2879 * r167;
-    let r179 = -0.05 * r161 + -0.2879 * r170;
-    let r183 = r144 - r173 + r173;
-    let r184 = r145 - r176 + r176;
-    let r185 = r146 - r179 + r179;
-    let r187 = c6 + (1.0 - c6);
-    let r188 = 0.0 - s6;
-    let r189 = r152 * r187;
-    let r190 = r155 * r187;
-    let r191 = r158 * r187;
-    let r194 = r159 * c6 + r164 * s6;
-    let r197 = r160 * c6 + r167 * s6;
-    let r200 = r161 * c6 + r170 * s6;
-    let r203 = r159 * r188 + r164 * c6;
-    let r206 = r160 * r188 + r167 * c6;
-    let r209 = r161 * r188 + r170 * c6;
-    let r210 = -0.05 * r194;
-    let r213 = -0.05 * r197;
-    let r216 = -0.05 * r200;
-    let r228 = r183 - (r210 + -0.2879 * r203) + (r210 + -0.33309 * r203);
-    let r229 = r184 - (r213 + -0.2879 * r206) + (r213 + -0.33309 * r206);
-    let r230 = r185 - (r216 + -0.2879 * r209) + (r216 + -0.33309 * r209);
-    let r235 = 0.7071067811865475 * (r230 + 0.085) - 0.7071067811865475 * (r229 + 0.05);
-    let r236 = 0.7071067811865475 * r228;
-    let r238 = r228 - r17;
-    let r239 = r229 - r18;
-    let r240 = r230 - r19;
-    let r250 = r228 - r54;
-    let r251 = r229 - r55;
-    let r252 = r230 - r56;
-    let r262 = r228 - r99;
-    let r263 = r229 - r100;
-    let r264 = r230 - r101;
-    let r274 = r228 - r144;
-    let r275 = r229 - r145;
-    let r276 = r230 - r146;
-    let r286 = r228 - r183;
-    let r287 = r229 - r184;
-    let r288 = r230 - r185;
-    let r303 = 0.7071067811865475 * r191 - 0.7071067811865475 * r190;
-    let r304 = 0.7071067811865475 * r189;
-    let r356 = 0.7071067811865475 * r200 - 0.7071067811865475 * r197;
-    let r357 = 0.7071067811865475 * r194;
-    let r409 = 0.7071067811865475 * r209 - 0.7071067811865475 * r206;
-    let r410 = 0.7071067811865475 * r203;
+    let r0 = s1 * c2;
+    let r1 = s1 * s2;
+    let r2 = c1 + 1.0;
+    let r3 = c2 * r2;
+    let r4 = c1 - 1.0;
+    let r5 = s2 * r4;
+    let r6 = c2 * r4;
+    let r7 = s2 * r2;
+    let r9 = r0 + r1;
+    let r12 = r6 + r7;
+    let r14 = r3 + r5;
+    let r16 = c1 * s3;
+    let r17 = c3 * r9;
+    let r18 = s1 * s3;
+    let r19 = c3 * r12;
+    let r20 = c3 * r14;
+    let r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
+    let r25 = r16 + 0.7071067811865475 * r17;
+    let r27 = 0.7071067811865475 * (s1 * c3);
+    let r29 = r27 + 0.5 * (s3 * r12);
+    let r31 = 0.7071067811865475 * r18;
+    let r33 = r31 - 0.5 * r19;
+    let r36 = r27 + 0.5 * (s3 * r14);
+    let r39 = r31 - 0.5 * r20;
+    let r41 = s4 * r22;
+    let r42 = c4 * r25;
+    let r43 = s4 * r29;
+    let r44 = c4 * r33;
+    let r45 = s4 * r36;
+    let r46 = c4 * r39;
+    let r47 = c4 * r22 - s4 * r25;
+    let r49 = r41 + r42;
+    let r51 = c4 * r29 - s4 * r33;
+    let r52 = c5 * r51;
+    let r53 = r43 + r44;
+    let r54 = s5 * r53;
+    let r55 = c4 * r36 - s4 * r39;
+    let r57 = r45 + r46;
+    let r65 = r0 - r1;
+    let r66 = c6 * r65;
+    let r67 = s5 * r47 + c5 * r49;
+    let r68 = s6 * r67;
+    let r69 = r3 - r5;
+    let r70 = c6 * r69;
+    let r71 = s5 * r51 + c5 * r53;
+    let r72 = s6 * r71;
+    let r73 = r6 - r7;
+    let r74 = c6 * r73;
+    let r75 = s5 * r55 + c5 * r57;
+    let r76 = s6 * r75;
+    let r77 = s6 * r65;
+    let r78 = c6 * r67;
+    let r79 = s6 * r69;
+    let r80 = c6 * r71;
+    let r81 = s6 * r73;
+    let r82 = c6 * r75;
+    let r83 = 0.07071067811865475 * r18;
+    let r86 = 0.1029 * r45;
+    let r88 = 0.1029 * r46;
+    let r90 = 0.022595 * r81;
+    let r92 = 0.04519 * r82;
+    let r93 = r83 - 0.05 * r20 + r86 + r88 - r90 + r92;
+    let r96 = 0.1029 * r43;
+    let r98 = 0.1029 * r44;
+    let r100 = 0.022595 * r79;
+    let r102 = 0.04519 * r80;
+    let r103 = r83 - 0.05 * r19 + r96 + r98 - r100 + r102;
+    let r107 = 0.1029 * r41;
+    let r109 = 0.1029 * r42;
+    let r110 = 0.1 * r16 + 0.07071067811865475 * r17 + r107 + r109;
+    let r111 = 0.03195415544182008 * r77;
+    let r113 = 0.04519 * r78;
+    let r114 = r110 + r111 + r113;
+    let r115 = r52 - r54;
+    let r116 = c5 * r47 - s5 * r49;
+    let r129 = r76 + 0.5 * r74;
+    let r131 = r72 + 0.5 * r70;
+    let r139 = 0.5 * r81 - r82;
+    let r142 = r78 + 0.7071067811865475 * r77;
+    let r160 = r92 + (r86 + r88 - r90);
+    let r164 = r102 + (r96 + r98 - r100);
+    let r168 = r113 + (r111 + (r107 + r109));
+    let r173 = r90 - r92;
+    let r175 = r100 - r102;
+    let r177 = r111 + r113;
+    let r183 = c5 * r55 - s5 * r57;
+    let r191 = 0.09999999999999998 * r18 - 0.035355339059327376 * r20;
+    let r195 = r191 + 0.07276128778409574 * r45 + 0.07276128778409574 * r46;
+    let r199 = r195 - 0.01597707772091004 * r81 + 0.03195415544182008 * r82;
+    let r203 = r199 - 0.035355339059327376 * r19 + 0.07276128778409574 * r43;
+    let r207 = r203 + 0.07276128778409574 * r44 - 0.01597707772091004 * r79;
+    let r222 = 0.07071067811865475 * r16 + 0.04999999999999999 * r17;
+    let r226 = r222 + 0.07276128778409574 * r41 + 0.07276128778409574 * r42;
+    let r230 = r226 + 0.022594999999999997 * r77 + 0.03195415544182008 * r78;
+    let r232 = 0.7071067811865475 * (s1 * r114);
+    let r236 = 0.5 * (r73 * r114) + 0.7071067811865475 * (r65 * r93);
+    let r239 = 0.5 * (r73 * r168) + 0.7071067811865475 * (r65 * r160);
+    let r242 = 0.5 * (r73 * r177) - 0.7071067811865475 * (r65 * r173);
+    let r247 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
+    let r250 = 0.7071067811865475 * (r65 * r164) + 0.5 * (r69 * r168);
+    let r253 = 0.5 * (r69 * r177) - 0.7071067811865475 * (r65 * r175);
+    let r269 = 0.0 - 0.7071067811865475 * (r52 + r183 - r54);
+    let r272 = 0.0 - 0.7071067811865475 * (s1 * r183 - s1 * r115);
+    let r275 = 0.0 - 0.5 * (r69 * r183 - r73 * r115);
+    let r276 = 0.7071067811865475 * r116;
+    let r277 = 0.7071067811865475 * (s1 * r116);
+    let r281 = 0.5 * (r73 * r116) + 0.7071067811865475 * (r65 * r183);
+    let r282 = 0.0 - r281;
+    let r287 = 0.7071067811865475 * (r65 * r115) + 0.5 * (r69 * r116);
+    let r288 = 0.0 - r287;
+    let r291 = 0.7071067811865475 * r66 - r68;
+    let r309 = 0.35355339059327373 * r74 + 0.7071067811865475 * r76;
+    let r313 = r309 + 0.35355339059327373 * r70 + 0.7071067811865475 * r72;
+    let r317 = 0.0 - 0.7071067811865475 * (s1 * r129 - s1 * r131);
+    let r320 = 0.0 - 0.5 * (r69 * r129 - r73 * r131);
+    let r322 = 0.4999999999999999 * r66;
+    let r323 = 0.7071067811865475 * r68;
+    let r326 = 0.7071067811865475 * (s1 * r291);
+    let r330 = 0.5 * (r73 * r291) - 0.7071067811865475 * (r65 * r129);
+    let r335 = 0.5 * (r69 * r291) - 0.7071067811865475 * (r65 * r131);
+    let r338 = 0.5 * r79 - r80;
+    let r357 = 0.35355339059327373 * r81 - 0.7071067811865475 * r82;
+    let r361 = r357 + 0.35355339059327373 * r79 - 0.7071067811865475 * r80;
+    let r365 = 0.5 * (r69 * r139 - r73 * r338);
+    let r369 = 0.4999999999999999 * r77 + 0.7071067811865475 * r78;
+    let r370 = 0.7071067811865475 * (s1 * r142);
+    let r375 = 0.7071067811865475 * (r65 * r139) - 0.5 * (r73 * r142);
+    let r383 = 0.7071067811865475 * (r65 * r338) - 0.5 * (r69 * r142);
     [
-        [r235, r0 * r240 - r2 * r239, r31 * r252 - r34 * r251, r70 * r264 - r71 * r263, r115 * r276 - r116 * r275, r155 * r288 - r158 * r287],
-        [r236, r2 * r238 - c1 * r240, r34 * r250 - r28 * r252, r71 * r262 - r69 * r264, r116 * r274 - r114 * r276, r158 * r286 - r152 * r288],
-        [0.0 - r236, c1 * r239 - r0 * r238, r28 * r251 - r31 * r250, r69 * r263 - r70 * r262, r114 * r275 - r115 * r274, r152 * r287 - r155 * r286],
-        [r303, r0 * r191 - r2 * r190, r31 * r191 - r34 * r190, r70 * r191 - r71 * r190, r115 * r191 - r116 * r190, r155 * r191 - r158 * r190],
-        [r304, r2 * r189 - c1 * r191, r34 * r189 - r28 * r191, r71 * r189 - r69 * r191, r116 * r189 - r114 * r191, r158 * r189 - r152 * r191],
-        [0.0 - r304, c1 * r190 - r0 * r189, r28 * r190 - r31 * r189, r69 * r190 - r70 * r189, r114 * r190 - r115 * r189, r152 * r190 - r155 * r189],
-        [r356, r0 * r200 - r2 * r197, r31 * r200 - r34 * r197, r70 * r200 - r71 * r197, r115 * r200 - r116 * r197, r155 * r200 - r158 * r197],
-        [r357, r2 * r194 - c1 * r200, r34 * r194 - r28 * r200, r71 * r194 - r69 * r200, r116 * r194 - r114 * r200, r158 * r194 - r152 * r200],
-        [0.0 - r357, c1 * r197 - r0 * r194, r28 * r197 - r31 * r194, r69 * r197 - r70 * r194, r114 * r197 - r115 * r194, r152 * r197 - r155 * r194],
-        [r409, r0 * r209 - r2 * r206, r31 * r209 - r34 * r206, r70 * r209 - r71 * r206, r115 * r209 - r116 * r206, r155 * r209 - r158 * r206],
-        [r410, r2 * r203 - c1 * r209, r34 * r203 - r28 * r209, r71 * r203 - r69 * r209, r116 * r203 - r114 * r209, r158 * r203 - r152 * r209],
-        [0.0 - r410, c1 * r206 - r0 * r203, r28 * r206 - r31 * r203, r69 * r206 - r70 * r203, r114 * r206 - r115 * r203, r152 * r206 - r155 * r203],
+        [r207 + 0.03195415544182008 * r80, 0.7071067811865475 * (s1 * r93 - s1 * r103), 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r160 - r73 * r164), 0.0 - 0.5 * (r69 * r173 - r73 * r175), r175 * r183 - r173 * r115],
+        [0.0 - r230, r232 - c1 * r93, r236, r239, r242, r177 * r183 + r173 * r116],
+        [r230, r232 - c1 * r103, r247, r250, r253, r175 * r116 + r177 * r115],
+        [r269, r272, r275, r275, r275, 0.0],
+        [r276, c1 * r183 - r277, r282, r282, r282, 0.0],
+        [0.0 - r276, c1 * r115 - r277, r288, r288, r288, 0.0],
+        [0.0 - r313, r317, r320, r320, r320, r183 * r131 - r115 * r129],
+        [r323 - r322, c1 * r129 + r326, r330, r330, r330, r183 * r291 + r116 * r129],
+        [r322 - r323, c1 * r131 + r326, r335, r335, r335, r116 * r131 + r115 * r291],
+        [r361, 0.7071067811865475 * (s1 * r139 - s1 * r338), r365, r365, r365, r115 * r139 - r183 * r338],
+        [r369, 0.0 - (c1 * r139 + r370), r375, r375, r375, 0.0 - (r183 * r142 + r116 * r139)],
+        [0.0 - r369, 0.0 - (c1 * r338 + r370), r383, r383, r383, 0.0 - (r116 * r338 + r115 * r142)],
     ]
 }
 

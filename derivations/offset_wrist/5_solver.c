@@ -317,48 +317,34 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r2 = c1 + (1.0 - c1), r8 = c2 + (1.0 - c2), r9 = c1 * c2, r10 = s1 * c2, r11 = r2 * (0.0 - s2);
-    const double r14 = c1 * s2, r15 = s1 * s2, r16 = r2 * c2, r18 = 0.18 * r14, r21 = 0.18 * r15;
-    const double r24 = 0.18 * r16, r35 = 0.05 * c1 - (0.05 * r9 + r18) + (0.45 * r9 + r18);
-    const double r36 = 0.05 * s1 - (0.05 * r10 + r21) + (0.45 * r10 + r21);
-    const double r37 = 0.18 * r2 - (0.05 * r11 + r24) + (0.45 * r11 + r24), r39 = 0.0 - s3;
-    const double r40 = c3 + (1.0 - c3), r43 = r9 * c3 + r14 * r39, r46 = r10 * c3 + r15 * r39;
-    const double r49 = r11 * c3 + r16 * r39, r54 = r9 * s3 + r14 * c3, r57 = r10 * s3 + r15 * c3;
-    const double r60 = r11 * s3 + r16 * c3, r62 = 0.18 * r54, r65 = 0.18 * r57, r68 = 0.18 * r60, r83 = 0.0 - s4;
-    const double r84 = c4 + (1.0 - c4), r87 = r43 * c4 + r54 * r83, r90 = r46 * c4 + r57 * r83;
-    const double r93 = r49 * c4 + r60 * r83, r94 = (0.0 - s1) * r8 * r40 * r84, r95 = c1 * r8 * r40 * r84;
-    const double r98 = r43 * s4 + r54 * c4, r101 = r46 * s4 + r57 * c4, r104 = r49 * s4 + r60 * c4;
-    const double r106 = 0.18 * r98, r109 = 0.18 * r101, r112 = 0.18 * r104;
-    const double r114 = r35 - (0.45 * r43 + r62) + (0.8 * r43 + r62) - (0.8 * r87 + r106);
-    const double r115 = r36 - (0.45 * r46 + r65) + (0.8 * r46 + r65) - (0.8 * r90 + r109);
-    const double r116 = r37 - (0.45 * r49 + r68) + (0.8 * r49 + r68) - (0.8 * r93 + r112), r131 = 0.0 - s5;
-    const double r132 = c5 + (1.0 - c5), r135 = r87 * c5 + r94 * s5, r138 = r90 * c5 + r95 * s5, r139 = r93 * c5;
-    const double r142 = r87 * r131 + r94 * c5, r145 = r90 * r131 + r95 * c5, r146 = r93 * r131;
-    const double r147 = r98 * r132, r148 = r101 * r132, r149 = r104 * r132, r152 = 0.86 * r135 + -0.125 * r142;
-    const double r157 = 0.86 * r138 + -0.125 * r145, r162 = 0.86 * r139 + -0.125 * r146;
-    const double r165 = r114 + (0.86 * r87 + -0.125 * r94 + r106) - (r152 + 0.18 * r147);
-    const double r166 = r115 + (0.86 * r90 + -0.125 * r95 + r109) - (r157 + 0.18 * r148);
-    const double r167 = r116 + (0.86 * r93 + r112) - (r162 + 0.18 * r149), r178 = c6 + (1.0 - c6);
-    const double r179 = 0.0 - s6, r180 = r135 * r178, r181 = r138 * r178, r182 = r139 * r178;
-    const double r185 = r142 * c6 + r147 * s6, r188 = r145 * c6 + r148 * s6, r191 = r146 * c6 + r149 * s6;
-    const double r194 = r142 * r179 + r147 * c6, r197 = r145 * r179 + r148 * c6, r200 = r146 * r179 + r149 * c6;
-    const double r202 = -0.125 * r185, r204 = 0.055 * r194, r207 = -0.125 * r188, r209 = 0.055 * r197;
-    const double r212 = -0.125 * r191, r214 = 0.055 * r200;
-    const double r216 = r165 + (r152 + 0.055 * r147) - (0.86 * r180 + r202 + r204);
-    const double r217 = r166 + (r157 + 0.055 * r148) - (0.86 * r181 + r207 + r209);
-    const double r218 = r167 + (r162 + 0.055 * r149) - (0.86 * r182 + r212 + r214);
-    reached[0] = r216 + (0.985 * r180 + r202 + r204);
-    reached[1] = r217 + (0.985 * r181 + r207 + r209);
-    reached[2] = r218 + (0.985 * r182 + r212 + r214);
-    reached[3] = 0.0 - r194;
-    reached[4] = 0.0 - r197;
-    reached[5] = 0.0 - r200;
-    reached[6] = r185;
-    reached[7] = r188;
-    reached[8] = r191;
-    reached[9] = r180;
-    reached[10] = r181;
-    reached[11] = r182;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16;
+    const double r18 = s3 * r0 + c3 * r2, r19 = s4 * r18, r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3;
+    const double r23 = s4 * r22, r24 = r8 + r9, r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26;
+    const double r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
+    const double r34 = r17 - r19, r35 = c5 * r34, r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37, r39 = c1 * s5;
+    const double r40 = r25 - r27, r41 = c5 * r40, r46 = s5 * r40, r47 = s5 * r34 + s1 * c5, r49 = r28 + r29;
+    const double r51 = s5 * r37 - c1 * c5, r53 = r30 + r31, r56 = r32 + r33;
+    const double r70 = 0.4 * s2 + 0.35 * r8 + 0.35 * r9 + 0.06 * r25;
+    const double r78 = r70 - 0.06 * r27 - 0.125 * r32 - 0.125 * r33 + 0.125 * r41;
+    const double r104 = 0.35 * r6 + (0.4 * r1 + 0.05 * s1) - 0.35 * r7;
+    const double r108 = 0.06 * r21 + r104 - 0.06 * r23 - 0.125 * c1 - 0.125 * r30;
+    const double r111 = 0.125 * r39 + (0.125 * r38 + (r108 - 0.125 * r31));
+    const double r115 = 0.35 * r4 + (0.4 * r0 + 0.05 * c1) - 0.35 * r5;
+    const double r118 = 0.125 * s1 + (0.06 * r17 + r115 - 0.06 * r19);
+    const double r121 = 0.125 * r35 + (r118 - 0.125 * r28 - 0.125 * r29);
+    reached[0] = r121 - 0.125 * r36;
+    reached[1] = r111;
+    reached[2] = 0.18 - r78;
+    reached[3] = 0.0 - (s6 * r47 + c6 * r49);
+    reached[4] = 0.0 - (s6 * r51 + c6 * r53);
+    reached[5] = s6 * r46 + c6 * r56;
+    reached[6] = s6 * r49 - c6 * r47;
+    reached[7] = s6 * r53 - c6 * r51;
+    reached[8] = c6 * r46 - s6 * r56;
+    reached[9] = r35 - r36;
+    reached[10] = r38 + r39;
+    reached[11] = 0.0 - r41;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -414,55 +400,49 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.05 * c1, r4 = 0.05 * s1, r5 = 0.18 * r2;
-    const double r8 = c2 + (1.0 - c2), r9 = c1 * c2, r10 = s1 * c2, r11 = r2 * (0.0 - s2), r12 = r1 * r8;
-    const double r13 = c1 * r8, r14 = c1 * s2, r15 = s1 * s2, r16 = r2 * c2, r18 = 0.18 * r14, r21 = 0.18 * r15;
-    const double r24 = 0.18 * r16, r35 = r3 - (0.05 * r9 + r18) + (0.45 * r9 + r18);
-    const double r36 = r4 - (0.05 * r10 + r21) + (0.45 * r10 + r21);
-    const double r37 = r5 - (0.05 * r11 + r24) + (0.45 * r11 + r24), r39 = 0.0 - s3, r40 = c3 + (1.0 - c3);
-    const double r43 = r9 * c3 + r14 * r39, r46 = r10 * c3 + r15 * r39, r49 = r11 * c3 + r16 * r39;
-    const double r50 = r12 * r40, r51 = r13 * r40, r54 = r9 * s3 + r14 * c3, r57 = r10 * s3 + r15 * c3;
-    const double r60 = r11 * s3 + r16 * c3, r62 = 0.18 * r54, r65 = 0.18 * r57, r68 = 0.18 * r60;
-    const double r79 = r35 - (0.45 * r43 + r62) + (0.8 * r43 + r62);
-    const double r80 = r36 - (0.45 * r46 + r65) + (0.8 * r46 + r65);
-    const double r81 = r37 - (0.45 * r49 + r68) + (0.8 * r49 + r68), r83 = 0.0 - s4, r84 = c4 + (1.0 - c4);
-    const double r87 = r43 * c4 + r54 * r83, r90 = r46 * c4 + r57 * r83, r93 = r49 * c4 + r60 * r83;
-    const double r94 = r50 * r84, r95 = r51 * r84, r98 = r43 * s4 + r54 * c4, r101 = r46 * s4 + r57 * c4;
-    const double r104 = r49 * s4 + r60 * c4, r106 = 0.18 * r98, r109 = 0.18 * r101, r112 = 0.18 * r104;
-    const double r127 = r79 - (0.8 * r87 + r106) + (0.86 * r87 + -0.125 * r94 + r106);
-    const double r128 = r80 - (0.8 * r90 + r109) + (0.86 * r90 + -0.125 * r95 + r109);
-    const double r129 = r81 - (0.8 * r93 + r112) + (0.86 * r93 + r112), r131 = 0.0 - s5, r132 = c5 + (1.0 - c5);
-    const double r135 = r87 * c5 + r94 * s5, r138 = r90 * c5 + r95 * s5, r139 = r93 * c5;
-    const double r142 = r87 * r131 + r94 * c5, r145 = r90 * r131 + r95 * c5, r146 = r93 * r131;
-    const double r147 = r98 * r132, r148 = r101 * r132, r149 = r104 * r132, r152 = 0.86 * r135 + -0.125 * r142;
-    const double r157 = 0.86 * r138 + -0.125 * r145, r162 = 0.86 * r139 + -0.125 * r146;
-    const double r174 = r127 - (r152 + 0.18 * r147) + (r152 + 0.055 * r147);
-    const double r175 = r128 - (r157 + 0.18 * r148) + (r157 + 0.055 * r148);
-    const double r176 = r129 - (r162 + 0.18 * r149) + (r162 + 0.055 * r149), r178 = c6 + (1.0 - c6);
-    const double r179 = 0.0 - s6, r180 = r135 * r178, r181 = r138 * r178, r182 = r139 * r178;
-    const double r185 = r142 * c6 + r147 * s6, r188 = r145 * c6 + r148 * s6, r191 = r146 * c6 + r149 * s6;
-    const double r194 = r142 * r179 + r147 * c6, r197 = r145 * r179 + r148 * c6, r200 = r146 * r179 + r149 * c6;
-    const double r202 = -0.125 * r185, r204 = 0.055 * r194, r207 = -0.125 * r188, r209 = 0.055 * r197;
-    const double r212 = -0.125 * r191, r214 = 0.055 * r200;
-    const double r228 = r174 - (0.86 * r180 + r202 + r204) + (0.985 * r180 + r202 + r204);
-    const double r229 = r175 - (0.86 * r181 + r207 + r209) + (0.985 * r181 + r207 + r209);
-    const double r230 = r176 - (0.86 * r182 + r212 + r214) + (0.985 * r182 + r212 + r214), r231 = 0.0 - r194;
-    const double r232 = 0.0 - r197, r233 = 0.0 - r200, r237 = r230 - r5, r246 = r230 - r37, r255 = r230 - r81;
-    const double r262 = r228 - r127, r263 = r229 - r128, r264 = r230 - r129, r274 = r228 - r174;
-    const double r275 = r229 - r175, r276 = r230 - r176;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16;
+    const double r18 = s3 * r0 + c3 * r2, r19 = s4 * r18, r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3;
+    const double r23 = s4 * r22, r24 = r8 + r9, r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26;
+    const double r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
+    const double r34 = r17 - r19, r35 = c5 * r34, r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37, r39 = c1 * s5;
+    const double r40 = r25 - r27, r41 = c5 * r40, r46 = s5 * r40, r47 = s5 * r34 + s1 * c5, r48 = c6 * r47;
+    const double r49 = r28 + r29, r50 = s6 * r49, r51 = s5 * r37 - c1 * c5, r53 = r30 + r31, r56 = r32 + r33;
+    const double r65 = 0.35 * r8, r67 = 0.35 * r9, r69 = 0.06 * r25, r71 = 0.06 * r27, r73 = 0.125 * r32;
+    const double r75 = 0.125 * r33, r77 = 0.125 * r41, r78 = 0.4 * s2 + r65 + r67 + r69 - r71 - r73 - r75 + r77;
+    const double r79 = 0.4 * r1, r80 = 0.35 * r6, r81 = 0.35 * r7, r82 = 0.06 * r21, r83 = 0.06 * r23;
+    const double r84 = 0.125 * c1, r85 = 0.125 * r30, r86 = 0.125 * r31, r87 = 0.125 * r38, r88 = 0.125 * r39;
+    const double r89 = 0.4 * r0, r90 = 0.35 * r4, r91 = 0.35 * r5, r92 = 0.06 * r17, r93 = 0.06 * r19;
+    const double r94 = 0.125 * s1, r95 = 0.125 * r28, r96 = 0.125 * r29, r97 = 0.125 * r35, r98 = 0.125 * r36;
+    const double r99 = r38 + r39, r100 = r35 - r36, r107 = r82 + (r80 + (r79 + 0.05 * s1) - r81) - r83 - r84;
+    const double r118 = r94 + (r92 + (r90 + (r89 + 0.05 * c1) - r91) - r93), r127 = s6 * r46 + c6 * r56;
+    const double r128 = s6 * r51 + c6 * r53, r129 = s6 * r47 + c6 * r49, r135 = c6 * r46 - s6 * r56;
+    const double r153 = r79 + r80 - r81 + r82 - r83 - r84 - r85 - r86;
+    const double r163 = r89 + r90 - r91 + r92 - r93 + r94 - r95 - r96;
+    const double r172 = r77 + (r69 + (r65 + r67) - r71 - r73 - r75);
+    const double r181 = r87 + (r82 + (r80 - r81) - r83 - r84 - r85 - r86);
+    const double r190 = r97 + (r94 + (r92 + (r90 - r91) - r93) - r95 - r96);
+    const double r196 = r77 + (r69 - r71 - r73 - r75), r205 = s1 * (r88 + (r87 + (r82 - r83 - r84 - r85 - r86)));
+    const double r212 = c1 * (r97 + (r94 + (r92 - r93) - r95 - r96) - r98), r213 = r56 - r41;
+    const double r216 = r53 - r38 - r39, r219 = r36 + (r49 - r35);
+    const double r235 = s1 * (r153 + r87 + r88) + c1 * (r163 + r97 - r98);
+    const double r238 = 0.0 - (s1 * (r88 + r181) + c1 * (r190 - r98)), r244 = c1 * r127, r245 = s1 * r127;
+    const double r264 = s1 * r128 + c1 * r129, r267 = c1 * r135, r268 = s1 * r135, r269 = c6 * r51 - s6 * r53;
+    const double r271 = r48 - r50, r289 = s1 * r269 + c1 * r271, r303 = 0.0 - c1 * r41, r305 = 0.0 - s1 * r41;
+    const double r308 = 0.0 - (s1 * r99 + c1 * r100);
     const Jacobian result = { {
-        {0.0 - r229, c1 * r237, r13 * r246, r51 * r255, r101 * r264 - r104 * r263, r138 * r276 - r139 * r275},
-        {r228, 0.0 - r1 * r237, 0.0 - r12 * r246, 0.0 - r50 * r255, r104 * r262 - r98 * r264, r139 * r274 - r135 * r276},
-        {0.0, r1 * (r229 - r4) - c1 * (r228 - r3), r12 * (r229 - r36) - r13 * (r228 - r35), r50 * (r229 - r80) - r51 * (r228 - r79), r98 * r263 - r101 * r262, r135 * r275 - r138 * r274},
-        {0.0 - r232, c1 * r233, r13 * r233, r51 * r233, r101 * r233 - r104 * r232, r138 * r233 - r139 * r232},
-        {r231, 0.0 - r1 * r233, 0.0 - r12 * r233, 0.0 - r50 * r233, r104 * r231 - r98 * r233, r139 * r231 - r135 * r233},
-        {0.0, r1 * r232 - c1 * r231, r12 * r232 - r13 * r231, r50 * r232 - r51 * r231, r98 * r232 - r101 * r231, r135 * r232 - r138 * r231},
-        {0.0 - r188, c1 * r191, r13 * r191, r51 * r191, r101 * r191 - r104 * r188, r138 * r191 - r139 * r188},
-        {r185, 0.0 - r1 * r191, 0.0 - r12 * r191, 0.0 - r50 * r191, r104 * r185 - r98 * r191, r139 * r185 - r135 * r191},
-        {0.0, r1 * r188 - c1 * r185, r12 * r188 - r13 * r185, r50 * r188 - r51 * r185, r98 * r188 - r101 * r185, r135 * r188 - r138 * r185},
-        {0.0 - r181, c1 * r182, r13 * r182, r51 * r182, r101 * r182 - r104 * r181, r138 * r182 - r139 * r181},
-        {r180, 0.0 - r1 * r182, 0.0 - r12 * r182, 0.0 - r50 * r182, r104 * r180 - r98 * r182, r139 * r180 - r135 * r182},
-        {0.0, r1 * r181 - c1 * r180, r12 * r181 - r13 * r180, r50 * r181 - r51 * r180, r98 * r181 - r101 * r180, r135 * r181 - r138 * r180},
+        {0.0 - (r88 + (r87 + (r107 - r85 - r86))), 0.0 - c1 * r78, 0.0 - c1 * r172, 0.0 - c1 * r196, 0.125 * (r53 * r213 - r56 * r216), 0.0},
+        {r97 + (r118 - r95 - r96) - r98, 0.0 - s1 * r78, 0.0 - s1 * r172, 0.0 - s1 * r196, 0.125 * (r56 * r219 - r49 * r213), 0.0},
+        {0.0, 0.0 - r235, r238, 0.0 - (r205 + r212), 0.0 - 0.125 * (r49 * r216 - r53 * r219), 0.0},
+        {r128, r244, r244, r244, r53 * r127 - r56 * r128, r99 * r127 - r41 * r128},
+        {0.0 - r129, r245, r245, r245, r56 * r129 - r49 * r127, r41 * r129 - r100 * r127},
+        {0.0, r264, r264, r264, r53 * r129 - r49 * r128, r99 * r129 - r100 * r128},
+        {r269, r267, r267, r267, r53 * r135 - r56 * r269, r99 * r135 - r41 * r269},
+        {r50 - r48, r268, r268, r268, r56 * r271 - r49 * r135, r41 * r271 - r100 * r135},
+        {0.0, r289, r289, r289, r53 * r271 - r49 * r269, r99 * r271 - r100 * r269},
+        {0.0 - r99, r303, r303, r303, r56 * r99 - r41 * r53, 0.0},
+        {r100, r305, r305, r305, r41 * r49 - r56 * r100, 0.0},
+        {0.0, r308, r308, r308, r49 * r99 - r53 * r100, 0.0},
     } };
     return result;
 }
@@ -1195,17 +1175,17 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r54;
-    double r55;
+    double r22;
+    double r24;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r59 = 0.0 - (-0.06 * shared->r54 - 0.125 * shared->r55), r60 = r59 / 0.019225;
-    const double r64 = 0.0 - 0.125 * shared->r54 - -0.06 * shared->r55, r66 = (0.0 - r64) / 0.019225;
-    const double r70 = sqrt(fmax(r66 * r66 + r60 * r60, 0.0)), c4 = r66 / r70, s4 = r60 / r70;
+    const double r28 = (0.125 * shared->r24 - 0.06 * shared->r22) / 0.019225;
+    const double r32 = (0.125 * shared->r22 + 0.06 * shared->r24) / 0.019225;
+    const double r36 = sqrt(fmax(r32 * r32 + r28 * r28, 0.0)), c4 = 0.0 - r32 / r36, s4 = r28 / r36;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1220,27 +1200,23 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: Wrist1. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = p->pz + -0.125 * p->r33_, r11 = (0.0 - (0.0 - (p->py + -0.125 * p->r23_))) * known->s1;
-    const double r18 = (p->px + -0.125 * p->r13_) * known->c1 + r11 - 0.05;
-    const double r19 = r5 + (r5 - r5) * known->c1 - 0.18;
-    const double r30 = r19 * known->c2 + (0.0 - (0.0 - r18)) * known->s2;
-    const double r32 = r18 * known->c2 + (0.0 - r19) * known->s2 + 0.05, r34 = r32 - 0.45;
-    const double r35 = r30 + 0.18 - 0.18, r46 = r35 * known->c3 + (0.0 - (0.0 - r34)) * known->s3;
-    const double r48 = r34 * known->c3 + (0.0 - r35) * known->s3 + 0.45;
-    const double r54 = 0.0 - (-0.18 - (0.0 - (r46 + 0.18))), r55 = 0.0 - (-0.8 - (0.0 - r48));
-    const Shared6 own = { r54, r55 };
+    const double r6 = known->c1 * (p->px - 0.125 * p->r13_) + known->s1 * (p->py - 0.125 * p->r23_);
+    const double r7 = r6 - 0.05, r11 = p->pz - 0.125 * p->r33_ - 0.18;
+    const double r16 = known->c2 * r7 - known->s2 * r11 - 0.4, r18 = known->c2 * r11 + known->s2 * r7;
+    const double r22 = known->c3 * r18 + known->s3 * r16, r24 = 0.35 - (known->c3 * r16 - known->s3 * r18);
+    const Shared6 own = { r22, r24 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r5;
-    double r67;
-    double r68;
-    double r69;
-    double r76;
-    double r77;
+    double r30;
+    double r32;
+    double r36;
+    double r38;
+    double r42;
+    double r43;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
@@ -1248,13 +1224,13 @@ typedef struct {
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r80 = shared->r5 * shared->r5 + shared->r68 * shared->r68;
-    if (!is_away(r80, 83330.0)) {
+    const double r46 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
+    if (!is_away(r46, 83330.0)) {
         return;
     }
-    const double r83 = shared->r68 * shared->r69 - shared->r5 * shared->r67, r85 = (0.0 - r83) / r80;
-    const double r89 = 0.0 - shared->r5 * shared->r69 - shared->r68 * shared->r67, r91 = (0.0 - r89) / r80;
-    const double r95 = sqrt(fmax(r91 * r91 + r85 * r85, 0.0)), c2 = r91 / r95, s2 = r85 / r95;
+    const double r49 = shared->r32 * shared->r36 + shared->r30 * shared->r38, r50 = r49 / r46;
+    const double r53 = shared->r32 * shared->r38 - shared->r30 * shared->r36, r54 = r53 / r46;
+    const double r58 = sqrt(fmax(r54 * r54 + r50 * r50, 0.0)), c2 = r54 / r58, s2 = 0.0 - r50 / r58;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1269,8 +1245,8 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
  */
 static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r80 = shared->r5 * shared->r5 + shared->r68 * shared->r68;
-    if (!(is_near(r80, 8.333000000000001e-7) && is_near(shared->r67, 0.01 * shared->r77) && is_near(shared->r69, 0.01 * shared->r76))) {
+    const double r46 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
+    if (!(is_near(r46, 8.333000000000001e-7) && is_near(shared->r38, 0.01 * shared->r43) && is_near(shared->r36, 0.01 * shared->r42))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1288,19 +1264,14 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: Shoulder. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = -0.35 * known->s3 + 0.18 - 0.18, r15 = -0.06 * known->c5 + 0.125 * known->s5 + 0.86 - 0.86;
-    const double r16 = 0.125 * known->c5 + 0.06 * known->s5 - 0.125 + 0.125;
-    const double r29 = 0.125 * known->c6 + (0.0 - r16) * known->s6 + 0.055;
-    const double r30 = r15 + (r15 - r15) * known->c6 + 0.86 - 0.985;
-    const double r31 = r16 * known->c6 + 0.125 * known->s6 - 0.125 + 0.125, r33 = 0.0 - (r29 - 0.055);
-    const double r38 = r33 * p->r11_ + r31 * p->r12_ + r30 * p->r13_;
-    const double r43 = r33 * p->r21_ + r31 * p->r22_ + r30 * p->r23_;
-    const double r48 = r33 * p->r31_ + r31 * p->r32_ + r30 * p->r33_;
-    const double r60 = (p->px + r38) * known->c1 + (0.0 - (0.0 - (p->py + r43))) * known->s1;
-    const double r67 = -0.05 - (0.0 - r60), r68 = 0.0 - (0.0 - (0.35 * known->c3 + 0.45 - 0.05));
-    const double r69 = 0.0 - (0.18 - (p->pz + r48)), r70 = p->magnitude + 19.42, r76 = fabs(0.0 - (r70 + 0.18));
-    const double r77 = fabs(r70 + r70 + 0.05);
-    const Shared5 own = { r5, r67, r68, r69, r76, r77 };
+    const double r2 = 0.125 * known->c5 + 0.06 * known->s5, r6 = 0.125 * known->c6 - known->s6 * r2;
+    const double r9 = known->c6 * r2 + 0.125 * known->s6, r14 = 0.06 * known->c5 - 0.125 * known->s5 + 0.125;
+    const double r24 = p->r12_ * r9 + (p->px - p->r11_ * r6) - p->r13_ * r14;
+    const double r28 = p->r22_ * r9 + (p->py - p->r21_ * r6) - p->r23_ * r14, r30 = 0.35 * known->s3;
+    const double r32 = 0.35 * known->c3 + 0.4, r35 = p->r32_ * r9 + (p->pz - p->r31_ * r6) - p->r33_ * r14;
+    const double r36 = r35 - 0.18, r38 = known->c1 * r24 + known->s1 * r28 - 0.05;
+    const double r42 = fabs(p->magnitude + 19.6), r43 = fabs(2.0 * p->magnitude + 38.89);
+    const Shared5 own = { r30, r32, r36, r38, r42, r43 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
@@ -1308,20 +1279,20 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r106;
+    double r63;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r108 = shared->r106 * shared->r106 - 0.07840000000000001;
-    const double choice0_0[3] = {r108, 0.0, 1.0};
+    const double r65 = shared->r63 * shared->r63 - 0.07840000000000001;
+    const double choice0_0[3] = {r65, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->f6);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r113 = (0.0 - (0.0 - 0.28 * w3)) / 0.07840000000000001;
-        const double r116 = (0.0 - 0.28 * shared->r106) / 0.07840000000000001;
-        const double r120 = sqrt(fmax(r116 * r116 + r113 * r113, 0.0)), c3 = r116 / r120, s3 = r113 / r120;
+        const double w3 = roots0.values[i0], r68 = 0.28 * w3 / 0.07840000000000001;
+        const double r70 = 0.28 * shared->r63 / 0.07840000000000001;
+        const double r74 = sqrt(fmax(r70 * r70 + r68 * r68, 0.0)), c3 = 0.0 - r70 / r74, s3 = r68 / r74;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1334,40 +1305,33 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: Elbow. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = -0.06 * known->c5 + 0.125 * known->s5 + 0.86;
-    const double r7 = 0.125 * known->c5 + 0.06 * known->s5 - 0.125, r10 = 0.86 * r6 + -0.125 * r7;
-    const double r11 = r10 + 0.0324, r15 = r6 - 0.86, r16 = r7 + 0.125;
-    const double r27 = r15 + (r15 - r15) * known->c6 + 0.86, r28 = r16 * known->c6 + 0.125 * known->s6 - 0.125;
-    const double r29 = 0.125 * known->c6 + (0.0 - r16) * known->s6 + 0.055, r30 = r10 + 0.0099;
-    const double r33 = r11 + r11 - 0.787625 + 0.019225 - (r30 + r30 - 0.75825), r35 = -0.125 * r28;
-    const double r36 = 0.055 * r29, r38 = 0.86 * r27 + r35 + r36, r42 = r27 - 0.985, r43 = r28 + 0.125;
-    const double r45 = 0.0 - (r29 - 0.055), r50 = r45 * p->r11_ + r43 * p->r12_ + r42 * p->r13_;
-    const double r55 = r45 * p->r21_ + r43 * p->r22_ + r42 * p->r23_;
-    const double r60 = r45 * p->r31_ + r43 * p->r32_ + r42 * p->r33_, r61 = p->px + r50, r62 = p->py + r55;
-    const double r63 = p->pz + r60, r66 = 0.985 * r27 + r35 + r36;
-    const double r69 = r33 + (r38 + r38 - 0.75825) - (r66 + r66 - 0.988875);
-    const double r74 = p->px * r61 + p->py * r62 + p->pz * r63;
-    const double r80 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r89 = r61 * known->c1 + (0.0 - (0.0 - r62)) * known->s1, r94 = r63 + (r63 - r63) * known->c1;
-    const double r104 = r69 + (r74 + r74 - r80) + (0.05 * (0.05 - r89) + 0.18 * (0.18 - r94));
-    const double r106 = 0.2825 - (r104 - (0.05 * r89 + 0.18 * r94));
-    const Shared4 own = { r106 };
+    const double r2 = 0.125 * known->c5 + 0.06 * known->s5, r6 = 0.125 * known->c6 - known->s6 * r2;
+    const double r9 = known->c6 * r2 + 0.125 * known->s6, r14 = 0.06 * known->c5 - 0.125 * known->s5 + 0.125;
+    const double r19 = p->r31_ * r6, r20 = p->r32_ * r9, r21 = p->r33_ * r14;
+    const double r24 = p->r12_ * r9 + (p->px - p->r11_ * r6) - p->r13_ * r14;
+    const double r28 = p->r22_ * r9 + (p->py - p->r21_ * r6) - p->r23_ * r14;
+    const double r43 = 0.015 * known->c5 - 0.03125 * known->s5 + 2.0 * (p->px * r24);
+    const double r47 = r43 + 2.0 * (p->py * r28) + 2.0 * (p->pz * (r20 + (p->pz - r19) - r21));
+    const double r50 = r47 - p->px * p->px - p->py * p->py - p->pz * p->pz;
+    const double r54 = r50 - 0.1 * (known->c1 * r24) - 0.1 * (known->s1 * r28);
+    const double r62 = r54 - 0.36 * p->pz + 0.36 * r19 - 0.36 * r20 + 0.36 * r21, r63 = 0.197125 - r62;
+    const Shared4 own = { r63 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r36;
-    double r37;
+    double r10;
+    double r11;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r39 = 0.0 - (0.0 - shared->r37), r42 = 0.0 - (-0.0 - (0.0 - shared->r36));
-    const double r46 = sqrt(fmax(r42 * r42 + r39 * r39, 0.0)), c5 = r42 / r46, s5 = r39 / r46;
+    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r15 = sqrt(fmax(r14, 0.0));
+    const double c5 = shared->r11 / r15, s5 = shared->r10 / r15;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1379,19 +1343,18 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Wrist2. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1, r14 = 0.0 - (0.0 - known->s6);
-    const double r31 = (r14 * p->r21_ + known->c6 * p->r22_) * known->c1;
-    const double r32 = (0.0 - (r14 * p->r11_ + known->c6 * p->r12_)) * known->s1, r36 = 0.0 - (r31 + r32);
-    const double r37 = 0.0 - (0.0 - r9);
-    const Shared3 own = { r36, r37 };
+    const double r8 = known->c1 * (p->r21_ * known->s6 + p->r22_ * known->c6);
+    const double r9 = known->s1 * (p->r11_ * known->s6 + p->r12_ * known->c6);
+    const double r10 = p->r23_ * known->c1 - p->r13_ * known->s1, r11 = r8 - r9;
+    const Shared3 own = { r10, r11 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r27;
-    double r28;
+    double r4;
+    double r5;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1399,17 +1362,16 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r29 = shared->r27 * shared->r27, r30 = shared->r28 * shared->r28, r31 = r29 + r30;
-    if (!is_away(r31, 80000.0)) {
+    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
+    if (!is_away(r8, 80000.0)) {
         return;
     }
     const double f6 = 1.0;
-    const double choice0_0[3] = {0.0 - r29 - r30, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 2.8284271247461903);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w6 = roots0.values[i0], r37 = (0.0 - (0.0 - shared->r27 * w6)) / r31;
-        const double r40 = (0.0 - shared->r28 * w6) / r31, r44 = sqrt(fmax(r40 * r40 + r37 * r37, 0.0));
-        const double c6 = r40 / r44, s6 = r37 / r44;
+        const double w6 = roots0.values[i0], r12 = w6 * shared->r4 / r8, r14 = w6 * shared->r5 / r8;
+        const double r18 = sqrt(fmax(r14 * r14 + r12 * r12, 0.0)), c6 = 0.0 - r14 / r18, s6 = r12 / r18;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1426,8 +1388,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r31 = shared->r27 * shared->r27 + shared->r28 * shared->r28;
-    if (!is_near(r31, 8.000000000000001e-7)) {
+    const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5;
+    if (!is_near(r8, 8.000000000000001e-7)) {
         return;
     }
     const double f6 = 1000000.0;
@@ -1447,9 +1409,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Wrist3. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r21 = (0.0 - p->r21_) * known->c1 + (0.0 - (0.0 - p->r11_)) * known->s1;
-    const double r22 = p->r22_ * known->c1 + (0.0 - p->r12_) * known->s1, r27 = 0.0 - r21, r28 = 0.0 - r22;
-    const Shared2 own = { r27, r28 };
+    const double r4 = p->r21_ * known->c1 - p->r11_ * known->s1, r5 = p->r12_ * known->s1 - p->r22_ * known->c1;
+    const Shared2 own = { r4, r5 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -1457,9 +1418,9 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r7;
-    double r10;
-    double r13;
+    double r1;
+    double r3;
+    double r5;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
@@ -1467,17 +1428,17 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r14 = shared->r7 * shared->r7, r15 = shared->r10 * shared->r10, r16 = r14 + r15;
-    const double r17 = shared->r13 * shared->r13, r18 = r17 + r17;
-    if (!is_away(r16, 10000.0 * r18)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 10000.0 * r10)) {
         return;
     }
-    const double choice0_0[3] = {0.015625 - r14 - r15, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r18, 0.0)));
+    const double choice0_0[3] = {0.015625 - r6 - r7, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r26 = 0.0 - (-0.125 * shared->r10 - shared->r7 * w1);
-        const double r27 = r26 / r16, r31 = 0.0 - (shared->r10 * w1 + -0.125 * shared->r7), r32 = r31 / r16;
-        const double r36 = sqrt(fmax(r32 * r32 + r27 * r27, 0.0)), c1 = r32 / r36, s1 = r27 / r36;
+        const double w1 = roots0.values[i0], r19 = (w1 * shared->r1 - (0.0 - 0.125 * shared->r3)) / r8;
+        const double r23 = (0.125 * shared->r1 - w1 * shared->r3) / r8;
+        const double r27 = sqrt(fmax(r23 * r23 + r19 * r19, 0.0)), c1 = r23 / r27, s1 = r19 / r27;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1490,9 +1451,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Base. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r7 = 0.0 - (p->py + -0.125 * p->r23_), r10 = 0.0 - (0.0 - (p->px + -0.125 * p->r13_));
-    const double r13 = fabs(p->magnitude + 2.205);
-    const Shared1 own = { r7, r10, r13 };
+    const double r1 = 0.125 * p->r23_ - p->py, r3 = p->px - 0.125 * p->r13_, r5 = fabs(p->magnitude + 2.205);
+    const Shared1 own = { r1, r3, r5 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

@@ -440,38 +440,38 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Base.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r7 = 0.0 - (p.py + -0.125 * p.r23_);
-    let r10 = 0.0 - (0.0 - (p.px + -0.125 * p.r13_));
-    let r13 = f64::abs(p.magnitude + 2.205);
-    let shared = &Shared1 { r7, r10, r13 };
+    let r1 = 0.125 * p.r23_ - p.py;
+    let r3 = p.px - 0.125 * p.r13_;
+    let r5 = f64::abs(p.magnitude + 2.205);
+    let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r7: f64,
-    r10: f64,
-    r13: f64,
+    r1: f64,
+    r3: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r14 = shared.r7 * shared.r7;
-    let r15 = shared.r10 * shared.r10;
-    let r16 = r14 + r15;
-    let r17 = shared.r13 * shared.r13;
-    let r18 = r17 + r17;
-    if !is_away(r16, 10000.0 * r18) {
+    let r6 = shared.r1 * shared.r1;
+    let r7 = shared.r3 * shared.r3;
+    let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5;
+    let r10 = r9 + r9;
+    if !is_away(r8, 10000.0 * r10) {
         return;
     }
-    let roots0 = real_roots(&[0.015625 - r14 - r15, 0.0, 1.0], f64::max(r18, 0.0).sqrt());
+    let roots0 = real_roots(&[0.015625 - r6 - r7, 0.0, 1.0], f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r27 = (0.0 - (-0.125 * shared.r10 - shared.r7 * w1)) / r16;
-        let r32 = (0.0 - (shared.r10 * w1 + -0.125 * shared.r7)) / r16;
-        let r36 = f64::max(r32 * r32 + r27 * r27, 0.0).sqrt();
-        let c1 = r32 / r36;
-        let s1 = r27 / r36;
+        let r19 = (w1 * shared.r1 - (0.0 - 0.125 * shared.r3)) / r8;
+        let r23 = (0.125 * shared.r1 - w1 * shared.r3) / r8;
+        let r27 = f64::max(r23 * r23 + r19 * r19, 0.0).sqrt();
+        let c1 = r23 / r27;
+        let s1 = r19 / r27;
         let next = Known { branch: i0, last: 2, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -479,38 +479,36 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Wrist3.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r21 = (0.0 - p.r21_) * known.c1 + (0.0 - (0.0 - p.r11_)) * known.s1;
-    let r22 = p.r22_ * known.c1 + (0.0 - p.r12_) * known.s1;
-    let r27 = 0.0 - r21;
-    let r28 = 0.0 - r22;
-    let shared = &Shared2 { r27, r28 };
+    let r4 = p.r21_ * known.c1 - p.r11_ * known.s1;
+    let r5 = p.r12_ * known.s1 - p.r22_ * known.c1;
+    let shared = &Shared2 { r4, r5 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r27: f64,
-    r28: f64,
+    r4: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r29 = shared.r27 * shared.r27;
-    let r30 = shared.r28 * shared.r28;
-    let r31 = r29 + r30;
-    if !is_away(r31, 80000.0) {
+    let r6 = shared.r4 * shared.r4;
+    let r7 = shared.r5 * shared.r5;
+    let r8 = r6 + r7;
+    if !is_away(r8, 80000.0) {
         return;
     }
     let f6 = 1.0;
-    let roots0 = real_roots(&[0.0 - r29 - r30, 0.0, 1.0], 2.8284271247461903);
+    let roots0 = real_roots(&[0.0 - r6 - r7, 0.0, 1.0], 2.8284271247461903);
     for (i0, &w6) in roots0.as_slice().iter().enumerate() {
-        let r37 = (0.0 - (0.0 - shared.r27 * w6)) / r31;
-        let r40 = (0.0 - shared.r28 * w6) / r31;
-        let r44 = f64::max(r40 * r40 + r37 * r37, 0.0).sqrt();
-        let c6 = r40 / r44;
-        let s6 = r37 / r44;
+        let r12 = w6 * shared.r4 / r8;
+        let r14 = w6 * shared.r5 / r8;
+        let r18 = f64::max(r14 * r14 + r12 * r12, 0.0).sqrt();
+        let c6 = 0.0 - r14 / r18;
+        let s6 = r12 / r18;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c6, s6, f6, ..*known };
         block_3(p, &next, answers);
     }
@@ -520,8 +518,8 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Wrist3.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r31 = shared.r27 * shared.r27 + shared.r28 * shared.r28;
-    if !is_near(r31, 8.000000000000001e-7) {
+    let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5;
+    if !is_near(r8, 8.000000000000001e-7) {
         return;
     }
     let f6 = 1000000.0;
@@ -533,82 +531,66 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Wrist2.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r14 = 0.0 - (0.0 - known.s6);
-    let r31 = (r14 * p.r21_ + known.c6 * p.r22_) * known.c1;
-    let r32 = (0.0 - (r14 * p.r11_ + known.c6 * p.r12_)) * known.s1;
-    let r36 = 0.0 - (r31 + r32);
-    let r37 = 0.0 - (0.0 - r9);
-    let shared = &Shared3 { r36, r37 };
+    let r8 = known.c1 * (p.r21_ * known.s6 + p.r22_ * known.c6);
+    let r9 = known.s1 * (p.r11_ * known.s6 + p.r12_ * known.c6);
+    let r10 = p.r23_ * known.c1 - p.r13_ * known.s1;
+    let r11 = r8 - r9;
+    let shared = &Shared3 { r10, r11 };
     chart_3_1(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r36: f64,
-    r37: f64,
+    r10: f64,
+    r11: f64,
 }
 
 /// Chart 1 of block 3: generic.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r39 = 0.0 - (0.0 - shared.r37);
-    let r42 = 0.0 - (-0.0 - (0.0 - shared.r36));
-    let r46 = f64::max(r42 * r42 + r39 * r39, 0.0).sqrt();
-    let c5 = r42 / r46;
-    let s5 = r39 / r46;
+    let r14 = shared.r11 * shared.r11 + shared.r10 * shared.r10;
+    let r15 = f64::max(r14, 0.0).sqrt();
+    let c5 = shared.r11 / r15;
+    let s5 = shared.r10 / r15;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_4(p, &next, answers);
 }
 
 /// Block 4: Elbow.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = -0.06 * known.c5 + 0.125 * known.s5 + 0.86;
-    let r7 = 0.125 * known.c5 + 0.06 * known.s5 - 0.125;
-    let r10 = 0.86 * r6 + -0.125 * r7;
-    let r11 = r10 + 0.0324;
-    let r15 = r6 - 0.86;
-    let r16 = r7 + 0.125;
-    let r27 = r15 + (r15 - r15) * known.c6 + 0.86;
-    let r28 = r16 * known.c6 + 0.125 * known.s6 - 0.125;
-    let r29 = 0.125 * known.c6 + (0.0 - r16) * known.s6 + 0.055;
-    let r30 = r10 + 0.0099;
-    let r33 = r11 + r11 - 0.787625 + 0.019225 - (r30 + r30 - 0.75825);
-    let r35 = -0.125 * r28;
-    let r36 = 0.055 * r29;
-    let r38 = 0.86 * r27 + r35 + r36;
-    let r42 = r27 - 0.985;
-    let r43 = r28 + 0.125;
-    let r45 = 0.0 - (r29 - 0.055);
-    let r61 = p.px + (r45 * p.r11_ + r43 * p.r12_ + r42 * p.r13_);
-    let r62 = p.py + (r45 * p.r21_ + r43 * p.r22_ + r42 * p.r23_);
-    let r63 = p.pz + (r45 * p.r31_ + r43 * p.r32_ + r42 * p.r33_);
-    let r66 = 0.985 * r27 + r35 + r36;
-    let r69 = r33 + (r38 + r38 - 0.75825) - (r66 + r66 - 0.988875);
-    let r74 = p.px * r61 + p.py * r62 + p.pz * r63;
-    let r81 = r74 + r74 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r89 = r61 * known.c1 + (0.0 - (0.0 - r62)) * known.s1;
-    let r94 = r63 + (r63 - r63) * known.c1;
-    let r104 = r69 + r81 + (0.05 * (0.05 - r89) + 0.18 * (0.18 - r94));
-    let r106 = 0.2825 - (r104 - (0.05 * r89 + 0.18 * r94));
-    let shared = &Shared4 { r106 };
+    let r2 = 0.125 * known.c5 + 0.06 * known.s5;
+    let r6 = 0.125 * known.c6 - known.s6 * r2;
+    let r9 = known.c6 * r2 + 0.125 * known.s6;
+    let r14 = 0.06 * known.c5 - 0.125 * known.s5 + 0.125;
+    let r19 = p.r31_ * r6;
+    let r20 = p.r32_ * r9;
+    let r21 = p.r33_ * r14;
+    let r24 = p.r12_ * r9 + (p.px - p.r11_ * r6) - p.r13_ * r14;
+    let r28 = p.r22_ * r9 + (p.py - p.r21_ * r6) - p.r23_ * r14;
+    let r43 = 0.015 * known.c5 - 0.03125 * known.s5 + 2.0 * (p.px * r24);
+    let r47 = r43 + 2.0 * (p.py * r28) + 2.0 * (p.pz * (r20 + (p.pz - r19) - r21));
+    let r50 = r47 - p.px * p.px - p.py * p.py - p.pz * p.pz;
+    let r54 = r50 - 0.1 * (known.c1 * r24) - 0.1 * (known.s1 * r28);
+    let r62 = r54 - 0.36 * p.pz + 0.36 * r19 - 0.36 * r20 + 0.36 * r21;
+    let r63 = 0.197125 - r62;
+    let shared = &Shared4 { r63 };
     chart_4_1(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r106: f64,
+    r63: f64,
 }
 
 /// Chart 1 of block 4: generic.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r108 = shared.r106 * shared.r106 - 0.07840000000000001;
-    let roots0 = real_roots(&[r108, 0.0, 1.0], 1.4142135623730951 * known.f6);
+    let r65 = shared.r63 * shared.r63 - 0.07840000000000001;
+    let roots0 = real_roots(&[r65, 0.0, 1.0], 1.4142135623730951 * known.f6);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r113 = (0.0 - (0.0 - 0.28 * w3)) / 0.07840000000000001;
-        let r116 = (0.0 - 0.28 * shared.r106) / 0.07840000000000001;
-        let r120 = f64::max(r116 * r116 + r113 * r113, 0.0).sqrt();
-        let c3 = r116 / r120;
-        let s3 = r113 / r120;
+        let r68 = 0.28 * w3 / 0.07840000000000001;
+        let r70 = 0.28 * shared.r63 / 0.07840000000000001;
+        let r74 = f64::max(r70 * r70 + r68 * r68, 0.0).sqrt();
+        let c3 = 0.0 - r70 / r74;
+        let s3 = r68 / r74;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c3, s3, ..*known };
         block_5(p, &next, answers);
     }
@@ -616,52 +598,48 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: Shoulder.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = -0.35 * known.s3 + 0.18 - 0.18;
-    let r15 = -0.06 * known.c5 + 0.125 * known.s5 + 0.86 - 0.86;
-    let r16 = 0.125 * known.c5 + 0.06 * known.s5 - 0.125 + 0.125;
-    let r29 = 0.125 * known.c6 + (0.0 - r16) * known.s6 + 0.055;
-    let r30 = r15 + (r15 - r15) * known.c6 + 0.86 - 0.985;
-    let r31 = r16 * known.c6 + 0.125 * known.s6 - 0.125 + 0.125;
-    let r33 = 0.0 - (r29 - 0.055);
-    let r49 = p.px + (r33 * p.r11_ + r31 * p.r12_ + r30 * p.r13_);
-    let r50 = p.py + (r33 * p.r21_ + r31 * p.r22_ + r30 * p.r23_);
-    let r51 = p.pz + (r33 * p.r31_ + r31 * p.r32_ + r30 * p.r33_);
-    let r60 = r49 * known.c1 + (0.0 - (0.0 - r50)) * known.s1;
-    let r67 = -0.05 - (0.0 - r60);
-    let r68 = 0.0 - (0.0 - (0.35 * known.c3 + 0.45 - 0.05));
-    let r69 = 0.0 - (0.18 - r51);
-    let r70 = p.magnitude + 19.42;
-    let r76 = f64::abs(0.0 - (r70 + 0.18));
-    let r77 = f64::abs(r70 + r70 + 0.05);
-    let shared = &Shared5 { r5, r67, r68, r69, r76, r77 };
+    let r2 = 0.125 * known.c5 + 0.06 * known.s5;
+    let r6 = 0.125 * known.c6 - known.s6 * r2;
+    let r9 = known.c6 * r2 + 0.125 * known.s6;
+    let r14 = 0.06 * known.c5 - 0.125 * known.s5 + 0.125;
+    let r24 = p.r12_ * r9 + (p.px - p.r11_ * r6) - p.r13_ * r14;
+    let r28 = p.r22_ * r9 + (p.py - p.r21_ * r6) - p.r23_ * r14;
+    let r30 = 0.35 * known.s3;
+    let r32 = 0.35 * known.c3 + 0.4;
+    let r35 = p.r32_ * r9 + (p.pz - p.r31_ * r6) - p.r33_ * r14;
+    let r36 = r35 - 0.18;
+    let r38 = known.c1 * r24 + known.s1 * r28 - 0.05;
+    let r42 = f64::abs(p.magnitude + 19.6);
+    let r43 = f64::abs(2.0 * p.magnitude + 38.89);
+    let shared = &Shared5 { r30, r32, r36, r38, r42, r43 };
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r5: f64,
-    r67: f64,
-    r68: f64,
-    r69: f64,
-    r76: f64,
-    r77: f64,
+    r30: f64,
+    r32: f64,
+    r36: f64,
+    r38: f64,
+    r42: f64,
+    r43: f64,
 }
 
 /// Chart 1 of block 5: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r80 = shared.r5 * shared.r5 + shared.r68 * shared.r68;
-    if !is_away(r80, 83330.0) {
+    let r46 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
+    if !is_away(r46, 83330.0) {
         return;
     }
-    let r83 = shared.r68 * shared.r69 - shared.r5 * shared.r67;
-    let r85 = (0.0 - r83) / r80;
-    let r89 = 0.0 - shared.r5 * shared.r69 - shared.r68 * shared.r67;
-    let r91 = (0.0 - r89) / r80;
-    let r95 = f64::max(r91 * r91 + r85 * r85, 0.0).sqrt();
-    let c2 = r91 / r95;
-    let s2 = r85 / r95;
+    let r49 = shared.r32 * shared.r36 + shared.r30 * shared.r38;
+    let r50 = r49 / r46;
+    let r53 = shared.r32 * shared.r38 - shared.r30 * shared.r36;
+    let r54 = r53 / r46;
+    let r58 = f64::max(r54 * r54 + r50 * r50, 0.0).sqrt();
+    let c2 = r54 / r58;
+    let s2 = 0.0 - r50 / r58;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -670,8 +648,8 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r80 = shared.r5 * shared.r5 + shared.r68 * shared.r68;
-    if !(is_near(r80, 8.333000000000001e-7) && is_near(shared.r67, 0.01 * shared.r77) && is_near(shared.r69, 0.01 * shared.r76)) {
+    let r46 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
+    if !(is_near(r46, 8.333000000000001e-7) && is_near(shared.r38, 0.01 * shared.r43) && is_near(shared.r36, 0.01 * shared.r42)) {
         return;
     }
     for [c2, s2] in SAMPLES_1 {
@@ -682,37 +660,30 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 
 /// Block 6: Wrist1.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.pz + -0.125 * p.r33_;
-    let r11 = (0.0 - (0.0 - (p.py + -0.125 * p.r23_))) * known.s1;
-    let r18 = (p.px + -0.125 * p.r13_) * known.c1 + r11 - 0.05;
-    let r19 = r5 + (r5 - r5) * known.c1 - 0.18;
-    let r30 = r19 * known.c2 + (0.0 - (0.0 - r18)) * known.s2;
-    let r32 = r18 * known.c2 + (0.0 - r19) * known.s2 + 0.05;
-    let r34 = r32 - 0.45;
-    let r35 = r30 + 0.18 - 0.18;
-    let r46 = r35 * known.c3 + (0.0 - (0.0 - r34)) * known.s3;
-    let r48 = r34 * known.c3 + (0.0 - r35) * known.s3 + 0.45;
-    let r54 = 0.0 - (-0.18 - (0.0 - (r46 + 0.18)));
-    let r55 = 0.0 - (-0.8 - (0.0 - r48));
-    let shared = &Shared6 { r54, r55 };
+    let r6 = known.c1 * (p.px - 0.125 * p.r13_) + known.s1 * (p.py - 0.125 * p.r23_);
+    let r7 = r6 - 0.05;
+    let r11 = p.pz - 0.125 * p.r33_ - 0.18;
+    let r16 = known.c2 * r7 - known.s2 * r11 - 0.4;
+    let r18 = known.c2 * r11 + known.s2 * r7;
+    let r22 = known.c3 * r18 + known.s3 * r16;
+    let r24 = 0.35 - (known.c3 * r16 - known.s3 * r18);
+    let shared = &Shared6 { r22, r24 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r54: f64,
-    r55: f64,
+    r22: f64,
+    r24: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r59 = 0.0 - (-0.06 * shared.r54 - 0.125 * shared.r55);
-    let r60 = r59 / 0.019225;
-    let r64 = 0.0 - 0.125 * shared.r54 - -0.06 * shared.r55;
-    let r66 = (0.0 - r64) / 0.019225;
-    let r70 = f64::max(r66 * r66 + r60 * r60, 0.0).sqrt();
-    let c4 = r66 / r70;
-    let s4 = r60 / r70;
+    let r28 = (0.125 * shared.r24 - 0.06 * shared.r22) / 0.019225;
+    let r32 = (0.125 * shared.r22 + 0.06 * shared.r24) / 0.019225;
+    let r36 = f64::max(r32 * r32 + r28 * r28, 0.0).sqrt();
+    let c4 = 0.0 - r32 / r36;
+    let s4 = r28 / r36;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -741,97 +712,69 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r2 = c1 + (1.0 - c1);
-    let r8 = c2 + (1.0 - c2);
-    let r9 = c1 * c2;
-    let r10 = s1 * c2;
-    let r11 = r2 * (0.0 - s2);
-    let r14 = c1 * s2;
-    let r15 = s1 * s2;
-    let r16 = r2 * c2;
-    let r18 = 0.18 * r14;
-    let r21 = 0.18 * r15;
-    let r24 = 0.18 * r16;
-    let r35 = 0.05 * c1 - (0.05 * r9 + r18) + (0.45 * r9 + r18);
-    let r36 = 0.05 * s1 - (0.05 * r10 + r21) + (0.45 * r10 + r21);
-    let r37 = 0.18 * r2 - (0.05 * r11 + r24) + (0.45 * r11 + r24);
-    let r39 = 0.0 - s3;
-    let r40 = c3 + (1.0 - c3);
-    let r43 = r9 * c3 + r14 * r39;
-    let r46 = r10 * c3 + r15 * r39;
-    let r49 = r11 * c3 + r16 * r39;
-    let r54 = r9 * s3 + r14 * c3;
-    let r57 = r10 * s3 + r15 * c3;
-    let r60 = r11 * s3 + r16 * c3;
-    let r62 = 0.18 * r54;
-    let r65 = 0.18 * r57;
-    let r68 = 0.18 * r60;
-    let r83 = 0.0 - s4;
-    let r84 = c4 + (1.0 - c4);
-    let r87 = r43 * c4 + r54 * r83;
-    let r90 = r46 * c4 + r57 * r83;
-    let r93 = r49 * c4 + r60 * r83;
-    let r94 = (0.0 - s1) * r8 * r40 * r84;
-    let r95 = c1 * r8 * r40 * r84;
-    let r98 = r43 * s4 + r54 * c4;
-    let r101 = r46 * s4 + r57 * c4;
-    let r104 = r49 * s4 + r60 * c4;
-    let r106 = 0.18 * r98;
-    let r109 = 0.18 * r101;
-    let r112 = 0.18 * r104;
-    let r114 = r35 - (0.45 * r43 + r62) + (0.8 * r43 + r62) - (0.8 * r87 + r106);
-    let r115 = r36 - (0.45 * r46 + r65) + (0.8 * r46 + r65) - (0.8 * r90 + r109);
-    let r116 = r37 - (0.45 * r49 + r68) + (0.8 * r49 + r68) - (0.8 * r93 + r112);
-    let r131 = 0.0 - s5;
-    let r132 = c5 + (1.0 - c5);
-    let r135 = r87 * c5 + r94 * s5;
-    let r138 = r90 * c5 + r95 * s5;
-    let r139 = r93 * c5;
-    let r142 = r87 * r131 + r94 * c5;
-    let r145 = r90 * r131 + r95 * c5;
-    let r146 = r93 * r131;
-    let r147 = r98 * r132;
-    let r148 = r101 * r132;
-    let r149 = r104 * r132;
-    let r152 = 0.86 * r135 + -0.125 * r142;
-    let r157 = 0.86 * r138 + -0.125 * r145;
-    let r162 = 0.86 * r139 + -0.125 * r146;
-    let r165 = r114 + (0.86 * r87 + -0.125 * r94 + r106) - (r152 + 0.18 * r147);
-    let r166 = r115 + (0.86 * r90 + -0.125 * r95 + r109) - (r157 + 0.18 * r148);
-    let r167 = r116 + (0.86 * r93 + r112) - (r162 + 0.18 * r149);
-    let r178 = c6 + (1.0 - c6);
-    let r179 = 0.0 - s6;
-    let r180 = r135 * r178;
-    let r181 = r138 * r178;
-    let r182 = r139 * r178;
-    let r185 = r142 * c6 + r147 * s6;
-    let r188 = r145 * c6 + r148 * s6;
-    let r191 = r146 * c6 + r149 * s6;
-    let r194 = r142 * r179 + r147 * c6;
-    let r197 = r145 * r179 + r148 * c6;
-    let r200 = r146 * r179 + r149 * c6;
-    let r202 = -0.125 * r185;
-    let r204 = 0.055 * r194;
-    let r207 = -0.125 * r188;
-    let r209 = 0.055 * r197;
-    let r212 = -0.125 * r191;
-    let r214 = 0.055 * r200;
-    let r216 = r165 + (r152 + 0.055 * r147) - (0.86 * r180 + r202 + r204);
-    let r217 = r166 + (r157 + 0.055 * r148) - (0.86 * r181 + r207 + r209);
-    let r218 = r167 + (r162 + 0.055 * r149) - (0.86 * r182 + r212 + r214);
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r16 = r4 - r5;
+    let r17 = c4 * r16;
+    let r18 = s3 * r0 + c3 * r2;
+    let r19 = s4 * r18;
+    let r20 = r6 - r7;
+    let r21 = c4 * r20;
+    let r22 = s3 * r1 + c3 * r3;
+    let r23 = s4 * r22;
+    let r24 = r8 + r9;
+    let r25 = c4 * r24;
+    let r26 = s2 * s3 - c2 * c3;
+    let r27 = s4 * r26;
+    let r28 = s4 * r16;
+    let r29 = c4 * r18;
+    let r30 = s4 * r20;
+    let r31 = c4 * r22;
+    let r32 = s4 * r24;
+    let r33 = c4 * r26;
+    let r34 = r17 - r19;
+    let r35 = c5 * r34;
+    let r36 = s1 * s5;
+    let r37 = r21 - r23;
+    let r38 = c5 * r37;
+    let r39 = c1 * s5;
+    let r40 = r25 - r27;
+    let r41 = c5 * r40;
+    let r46 = s5 * r40;
+    let r47 = s5 * r34 + s1 * c5;
+    let r49 = r28 + r29;
+    let r51 = s5 * r37 - c1 * c5;
+    let r53 = r30 + r31;
+    let r56 = r32 + r33;
+    let r70 = 0.4 * s2 + 0.35 * r8 + 0.35 * r9 + 0.06 * r25;
+    let r78 = r70 - 0.06 * r27 - 0.125 * r32 - 0.125 * r33 + 0.125 * r41;
+    let r104 = 0.35 * r6 + (0.4 * r1 + 0.05 * s1) - 0.35 * r7;
+    let r108 = 0.06 * r21 + r104 - 0.06 * r23 - 0.125 * c1 - 0.125 * r30;
+    let r111 = 0.125 * r39 + (0.125 * r38 + (r108 - 0.125 * r31));
+    let r115 = 0.35 * r4 + (0.4 * r0 + 0.05 * c1) - 0.35 * r5;
+    let r118 = 0.125 * s1 + (0.06 * r17 + r115 - 0.06 * r19);
+    let r121 = 0.125 * r35 + (r118 - 0.125 * r28 - 0.125 * r29);
     [
-        r216 + (0.985 * r180 + r202 + r204),
-        r217 + (0.985 * r181 + r207 + r209),
-        r218 + (0.985 * r182 + r212 + r214),
-        0.0 - r194,
-        0.0 - r197,
-        0.0 - r200,
-        r185,
-        r188,
-        r191,
-        r180,
-        r181,
-        r182,
+        r121 - 0.125 * r36,
+        r111,
+        0.18 - r78,
+        0.0 - (s6 * r47 + c6 * r49),
+        0.0 - (s6 * r51 + c6 * r53),
+        s6 * r46 + c6 * r56,
+        s6 * r49 - c6 * r47,
+        s6 * r53 - c6 * r51,
+        c6 * r46 - s6 * r56,
+        r35 - r36,
+        r38 + r39,
+        0.0 - r41,
     ]
 }
 
@@ -889,120 +832,123 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.05 * c1;
-    let r4 = 0.05 * s1;
-    let r5 = 0.18 * r2;
-    let r8 = c2 + (1.0 - c2);
-    let r9 = c1 * c2;
-    let r10 = s1 * c2;
-    let r11 = r2 * (0.0 - s2);
-    let r12 = r1 * r8;
-    let r13 = c1 * r8;
-    let r14 = c1 * s2;
-    let r15 = s1 * s2;
-    let r16 = r2 * c2;
-    let r18 = 0.18 * r14;
-    let r21 = 0.18 * r15;
-    let r24 = 0.18 * r16;
-    let r35 = r3 - (0.05 * r9 + r18) + (0.45 * r9 + r18);
-    let r36 = r4 - (0.05 * r10 + r21) + (0.45 * r10 + r21);
-    let r37 = r5 - (0.05 * r11 + r24) + (0.45 * r11 + r24);
-    let r39 = 0.0 - s3;
-    let r40 = c3 + (1.0 - c3);
-    let r43 = r9 * c3 + r14 * r39;
-    let r46 = r10 * c3 + r15 * r39;
-    let r49 = r11 * c3 + r16 * r39;
-    let r50 = r12 * r40;
-    let r51 = r13 * r40;
-    let r54 = r9 * s3 + r14 * c3;
-    let r57 = r10 * s3 + r15 * c3;
-    let r60 = r11 * s3 + r16 * c3;
-    let r62 = 0.18 * r54;
-    let r65 = 0.18 * r57;
-    let r68 = 0.18 * r60;
-    let r79 = r35 - (0.45 * r43 + r62) + (0.8 * r43 + r62);
-    let r80 = r36 - (0.45 * r46 + r65) + (0.8 * r46 + r65);
-    let r81 = r37 - (0.45 * r49 + r68) + (0.8 * r49 + r68);
-    let r83 = 0.0 - s4;
-    let r84 = c4 + (1.0 - c4);
-    let r87 = r43 * c4 + r54 * r83;
-    let r90 = r46 * c4 + r57 * r83;
-    let r93 = r49 * c4 + r60 * r83;
-    let r94 = r50 * r84;
-    let r95 = r51 * r84;
-    let r98 = r43 * s4 + r54 * c4;
-    let r101 = r46 * s4 + r57 * c4;
-    let r104 = r49 * s4 + r60 * c4;
-    let r106 = 0.18 * r98;
-    let r109 = 0.18 * r101;
-    let r112 = 0.18 * r104;
-    let r127 = r79 - (0.8 * r87 + r106) + (0.86 * r87 + -0.125 * r94 + r106);
-    let r128 = r80 - (0.8 * r90 + r109) + (0.86 * r90 + -0.125 * r95 + r109);
-    let r129 = r81 - (0.8 * r93 + r112) + (0.86 * r93 + r112);
-    let r131 = 0.0 - s5;
-    let r132 = c5 + (1.0 - c5);
-    let r135 = r87 * c5 + r94 * s5;
-    let r138 = r90 * c5 + r95 * s5;
-    let r139 = r93 * c5;
-    let r142 = r87 * r131 + r94 * c5;
-    let r145 = r90 * r131 + r95 * c5;
-    let r146 = r93 * r131;
-    let r147 = r98 * r132;
-    let r148 = r101 * r132;
-    let r149 = r104 * r132;
-    let r152 = 0.86 * r135 + -0.125 * r142;
-    let r157 = 0.86 * r138 + -0.125 * r145;
-    let r162 = 0.86 * r139 + -0.125 * r146;
-    let r174 = r127 - (r152 + 0.18 * r147) + (r152 + 0.055 * r147);
-    let r175 = r128 - (r157 + 0.18 * r148) + (r157 + 0.055 * r148);
-    let r176 = r129 - (r162 + 0.18 * r149) + (r162 + 0.055 * r149);
-    let r178 = c6 + (1.0 - c6);
-    let r179 = 0.0 - s6;
-    let r180 = r135 * r178;
-    let r181 = r138 * r178;
-    let r182 = r139 * r178;
-    let r185 = r142 * c6 + r147 * s6;
-    let r188 = r145 * c6 + r148 * s6;
-    let r191 = r146 * c6 + r149 * s6;
-    let r194 = r142 * r179 + r147 * c6;
-    let r197 = r145 * r179 + r148 * c6;
-    let r200 = r146 * r179 + r149 * c6;
-    let r202 = -0.125 * r185;
-    let r204 = 0.055 * r194;
-    let r207 = -0.125 * r188;
-    let r209 = 0.055 * r197;
-    let r212 = -0.125 * r191;
-    let r214 = 0.055 * r200;
-    let r228 = r174 - (0.86 * r180 + r202 + r204) + (0.985 * r180 + r202 + r204);
-    let r229 = r175 - (0.86 * r181 + r207 + r209) + (0.985 * r181 + r207 + r209);
-    let r230 = r176 - (0.86 * r182 + r212 + r214) + (0.985 * r182 + r212 + r214);
-    let r231 = 0.0 - r194;
-    let r232 = 0.0 - r197;
-    let r233 = 0.0 - r200;
-    let r237 = r230 - r5;
-    let r246 = r230 - r37;
-    let r255 = r230 - r81;
-    let r262 = r228 - r127;
-    let r263 = r229 - r128;
-    let r264 = r230 - r129;
-    let r274 = r228 - r174;
-    let r275 = r229 - r175;
-    let r276 = r230 - r176;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r16 = r4 - r5;
+    let r17 = c4 * r16;
+    let r18 = s3 * r0 + c3 * r2;
+    let r19 = s4 * r18;
+    let r20 = r6 - r7;
+    let r21 = c4 * r20;
+    let r22 = s3 * r1 + c3 * r3;
+    let r23 = s4 * r22;
+    let r24 = r8 + r9;
+    let r25 = c4 * r24;
+    let r26 = s2 * s3 - c2 * c3;
+    let r27 = s4 * r26;
+    let r28 = s4 * r16;
+    let r29 = c4 * r18;
+    let r30 = s4 * r20;
+    let r31 = c4 * r22;
+    let r32 = s4 * r24;
+    let r33 = c4 * r26;
+    let r34 = r17 - r19;
+    let r35 = c5 * r34;
+    let r36 = s1 * s5;
+    let r37 = r21 - r23;
+    let r38 = c5 * r37;
+    let r39 = c1 * s5;
+    let r40 = r25 - r27;
+    let r41 = c5 * r40;
+    let r46 = s5 * r40;
+    let r47 = s5 * r34 + s1 * c5;
+    let r48 = c6 * r47;
+    let r49 = r28 + r29;
+    let r50 = s6 * r49;
+    let r51 = s5 * r37 - c1 * c5;
+    let r53 = r30 + r31;
+    let r56 = r32 + r33;
+    let r65 = 0.35 * r8;
+    let r67 = 0.35 * r9;
+    let r69 = 0.06 * r25;
+    let r71 = 0.06 * r27;
+    let r73 = 0.125 * r32;
+    let r75 = 0.125 * r33;
+    let r77 = 0.125 * r41;
+    let r78 = 0.4 * s2 + r65 + r67 + r69 - r71 - r73 - r75 + r77;
+    let r79 = 0.4 * r1;
+    let r80 = 0.35 * r6;
+    let r81 = 0.35 * r7;
+    let r82 = 0.06 * r21;
+    let r83 = 0.06 * r23;
+    let r84 = 0.125 * c1;
+    let r85 = 0.125 * r30;
+    let r86 = 0.125 * r31;
+    let r87 = 0.125 * r38;
+    let r88 = 0.125 * r39;
+    let r89 = 0.4 * r0;
+    let r90 = 0.35 * r4;
+    let r91 = 0.35 * r5;
+    let r92 = 0.06 * r17;
+    let r93 = 0.06 * r19;
+    let r94 = 0.125 * s1;
+    let r95 = 0.125 * r28;
+    let r96 = 0.125 * r29;
+    let r97 = 0.125 * r35;
+    let r98 = 0.125 * r36;
+    let r99 = r38 + r39;
+    let r100 = r35 - r36;
+    let r107 = r82 + (r80 + (r79 + 0.05 * s1) - r81) - r83 - r84;
+    let r118 = r94 + (r92 + (r90 + (r89 + 0.05 * c1) - r91) - r93);
+    let r127 = s6 * r46 + c6 * r56;
+    let r128 = s6 * r51 + c6 * r53;
+    let r129 = s6 * r47 + c6 * r49;
+    let r135 = c6 * r46 - s6 * r56;
+    let r153 = r79 + r80 - r81 + r82 - r83 - r84 - r85 - r86;
+    let r163 = r89 + r90 - r91 + r92 - r93 + r94 - r95 - r96;
+    let r172 = r77 + (r69 + (r65 + r67) - r71 - r73 - r75);
+    let r181 = r87 + (r82 + (r80 - r81) - r83 - r84 - r85 - r86);
+    let r190 = r97 + (r94 + (r92 + (r90 - r91) - r93) - r95 - r96);
+    let r196 = r77 + (r69 - r71 - r73 - r75);
+    let r205 = s1 * (r88 + (r87 + (r82 - r83 - r84 - r85 - r86)));
+    let r212 = c1 * (r97 + (r94 + (r92 - r93) - r95 - r96) - r98);
+    let r213 = r56 - r41;
+    let r216 = r53 - r38 - r39;
+    let r219 = r36 + (r49 - r35);
+    let r235 = s1 * (r153 + r87 + r88) + c1 * (r163 + r97 - r98);
+    let r238 = 0.0 - (s1 * (r88 + r181) + c1 * (r190 - r98));
+    let r244 = c1 * r127;
+    let r245 = s1 * r127;
+    let r264 = s1 * r128 + c1 * r129;
+    let r267 = c1 * r135;
+    let r268 = s1 * r135;
+    let r269 = c6 * r51 - s6 * r53;
+    let r271 = r48 - r50;
+    let r289 = s1 * r269 + c1 * r271;
+    let r303 = 0.0 - c1 * r41;
+    let r305 = 0.0 - s1 * r41;
+    let r308 = 0.0 - (s1 * r99 + c1 * r100);
     [
-        [0.0 - r229, c1 * r237, r13 * r246, r51 * r255, r101 * r264 - r104 * r263, r138 * r276 - r139 * r275],
-        [r228, 0.0 - r1 * r237, 0.0 - r12 * r246, 0.0 - r50 * r255, r104 * r262 - r98 * r264, r139 * r274 - r135 * r276],
-        [0.0, r1 * (r229 - r4) - c1 * (r228 - r3), r12 * (r229 - r36) - r13 * (r228 - r35), r50 * (r229 - r80) - r51 * (r228 - r79), r98 * r263 - r101 * r262, r135 * r275 - r138 * r274],
-        [0.0 - r232, c1 * r233, r13 * r233, r51 * r233, r101 * r233 - r104 * r232, r138 * r233 - r139 * r232],
-        [r231, 0.0 - r1 * r233, 0.0 - r12 * r233, 0.0 - r50 * r233, r104 * r231 - r98 * r233, r139 * r231 - r135 * r233],
-        [0.0, r1 * r232 - c1 * r231, r12 * r232 - r13 * r231, r50 * r232 - r51 * r231, r98 * r232 - r101 * r231, r135 * r232 - r138 * r231],
-        [0.0 - r188, c1 * r191, r13 * r191, r51 * r191, r101 * r191 - r104 * r188, r138 * r191 - r139 * r188],
-        [r185, 0.0 - r1 * r191, 0.0 - r12 * r191, 0.0 - r50 * r191, r104 * r185 - r98 * r191, r139 * r185 - r135 * r191],
-        [0.0, r1 * r188 - c1 * r185, r12 * r188 - r13 * r185, r50 * r188 - r51 * r185, r98 * r188 - r101 * r185, r135 * r188 - r138 * r185],
-        [0.0 - r181, c1 * r182, r13 * r182, r51 * r182, r101 * r182 - r104 * r181, r138 * r182 - r139 * r181],
-        [r180, 0.0 - r1 * r182, 0.0 - r12 * r182, 0.0 - r50 * r182, r104 * r180 - r98 * r182, r139 * r180 - r135 * r182],
-        [0.0, r1 * r181 - c1 * r180, r12 * r181 - r13 * r180, r50 * r181 - r51 * r180, r98 * r181 - r101 * r180, r135 * r181 - r138 * r180],
+        [0.0 - (r88 + (r87 + (r107 - r85 - r86))), 0.0 - c1 * r78, 0.0 - c1 * r172, 0.0 - c1 * r196, 0.125 * (r53 * r213 - r56 * r216), 0.0],
+        [r97 + (r118 - r95 - r96) - r98, 0.0 - s1 * r78, 0.0 - s1 * r172, 0.0 - s1 * r196, 0.125 * (r56 * r219 - r49 * r213), 0.0],
+        [0.0, 0.0 - r235, r238, 0.0 - (r205 + r212), 0.0 - 0.125 * (r49 * r216 - r53 * r219), 0.0],
+        [r128, r244, r244, r244, r53 * r127 - r56 * r128, r99 * r127 - r41 * r128],
+        [0.0 - r129, r245, r245, r245, r56 * r129 - r49 * r127, r41 * r129 - r100 * r127],
+        [0.0, r264, r264, r264, r53 * r129 - r49 * r128, r99 * r129 - r100 * r128],
+        [r269, r267, r267, r267, r53 * r135 - r56 * r269, r99 * r135 - r41 * r269],
+        [r50 - r48, r268, r268, r268, r56 * r271 - r49 * r135, r41 * r271 - r100 * r135],
+        [0.0, r289, r289, r289, r53 * r271 - r49 * r269, r99 * r271 - r100 * r269],
+        [0.0 - r99, r303, r303, r303, r56 * r99 - r41 * r53, 0.0],
+        [r100, r305, r305, r305, r41 * r49 - r56 * r100, 0.0],
+        [0.0, r308, r308, r308, r49 * r99 - r53 * r100, 0.0],
     ]
 }
 

@@ -282,10 +282,9 @@ static Parameters parameters(const double *target)
 /* The tip at joint values q, as the equations compare it. */
 static void tip(const double *q, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), r10 = c1 * c2 + (0.0 - s1) * s2;
-    const double r13 = s1 * c2 + c1 * s2;
-    reached[0] = 0.5 * c1 - 0.5 * r10 + 0.9 * r10;
-    reached[1] = 0.5 * s1 - 0.5 * r13 + 0.9 * r13;
+    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]);
+    reached[0] = 0.5 * c1 + 0.4 * (c1 * c2) - 0.4 * (s1 * s2);
+    reached[1] = 0.5 * s1 + 0.4 * (s1 * c2) + 0.4 * (c1 * s2);
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -319,12 +318,11 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), r2 = c1 + (1.0 - c1);
-    const double r3 = 0.5 * c1, r4 = 0.5 * s1, r10 = c1 * c2 + (0.0 - s1) * s2, r13 = s1 * c2 + c1 * s2;
-    const double r26 = r3 - 0.5 * r10 + 0.9 * r10, r27 = r4 - 0.5 * r13 + 0.9 * r13;
+    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), r0 = c1 * c2, r1 = s1 * s2;
+    const double r2 = s1 * c2, r3 = c1 * s2;
     const Jacobian result = { {
-        {0.0 - r27, 0.0 - r2 * (r27 - r4)},
-        {r26, r2 * (r26 - r3)},
+        {0.0 - (0.5 * s1 + 0.4 * r2 + 0.4 * r3), 0.0 - 0.4 * (r2 + r3)},
+        {0.5 * c1 + 0.4 * r0 - 0.4 * r1, 0.4 * (r0 - r1)},
     } };
     return result;
 }
@@ -1024,11 +1022,10 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r1;
-    double r5;
-    double r9;
-    double r10;
-    double r12;
+    double r0;
+    double r2;
+    double r3;
+    double r4;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1036,13 +1033,13 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r15 = shared->r1 * shared->r1 + shared->r5 * shared->r5;
-    if (!is_away(r15, 55699.99999999999)) {
+    const double r7 = shared->r0 * shared->r0 + shared->r2 * shared->r2;
+    if (!is_away(r7, 55699.99999999999)) {
         return;
     }
-    const double r18 = shared->r5 * shared->r9 - shared->r1 * shared->r10, r20 = (0.0 - r18) / r15;
-    const double r24 = 0.0 - shared->r1 * shared->r9 - shared->r5 * shared->r10, r26 = (0.0 - r24) / r15;
-    const double r30 = sqrt(fmax(r26 * r26 + r20 * r20, 0.0)), c1 = r26 / r30, s1 = r20 / r30;
+    const double r11 = (p->py * shared->r2 - p->px * shared->r0) / r7;
+    const double r15 = p->px * shared->r2 - (0.0 - p->py * shared->r0), r16 = r15 / r7;
+    const double r20 = sqrt(fmax(r16 * r16 + r11 * r11, 0.0)), c1 = r16 / r20, s1 = r11 / r20;
     const double q[JOINTS] = {angle(c1, s1), angle(known->c2, known->s2)};
     finish(p, 2 * known->branch, 2 * known->last, q, known->free, answers);
 }
@@ -1053,8 +1050,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r15 = shared->r1 * shared->r1 + shared->r5 * shared->r5, r16 = 0.01 * shared->r12;
-    if (!(is_near(r15, 5.57e-7) && is_near(shared->r10, r16) && is_near(shared->r9, r16))) {
+    const double r7 = shared->r0 * shared->r0 + shared->r2 * shared->r2, r8 = 0.01 * shared->r4;
+    if (!(is_near(r7, 5.57e-7) && is_near(shared->r3, r8) && is_near(p->py, r8))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1068,9 +1065,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Shoulder. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.4 * known->s2, r5 = 0.0 - (0.4 * known->c2 + 0.5), r9 = 0.0 - (0.0 - p->py);
-    const double r10 = 0.0 - (0.0 - (0.0 - p->px)), r12 = fabs(0.0 - p->magnitude);
-    const Shared2 own = { r1, r5, r9, r10, r12 };
+    const double r0 = 0.4 * known->s2, r2 = 0.4 * known->c2 + 0.5, r3 = 0.0 - p->px, r4 = fabs(p->magnitude);
+    const Shared2 own = { r0, r2, r3, r4 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -1078,20 +1074,20 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r7;
+    double r3;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r9 = shared->r7 * shared->r7 - 0.16000000000000003;
-    const double choice0_0[3] = {r9, 0.0, 1.0};
+    const double r5 = shared->r3 * shared->r3 - 0.16000000000000003;
+    const double choice0_0[3] = {r5, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r13 = (0.0 - (0.0 - 0.4 * w2)) / 0.16000000000000003;
-        const double r16 = (0.0 - 0.4 * shared->r7) / 0.16000000000000003;
-        const double r20 = sqrt(fmax(r16 * r16 + r13 * r13, 0.0)), c2 = r16 / r20, s2 = r13 / r20;
+        const double w2 = roots0.values[i0], r7 = 0.4 * w2 / 0.16000000000000003;
+        const double r9 = 0.4 * shared->r3 / 0.16000000000000003, r13 = sqrt(fmax(r9 * r9 + r7 * r7, 0.0));
+        const double c2 = 0.0 - r9 / r13, s2 = r7 / r13;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1104,8 +1100,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Elbow. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r2 = p->px * p->px + p->py * p->py, r7 = 0.41 - (r2 + r2 - r2);
-    const Shared1 own = { r7 };
+    const double r3 = 0.41 - (p->px * p->px + p->py * p->py);
+    const Shared1 own = { r3 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

@@ -342,30 +342,29 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Elbow.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r2 = p.px * p.px + p.py * p.py;
-    let r7 = 0.41 - (r2 + r2 - r2);
-    let shared = &Shared1 { r7 };
+    let r3 = 0.41 - (p.px * p.px + p.py * p.py);
+    let shared = &Shared1 { r3 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r7: f64,
+    r3: f64,
 }
 
 /// Chart 1 of block 1: generic.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let roots0 = real_roots(&[
-        shared.r7 * shared.r7 - 0.16000000000000003,
+        shared.r3 * shared.r3 - 0.16000000000000003,
         0.0,
         1.0,
     ], 1.4142135623730951);
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let r13 = (0.0 - (0.0 - 0.4 * w2)) / 0.16000000000000003;
-        let r16 = (0.0 - 0.4 * shared.r7) / 0.16000000000000003;
-        let r20 = f64::max(r16 * r16 + r13 * r13, 0.0).sqrt();
-        let c2 = r16 / r20;
-        let s2 = r13 / r20;
+        let r7 = 0.4 * w2 / 0.16000000000000003;
+        let r9 = 0.4 * shared.r3 / 0.16000000000000003;
+        let r13 = f64::max(r9 * r9 + r7 * r7, 0.0).sqrt();
+        let c2 = 0.0 - r9 / r13;
+        let s2 = r7 / r13;
         let next = Known { branch: i0, last: 2, c2, s2, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -373,39 +372,35 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Shoulder.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.4 * known.s2;
-    let r5 = 0.0 - (0.4 * known.c2 + 0.5);
-    let r9 = 0.0 - (0.0 - p.py);
-    let r10 = 0.0 - (0.0 - (0.0 - p.px));
-    let r12 = f64::abs(0.0 - p.magnitude);
-    let shared = &Shared2 { r1, r5, r9, r10, r12 };
+    let r0 = 0.4 * known.s2;
+    let r2 = 0.4 * known.c2 + 0.5;
+    let r3 = 0.0 - p.px;
+    let r4 = f64::abs(p.magnitude);
+    let shared = &Shared2 { r0, r2, r3, r4 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r1: f64,
-    r5: f64,
-    r9: f64,
-    r10: f64,
-    r12: f64,
+    r0: f64,
+    r2: f64,
+    r3: f64,
+    r4: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r15 = shared.r1 * shared.r1 + shared.r5 * shared.r5;
-    if !is_away(r15, 55699.99999999999) {
+    let r7 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
+    if !is_away(r7, 55699.99999999999) {
         return;
     }
-    let r18 = shared.r5 * shared.r9 - shared.r1 * shared.r10;
-    let r20 = (0.0 - r18) / r15;
-    let r24 = 0.0 - shared.r1 * shared.r9 - shared.r5 * shared.r10;
-    let r26 = (0.0 - r24) / r15;
-    let r30 = f64::max(r26 * r26 + r20 * r20, 0.0).sqrt();
-    let c1 = r26 / r30;
-    let s1 = r20 / r30;
+    let r11 = (p.py * shared.r2 - p.px * shared.r0) / r7;
+    let r16 = (p.px * shared.r2 - (0.0 - p.py * shared.r0)) / r7;
+    let r20 = f64::max(r16 * r16 + r11 * r11, 0.0).sqrt();
+    let c1 = r16 / r20;
+    let s1 = r11 / r20;
     let q = [angle(c1, s1), angle(known.c2, known.s2)];
     answers.finish(p, 2 * known.branch, 2 * known.last, q, known.free);
 }
@@ -414,9 +409,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r15 = shared.r1 * shared.r1 + shared.r5 * shared.r5;
-    let r16 = 0.01 * shared.r12;
-    if !(is_near(r15, 5.57e-7) && is_near(shared.r10, r16) && is_near(shared.r9, r16)) {
+    let r7 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
+    let r8 = 0.01 * shared.r4;
+    if !(is_near(r7, 5.57e-7) && is_near(shared.r3, r8) && is_near(p.py, r8)) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -434,11 +429,9 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s1 = q[0].sin();
     let c2 = q[1].cos();
     let s2 = q[1].sin();
-    let r10 = c1 * c2 + (0.0 - s1) * s2;
-    let r13 = s1 * c2 + c1 * s2;
     [
-        0.5 * c1 - 0.5 * r10 + 0.9 * r10,
-        0.5 * s1 - 0.5 * r13 + 0.9 * r13,
+        0.5 * c1 + 0.4 * (c1 * c2) - 0.4 * (s1 * s2),
+        0.5 * s1 + 0.4 * (s1 * c2) + 0.4 * (c1 * s2),
     ]
 }
 
@@ -468,16 +461,13 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s1 = q[0].sin();
     let c2 = q[1].cos();
     let s2 = q[1].sin();
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.5 * c1;
-    let r4 = 0.5 * s1;
-    let r10 = c1 * c2 + (0.0 - s1) * s2;
-    let r13 = s1 * c2 + c1 * s2;
-    let r26 = r3 - 0.5 * r10 + 0.9 * r10;
-    let r27 = r4 - 0.5 * r13 + 0.9 * r13;
+    let r0 = c1 * c2;
+    let r1 = s1 * s2;
+    let r2 = s1 * c2;
+    let r3 = c1 * s2;
     [
-        [0.0 - r27, 0.0 - r2 * (r27 - r4)],
-        [r26, r2 * (r26 - r3)],
+        [0.0 - (0.5 * s1 + 0.4 * r2 + 0.4 * r3), 0.0 - 0.4 * (r2 + r3)],
+        [0.5 * c1 + 0.4 * r0 - 0.4 * r1, 0.4 * (r0 - r1)],
     ]
 }
 

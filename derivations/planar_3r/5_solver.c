@@ -288,14 +288,14 @@ static Parameters parameters(const double *target)
 static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double r1 = 0.0 - s1, r6 = 0.0 - s2, r8 = c1 * c2, r10 = r8 + r1 * s2, r13 = s1 * c2 + c1 * s2;
-    const double r33 = r10 * c3 + (c1 * r6 + r1 * c2) * s3, r36 = r13 * c3 + (s1 * r6 + r8) * s3;
-    const double r50 = 0.5 * c1 - 0.5 * r10 + 0.9 * r10 - 0.9 * r33 + 1.05 * r33;
-    const double r51 = 0.5 * s1 - 0.5 * r13 + 0.9 * r13 - 0.9 * r36 + 1.05 * r36;
-    reached[0] = r50;
-    reached[1] = r51;
-    reached[2] = r33;
-    reached[3] = r36;
+    const double r0 = c1 * c2, r1 = s1 * s2, r2 = s1 * c2, r3 = c1 * s2, r5 = c3 * (r0 - r1), r6 = r2 + r3;
+    const double r7 = s3 * r6, r8 = c3 * r6, r10 = s3 * (r1 - r0);
+    const double r19 = 0.5 * s1 + 0.4 * r2 + 0.4 * r3 + 0.15 * r8 - 0.15 * r10;
+    const double r29 = 0.5 * c1 + 0.4 * r0 - 0.4 * r1 + 0.15 * r5 - 0.15 * r7;
+    reached[0] = r29;
+    reached[1] = r19;
+    reached[2] = r5 - r7;
+    reached[3] = r8 - r10;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -334,16 +334,15 @@ static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.5 * c1, r4 = 0.5 * s1, r6 = 0.0 - s2, r8 = c1 * c2;
-    const double r10 = r8 + r1 * s2, r13 = s1 * c2 + c1 * s2, r19 = r2 * (c2 + (1.0 - c2));
-    const double r26 = r3 - 0.5 * r10 + 0.9 * r10, r27 = r4 - 0.5 * r13 + 0.9 * r13;
-    const double r33 = r10 * c3 + (c1 * r6 + r1 * c2) * s3, r36 = r13 * c3 + (s1 * r6 + r8) * s3;
-    const double r50 = r26 - 0.9 * r33 + 1.05 * r33, r51 = r27 - 0.9 * r36 + 1.05 * r36;
+    const double r0 = c1 * c2, r1 = s1 * s2, r2 = s1 * c2, r3 = c1 * s2, r5 = c3 * (r0 - r1), r6 = r2 + r3;
+    const double r7 = s3 * r6, r8 = c3 * r6, r10 = s3 * (r1 - r0), r12 = 0.4 * r2, r14 = 0.4 * r3;
+    const double r16 = 0.15 * r8, r18 = 0.15 * r10, r22 = 0.4 * r0, r24 = 0.4 * r1, r26 = 0.15 * r5;
+    const double r28 = 0.15 * r7, r31 = r5 - r7, r45 = r10 - r8;
     const Jacobian result = { {
-        {0.0 - r51, 0.0 - r2 * (r51 - r4), 0.0 - r19 * (r51 - r27)},
-        {r50, r2 * (r50 - r3), r19 * (r50 - r26)},
-        {0.0 - r36, 0.0 - r2 * r36, 0.0 - r19 * r36},
-        {r33, r2 * r33, r19 * r33},
+        {r18 - (0.5 * s1 + r12 + r14 + r16), r18 - (r16 + (r12 + r14)), 0.0 - 0.15 * (r8 - r10)},
+        {0.5 * c1 + r22 - r24 + r26 - r28, r26 + (r22 - r24) - r28, 0.15 * r31},
+        {r45, r45, r45},
+        {r31, r31, r31},
     } };
     return result;
 }
@@ -1051,16 +1050,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r31;
-    double r32;
+    double r10;
+    double r11;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r34 = 0.0 - (0.0 - shared->r31), r36 = 0.0 - (0.0 - shared->r32);
-    const double r40 = sqrt(fmax(r36 * r36 + r34 * r34, 0.0)), c3 = r36 / r40, s3 = r34 / r40;
+    const double r14 = shared->r10 * shared->r10 + shared->r11 * shared->r11, r15 = sqrt(fmax(r14, 0.0));
+    const double c3 = shared->r10 / r15, s3 = shared->r11 / r15;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1072,24 +1071,20 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Wrist. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - p->sphi, r1 = 0.0 - p->cphi, r3 = 0.0 - r0;
-    const double r6 = r0 * known->c1 + (0.0 - r1) * known->s1;
-    const double r16 = (p->cphi * known->c1 + r3 * known->s1) * known->c2;
-    const double r25 = 0.0 - (r1 * known->c1 + (0.0 - r3) * known->s1);
-    const double r31 = 0.0 - (r6 * known->c2 + r25 * known->s2);
-    const double r32 = 0.0 - (0.0 - (r16 + (0.0 - r6) * known->s2));
-    const Shared3 own = { r31, r32 };
+    const double r4 = p->sphi * known->c1 - p->cphi * known->s1, r6 = p->cphi * known->c1 + p->sphi * known->s1;
+    const double r10 = known->c2 * r6 + known->s2 * r4, r11 = known->c2 * r4 - known->s2 * r6;
+    const Shared3 own = { r10, r11 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
 /* What the charts of block 2 share. */
 typedef struct {
+    double r0;
     double r2;
-    double r10;
-    double r14;
-    double r15;
-    double r18;
+    double r4;
+    double r6;
+    double r8;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1097,13 +1092,13 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r21 = shared->r2 * shared->r2 + shared->r10 * shared->r10;
-    if (!is_away(r21, 55699.99999999999)) {
+    const double r11 = shared->r0 * shared->r0 + shared->r2 * shared->r2;
+    if (!is_away(r11, 55699.99999999999)) {
         return;
     }
-    const double r24 = shared->r10 * shared->r14 - shared->r2 * shared->r15, r26 = (0.0 - r24) / r21;
-    const double r30 = 0.0 - shared->r2 * shared->r14 - shared->r10 * shared->r15, r32 = (0.0 - r30) / r21;
-    const double r36 = sqrt(fmax(r32 * r32 + r26 * r26, 0.0)), c1 = r32 / r36, s1 = r26 / r36;
+    const double r15 = shared->r0 * shared->r6 - (0.0 - shared->r2 * shared->r4), r16 = r15 / r11;
+    const double r19 = shared->r0 * shared->r4 - shared->r2 * shared->r6, r20 = r19 / r11;
+    const double r24 = sqrt(fmax(r20 * r20 + r16 * r16, 0.0)), c1 = r20 / r24, s1 = r16 / r24;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1118,8 +1113,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r21 = shared->r2 * shared->r2 + shared->r10 * shared->r10, r22 = 0.01 * shared->r18;
-    if (!(is_near(r21, 5.57e-7) && is_near(shared->r15, r22) && is_near(shared->r14, r22))) {
+    const double r11 = shared->r0 * shared->r0 + shared->r2 * shared->r2, r12 = 0.01 * shared->r8;
+    if (!(is_near(r11, 5.57e-7) && is_near(shared->r6, r12) && is_near(shared->r4, r12))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1137,10 +1132,9 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Shoulder. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = 0.4 * known->s2, r10 = 0.0 - (0.4 * known->c2 + 0.5);
-    const double r14 = 0.0 - (0.0 - (p->py + -0.15 * p->sphi));
-    const double r15 = 0.0 - (0.0 - (0.0 - (p->px + -0.15 * p->cphi))), r18 = fabs(0.0 - (p->magnitude + 1.95));
-    const Shared2 own = { r2, r10, r14, r15, r18 };
+    const double r0 = 0.4 * known->s2, r2 = 0.4 * known->c2 + 0.5, r4 = p->py - 0.15 * p->sphi;
+    const double r6 = 0.15 * p->cphi - p->px, r8 = fabs(p->magnitude + 1.95);
+    const Shared2 own = { r0, r2, r4, r6, r8 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -1148,20 +1142,20 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r16;
+    double r13;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r18 = shared->r16 * shared->r16 - 0.16000000000000003;
-    const double choice0_0[3] = {r18, 0.0, 1.0};
+    const double r15 = shared->r13 * shared->r13 - 0.16000000000000003;
+    const double choice0_0[3] = {r15, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r22 = (0.0 - (0.0 - 0.4 * w2)) / 0.16000000000000003;
-        const double r25 = (0.0 - 0.4 * shared->r16) / 0.16000000000000003;
-        const double r29 = sqrt(fmax(r25 * r25 + r22 * r22, 0.0)), c2 = r25 / r29, s2 = r22 / r29;
+        const double w2 = roots0.values[i0], r17 = 0.4 * w2 / 0.16000000000000003;
+        const double r19 = 0.4 * shared->r13 / 0.16000000000000003, r23 = sqrt(fmax(r19 * r19 + r17 * r17, 0.0));
+        const double c2 = 0.0 - r19 / r23, s2 = r17 / r23;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1174,9 +1168,9 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Elbow. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r7 = p->px * (p->px + -0.15 * p->cphi) + p->py * (p->py + -0.15 * p->sphi);
-    const double r13 = r7 + r7 - (p->px * p->px + p->py * p->py) + 0.0225, r16 = 0.41 - r13;
-    const Shared1 own = { r16 };
+    const double r10 = 2.0 * (p->px * (p->px - 0.15 * p->cphi)) + 2.0 * (p->py * (p->py - 0.15 * p->sphi));
+    const double r13 = 0.3875 - (r10 - p->px * p->px - p->py * p->py);
+    const Shared1 own = { r13 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

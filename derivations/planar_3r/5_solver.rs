@@ -350,28 +350,27 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Elbow.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r7 = p.px * (p.px + -0.15 * p.cphi) + p.py * (p.py + -0.15 * p.sphi);
-    let r13 = r7 + r7 - (p.px * p.px + p.py * p.py) + 0.0225;
-    let r16 = 0.41 - r13;
-    let shared = &Shared1 { r16 };
+    let r10 = 2.0 * (p.px * (p.px - 0.15 * p.cphi)) + 2.0 * (p.py * (p.py - 0.15 * p.sphi));
+    let r13 = 0.3875 - (r10 - p.px * p.px - p.py * p.py);
+    let shared = &Shared1 { r13 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r16: f64,
+    r13: f64,
 }
 
 /// Chart 1 of block 1: generic.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r18 = shared.r16 * shared.r16 - 0.16000000000000003;
-    let roots0 = real_roots(&[r18, 0.0, 1.0], 1.4142135623730951);
+    let r15 = shared.r13 * shared.r13 - 0.16000000000000003;
+    let roots0 = real_roots(&[r15, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let r22 = (0.0 - (0.0 - 0.4 * w2)) / 0.16000000000000003;
-        let r25 = (0.0 - 0.4 * shared.r16) / 0.16000000000000003;
-        let r29 = f64::max(r25 * r25 + r22 * r22, 0.0).sqrt();
-        let c2 = r25 / r29;
-        let s2 = r22 / r29;
+        let r17 = 0.4 * w2 / 0.16000000000000003;
+        let r19 = 0.4 * shared.r13 / 0.16000000000000003;
+        let r23 = f64::max(r19 * r19 + r17 * r17, 0.0).sqrt();
+        let c2 = 0.0 - r19 / r23;
+        let s2 = r17 / r23;
         let next = Known { branch: i0, last: 2, c2, s2, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -379,39 +378,39 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Shoulder.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.4 * known.s2;
-    let r10 = 0.0 - (0.4 * known.c2 + 0.5);
-    let r14 = 0.0 - (0.0 - (p.py + -0.15 * p.sphi));
-    let r15 = 0.0 - (0.0 - (0.0 - (p.px + -0.15 * p.cphi)));
-    let r18 = f64::abs(0.0 - (p.magnitude + 1.95));
-    let shared = &Shared2 { r2, r10, r14, r15, r18 };
+    let r0 = 0.4 * known.s2;
+    let r2 = 0.4 * known.c2 + 0.5;
+    let r4 = p.py - 0.15 * p.sphi;
+    let r6 = 0.15 * p.cphi - p.px;
+    let r8 = f64::abs(p.magnitude + 1.95);
+    let shared = &Shared2 { r0, r2, r4, r6, r8 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
+    r0: f64,
     r2: f64,
-    r10: f64,
-    r14: f64,
-    r15: f64,
-    r18: f64,
+    r4: f64,
+    r6: f64,
+    r8: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r21 = shared.r2 * shared.r2 + shared.r10 * shared.r10;
-    if !is_away(r21, 55699.99999999999) {
+    let r11 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
+    if !is_away(r11, 55699.99999999999) {
         return;
     }
-    let r24 = shared.r10 * shared.r14 - shared.r2 * shared.r15;
-    let r26 = (0.0 - r24) / r21;
-    let r30 = 0.0 - shared.r2 * shared.r14 - shared.r10 * shared.r15;
-    let r32 = (0.0 - r30) / r21;
-    let r36 = f64::max(r32 * r32 + r26 * r26, 0.0).sqrt();
-    let c1 = r32 / r36;
-    let s1 = r26 / r36;
+    let r15 = shared.r0 * shared.r6 - (0.0 - shared.r2 * shared.r4);
+    let r16 = r15 / r11;
+    let r19 = shared.r0 * shared.r4 - shared.r2 * shared.r6;
+    let r20 = r19 / r11;
+    let r24 = f64::max(r20 * r20 + r16 * r16, 0.0).sqrt();
+    let c1 = r20 / r24;
+    let s1 = r16 / r24;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c1, s1, ..*known };
     block_3(p, &next, answers);
 }
@@ -420,9 +419,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r21 = shared.r2 * shared.r2 + shared.r10 * shared.r10;
-    let r22 = 0.01 * shared.r18;
-    if !(is_near(r21, 5.57e-7) && is_near(shared.r15, r22) && is_near(shared.r14, r22)) {
+    let r11 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
+    let r12 = 0.01 * shared.r8;
+    if !(is_near(r11, 5.57e-7) && is_near(shared.r6, r12) && is_near(shared.r4, r12)) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -433,31 +432,26 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Wrist.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - p.sphi;
-    let r1 = 0.0 - p.cphi;
-    let r3 = 0.0 - r0;
-    let r6 = r0 * known.c1 + (0.0 - r1) * known.s1;
-    let r16 = (p.cphi * known.c1 + r3 * known.s1) * known.c2;
-    let r25 = 0.0 - (r1 * known.c1 + (0.0 - r3) * known.s1);
-    let r31 = 0.0 - (r6 * known.c2 + r25 * known.s2);
-    let r32 = 0.0 - (0.0 - (r16 + (0.0 - r6) * known.s2));
-    let shared = &Shared3 { r31, r32 };
+    let r4 = p.sphi * known.c1 - p.cphi * known.s1;
+    let r6 = p.cphi * known.c1 + p.sphi * known.s1;
+    let r10 = known.c2 * r6 + known.s2 * r4;
+    let r11 = known.c2 * r4 - known.s2 * r6;
+    let shared = &Shared3 { r10, r11 };
     chart_3_1(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r31: f64,
-    r32: f64,
+    r10: f64,
+    r11: f64,
 }
 
 /// Chart 1 of block 3: generic.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r34 = 0.0 - (0.0 - shared.r31);
-    let r36 = 0.0 - (0.0 - shared.r32);
-    let r40 = f64::max(r36 * r36 + r34 * r34, 0.0).sqrt();
-    let c3 = r36 / r40;
-    let s3 = r34 / r40;
+    let r14 = shared.r10 * shared.r10 + shared.r11 * shared.r11;
+    let r15 = f64::max(r14, 0.0).sqrt();
+    let c3 = shared.r10 / r15;
+    let s3 = shared.r11 / r15;
     let q = [angle(known.c1, known.s1), angle(known.c2, known.s2), angle(c3, s3)];
     answers.finish(p, known.branch, known.last, q, known.free);
 }
@@ -473,20 +467,22 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s2 = q[1].sin();
     let c3 = q[2].cos();
     let s3 = q[2].sin();
-    let r1 = 0.0 - s1;
-    let r6 = 0.0 - s2;
-    let r8 = c1 * c2;
-    let r10 = r8 + r1 * s2;
-    let r13 = s1 * c2 + c1 * s2;
-    let r33 = r10 * c3 + (c1 * r6 + r1 * c2) * s3;
-    let r36 = r13 * c3 + (s1 * r6 + r8) * s3;
-    let r50 = 0.5 * c1 - 0.5 * r10 + 0.9 * r10 - 0.9 * r33 + 1.05 * r33;
-    let r51 = 0.5 * s1 - 0.5 * r13 + 0.9 * r13 - 0.9 * r36 + 1.05 * r36;
+    let r0 = c1 * c2;
+    let r1 = s1 * s2;
+    let r2 = s1 * c2;
+    let r3 = c1 * s2;
+    let r5 = c3 * (r0 - r1);
+    let r6 = r2 + r3;
+    let r7 = s3 * r6;
+    let r8 = c3 * r6;
+    let r10 = s3 * (r1 - r0);
+    let r19 = 0.5 * s1 + 0.4 * r2 + 0.4 * r3 + 0.15 * r8 - 0.15 * r10;
+    let r29 = 0.5 * c1 + 0.4 * r0 - 0.4 * r1 + 0.15 * r5 - 0.15 * r7;
     [
-        r50,
-        r51,
-        r33,
-        r36,
+        r29,
+        r19,
+        r5 - r7,
+        r8 - r10,
     ]
 }
 
@@ -522,26 +518,30 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s2 = q[1].sin();
     let c3 = q[2].cos();
     let s3 = q[2].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.5 * c1;
-    let r4 = 0.5 * s1;
-    let r6 = 0.0 - s2;
-    let r8 = c1 * c2;
-    let r10 = r8 + r1 * s2;
-    let r13 = s1 * c2 + c1 * s2;
-    let r19 = r2 * (c2 + (1.0 - c2));
-    let r26 = r3 - 0.5 * r10 + 0.9 * r10;
-    let r27 = r4 - 0.5 * r13 + 0.9 * r13;
-    let r33 = r10 * c3 + (c1 * r6 + r1 * c2) * s3;
-    let r36 = r13 * c3 + (s1 * r6 + r8) * s3;
-    let r50 = r26 - 0.9 * r33 + 1.05 * r33;
-    let r51 = r27 - 0.9 * r36 + 1.05 * r36;
+    let r0 = c1 * c2;
+    let r1 = s1 * s2;
+    let r2 = s1 * c2;
+    let r3 = c1 * s2;
+    let r5 = c3 * (r0 - r1);
+    let r6 = r2 + r3;
+    let r7 = s3 * r6;
+    let r8 = c3 * r6;
+    let r10 = s3 * (r1 - r0);
+    let r12 = 0.4 * r2;
+    let r14 = 0.4 * r3;
+    let r16 = 0.15 * r8;
+    let r18 = 0.15 * r10;
+    let r22 = 0.4 * r0;
+    let r24 = 0.4 * r1;
+    let r26 = 0.15 * r5;
+    let r28 = 0.15 * r7;
+    let r31 = r5 - r7;
+    let r45 = r10 - r8;
     [
-        [0.0 - r51, 0.0 - r2 * (r51 - r4), 0.0 - r19 * (r51 - r27)],
-        [r50, r2 * (r50 - r3), r19 * (r50 - r26)],
-        [0.0 - r36, 0.0 - r2 * r36, 0.0 - r19 * r36],
-        [r33, r2 * r33, r19 * r33],
+        [r18 - (0.5 * s1 + r12 + r14 + r16), r18 - (r16 + (r12 + r14)), 0.0 - 0.15 * (r8 - r10)],
+        [0.5 * c1 + r22 - r24 + r26 - r28, r26 + (r22 - r24) - r28, 0.15 * r31],
+        [r45, r45, r45],
+        [r31, r31, r31],
     ]
 }
 

@@ -293,16 +293,16 @@ static Parameters parameters(const double *target)
 static void tip(const double *q, double *reached)
 {
     const double c1_ = cos(q[0]), s1_ = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]);
-    const double s3 = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), r1 = 0.0 - s1_, r6 = 0.0 - s2, r8 = c1_ * c2;
-    const double r10 = r8 + r1 * s2, r13 = s1_ * c2 + c1_ * s2, r16 = c1_ * r6 + r1 * c2, r18 = s1_ * r6 + r8;
-    const double r29 = 0.0 - s3, r33 = r10 * c3 + r16 * s3, r36 = r13 * c3 + r18 * s3;
-    const double r46 = 0.4 * c1_ - 0.4 * r10 + 0.75 * r10 - 0.75 * r33;
-    const double r47 = 0.4 * s1_ - 0.4 * r13 + 0.75 * r13 - 0.75 * r36;
-    const double r57 = r33 * c4 + (r10 * r29 + r16 * c3) * s4, r60 = r36 * c4 + (r13 * r29 + r18 * c3) * s4;
-    reached[0] = r46 + 1.05 * r33 - 1.05 * r57 + 1.15 * r57;
-    reached[1] = r47 + 1.05 * r36 - 1.05 * r60 + 1.15 * r60;
-    reached[2] = r57;
-    reached[3] = r60;
+    const double s3 = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), r0 = c1_ * c2, r1 = s1_ * s2, r2 = s1_ * c2;
+    const double r3 = c1_ * s2, r4 = r0 - r1, r5 = c3 * r4, r6 = r2 + r3, r7 = s3 * r6, r8 = c3 * r6;
+    const double r9 = r1 - r0, r10 = s3 * r9, r14 = c4 * (r5 - r7), r16 = s4 * (r8 + s3 * r4);
+    const double r18 = c4 * (r8 - r10), r20 = s4 * (r7 + c3 * r9);
+    const double r29 = 0.4 * s1_ + 0.35 * r2 + 0.35 * r3 + 0.3 * r8 - 0.3 * r10;
+    const double r43 = 0.4 * c1_ + 0.35 * r0 - 0.35 * r1 + 0.3 * r5 - 0.3 * r7;
+    reached[0] = r43 + 0.1 * r14 - 0.1 * r16;
+    reached[1] = r29 + 0.1 * r18 - 0.1 * r20;
+    reached[2] = r14 - r16;
+    reached[3] = r18 - r20;
     reached[4] = c1_;
     reached[5] = s1_;
 }
@@ -347,21 +347,20 @@ static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
     const double c1_ = cos(q[0]), s1_ = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]);
-    const double s3 = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), r1 = 0.0 - s1_, r2 = c1_ + (1.0 - c1_);
-    const double r3 = 0.4 * c1_, r4 = 0.4 * s1_, r6 = 0.0 - s2, r8 = c1_ * c2, r10 = r8 + r1 * s2;
-    const double r13 = s1_ * c2 + c1_ * s2, r16 = c1_ * r6 + r1 * c2, r18 = s1_ * r6 + r8;
-    const double r19 = r2 * (c2 + (1.0 - c2)), r26 = r3 - 0.4 * r10 + 0.75 * r10;
-    const double r27 = r4 - 0.4 * r13 + 0.75 * r13, r29 = 0.0 - s3, r33 = r10 * c3 + r16 * s3;
-    const double r36 = r13 * c3 + r18 * s3, r43 = r19 * (c3 + (1.0 - c3)), r50 = r26 - 0.75 * r33 + 1.05 * r33;
-    const double r51 = r27 - 0.75 * r36 + 1.05 * r36, r57 = r33 * c4 + (r10 * r29 + r16 * c3) * s4;
-    const double r60 = r36 * c4 + (r13 * r29 + r18 * c3) * s4, r74 = r50 - 1.05 * r57 + 1.15 * r57;
-    const double r75 = r51 - 1.05 * r60 + 1.15 * r60;
+    const double s3 = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), r0 = c1_ * c2, r1 = s1_ * s2, r2 = s1_ * c2;
+    const double r3 = c1_ * s2, r4 = r0 - r1, r5 = c3 * r4, r6 = r2 + r3, r7 = s3 * r6, r8 = c3 * r6;
+    const double r9 = r1 - r0, r10 = s3 * r9, r14 = c4 * (r5 - r7), r16 = s4 * (r8 + s3 * r4);
+    const double r18 = c4 * (r8 - r10), r20 = s4 * (r7 + c3 * r9), r22 = 0.35 * r2, r24 = 0.35 * r3;
+    const double r26 = 0.3 * r8, r28 = 0.3 * r10, r30 = 0.1 * r18, r32 = 0.1 * r20, r36 = 0.35 * r0;
+    const double r38 = 0.35 * r1, r40 = 0.3 * r5, r42 = 0.3 * r7, r44 = 0.1 * r14, r46 = 0.1 * r16;
+    const double r47 = 0.4 * c1_ + r36 - r38 + r40 - r42 + r44 - r46, r49 = r14 - r16;
+    const double r55 = r32 - (0.4 * s1_ + r22 + r24 + r26 - r28 + r30), r75 = r20 - r18;
     const Jacobian result = { {
-        {0.0 - r75, 0.0 - r2 * (r75 - r4), 0.0 - r19 * (r75 - r27), 0.0 - r43 * (r75 - r51)},
-        {r74, r2 * (r74 - r3), r19 * (r74 - r26), r43 * (r74 - r50)},
-        {0.0 - r60, 0.0 - r2 * r60, 0.0 - r19 * r60, 0.0 - r43 * r60},
-        {r57, r2 * r57, r19 * r57, r43 * r57},
-        {r1, 0.0, 0.0, 0.0},
+        {r55, r32 - (r30 + (r26 + (r22 + r24) - r28)), r32 - (r30 + (r26 - r28)), 0.0 - 0.1 * (r18 - r20)},
+        {r47, r44 + (r40 + (r36 - r38) - r42) - r46, r44 + (r40 - r42) - r46, 0.1 * r49},
+        {r75, r75, r75, r75},
+        {r49, r49, r49, r49},
+        {0.0 - s1_, 0.0, 0.0, 0.0},
         {c1_, 0.0, 0.0, 0.0},
     } };
     return result;
@@ -1078,16 +1077,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r49;
-    double r50;
+    double r16;
+    double r17;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r52 = 0.0 - (0.0 - shared->r49), r54 = 0.0 - (0.0 - shared->r50);
-    const double r58 = sqrt(fmax(r54 * r54 + r52 * r52, 0.0)), c4 = r54 / r58, s4 = r52 / r58;
+    const double r20 = shared->r16 * shared->r16 + shared->r17 * shared->r17, r21 = sqrt(fmax(r20, 0.0));
+    const double c4 = shared->r16 / r21, s4 = shared->r17 / r21;
     const double q[JOINTS] = {
         angle(known->c1_, known->s1_),
         angle(known->c2, known->s2),
@@ -1100,27 +1099,23 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: Wrist. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - p->sphi, r1 = 0.0 - p->cphi, r3 = 0.0 - r0;
-    const double r6 = r0 * known->c1_ + (0.0 - r1) * known->s1_, r9 = p->cphi * known->c1_ + r3 * known->s1_;
-    const double r12 = 0.0 - r6, r13 = r6 * known->c2, r25 = (r9 * known->c2 + r12 * known->s2) * known->c3;
-    const double r26 = (0.0 - (r13 + (0.0 - (0.0 - r9)) * known->s2)) * known->s3;
-    const double r32 = r1 * known->c1_ + (0.0 - r3) * known->s1_;
-    const double r42 = 0.0 - (r32 * known->c2 + (0.0 - r12) * known->s2);
-    const double r48 = (r13 + (0.0 - r32) * known->s2) * known->c3 + r42 * known->s3, r49 = 0.0 - r48;
-    const double r50 = 0.0 - (0.0 - (r25 + r26));
-    const Shared4 own = { r49, r50 };
+    const double r4 = p->sphi * known->c1_ - p->cphi * known->s1_;
+    const double r6 = p->cphi * known->c1_ + p->sphi * known->s1_, r10 = known->c2 * r4 - known->s2 * r6;
+    const double r12 = known->c2 * r6 + known->s2 * r4, r16 = known->c3 * r12 + known->s3 * r10;
+    const double r17 = known->c3 * r10 - known->s3 * r12;
+    const Shared4 own = { r16, r17 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r2;
-    double r20;
-    double r24;
-    double r25;
-    double r31;
-    double r32;
+    double r8;
+    double r10;
+    double r11;
+    double r13;
+    double r17;
+    double r18;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1128,13 +1123,13 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r35 = shared->r2 * shared->r2 + shared->r20 * shared->r20;
-    if (!is_away(r35, 119425.00000000001)) {
+    const double r21 = shared->r8 * shared->r8 + shared->r10 * shared->r10;
+    if (!is_away(r21, 119425.00000000001)) {
         return;
     }
-    const double r38 = shared->r20 * shared->r24 - shared->r2 * shared->r25, r40 = (0.0 - r38) / r35;
-    const double r44 = 0.0 - shared->r2 * shared->r24 - shared->r20 * shared->r25, r46 = (0.0 - r44) / r35;
-    const double r50 = sqrt(fmax(r46 * r46 + r40 * r40, 0.0)), c2 = r46 / r50, s2 = r40 / r50;
+    const double r25 = shared->r8 * shared->r13 - (0.0 - shared->r10 * shared->r11), r26 = r25 / r21;
+    const double r29 = shared->r8 * shared->r11 - shared->r10 * shared->r13, r30 = r29 / r21;
+    const double r34 = sqrt(fmax(r30 * r30 + r26 * r26, 0.0)), c2 = r30 / r34, s2 = r26 / r34;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1149,8 +1144,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r35 = shared->r2 * shared->r2 + shared->r20 * shared->r20;
-    if (!(is_near(r35, 1.1942500000000003e-6) && is_near(shared->r25, 0.01 * shared->r32) && is_near(shared->r24, 0.01 * shared->r31))) {
+    const double r21 = shared->r8 * shared->r8 + shared->r10 * shared->r10;
+    if (!(is_near(r21, 1.1942500000000003e-6) && is_near(shared->r13, 0.01 * shared->r18) && is_near(shared->r11, 0.01 * shared->r17))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1168,12 +1163,11 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Shoulder. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = 0.3 * known->s3, r8 = p->px + -0.1 * p->cphi, r9 = p->py + -0.1 * p->sphi;
-    const double r15 = r8 * known->c1_ + (0.0 - (0.0 - r9)) * known->s1_;
-    const double r19 = 0.0 - (r9 * known->c1_ + (0.0 - r8) * known->s1_);
-    const double r20 = 0.0 - (0.3 * known->c3 + 0.75 - 0.4), r24 = 0.0 - r19, r25 = 0.0 - (-0.4 - (0.0 - r15));
-    const double r26 = p->magnitude + 2.2, r27 = r26 + r26, r31 = fabs(0.0 - r27), r32 = fabs(0.0 - (r27 + 0.4));
-    const Shared3 own = { r2, r20, r24, r25, r31, r32 };
+    const double r1 = p->px - 0.1 * p->cphi, r4 = p->py - 0.1 * p->sphi, r8 = 0.3 * known->s3;
+    const double r10 = 0.3 * known->c3 + 0.35, r11 = known->c1_ * r4 - known->s1_ * r1;
+    const double r13 = 0.4 - (known->c1_ * r1 + known->s1_ * r4), r14 = 2.0 * p->magnitude;
+    const double r17 = fabs(r14 + 4.4), r18 = fabs(r14 + 4.8);
+    const Shared3 own = { r8, r10, r11, r13, r17, r18 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1181,20 +1175,20 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r29;
+    double r19;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r31 = shared->r29 * shared->r29 - 0.04409999999999999;
-    const double choice0_0[3] = {r31, 0.0, 1.0};
+    const double r21 = shared->r19 * shared->r19 - 0.04409999999999999;
+    const double choice0_0[3] = {r21, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r35 = (0.0 - (0.0 - 0.21 * w3)) / 0.04409999999999999;
-        const double r38 = (0.0 - 0.21 * shared->r29) / 0.04409999999999999;
-        const double r42 = sqrt(fmax(r38 * r38 + r35 * r35, 0.0)), c3 = r38 / r42, s3 = r35 / r42;
+        const double w3 = roots0.values[i0], r23 = 0.21 * w3 / 0.04409999999999999;
+        const double r25 = 0.21 * shared->r19 / 0.04409999999999999;
+        const double r29 = sqrt(fmax(r25 * r25 + r23 * r23, 0.0)), c3 = 0.0 - r25 / r29, s3 = r23 / r29;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1207,11 +1201,11 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Elbow. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r3 = p->px + -0.1 * p->cphi, r4 = p->py + -0.1 * p->sphi, r7 = p->px * r3 + p->py * r4;
-    const double r13 = r7 + r7 - (p->px * p->px + p->py * p->py) + 0.01;
-    const double r19 = r3 * known->c1_ + (0.0 - (0.0 - r4)) * known->s1_;
-    const double r29 = 0.2125 - (r13 + 0.4 * (0.4 - r19) - 0.4 * r19);
-    const Shared2 own = { r29 };
+    const double r1 = p->px - 0.1 * p->cphi, r4 = p->py - 0.1 * p->sphi;
+    const double r13 = 2.0 * (p->px * r1) + 2.0 * (p->py * r4) - p->px * p->px;
+    const double r16 = r13 - p->py * p->py - 0.8 * (known->c1_ * r1);
+    const double r19 = 0.0425 - (r16 - 0.8 * (known->s1_ * r4));
+    const Shared2 own = { r19 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }

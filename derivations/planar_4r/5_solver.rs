@@ -371,31 +371,30 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 
 /// Block 2: Elbow.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = p.px + -0.1 * p.cphi;
-    let r4 = p.py + -0.1 * p.sphi;
-    let r7 = p.px * r3 + p.py * r4;
-    let r19 = r3 * known.c1_ + (0.0 - (0.0 - r4)) * known.s1_;
-    let r27 = r7 + r7 - (p.px * p.px + p.py * p.py) + 0.01 + 0.4 * (0.4 - r19);
-    let r29 = 0.2125 - (r27 - 0.4 * r19);
-    let shared = &Shared2 { r29 };
+    let r1 = p.px - 0.1 * p.cphi;
+    let r4 = p.py - 0.1 * p.sphi;
+    let r13 = 2.0 * (p.px * r1) + 2.0 * (p.py * r4) - p.px * p.px;
+    let r18 = r13 - p.py * p.py - 0.8 * (known.c1_ * r1) - 0.8 * (known.s1_ * r4);
+    let r19 = 0.0425 - r18;
+    let shared = &Shared2 { r19 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r29: f64,
+    r19: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r31 = shared.r29 * shared.r29 - 0.04409999999999999;
-    let roots0 = real_roots(&[r31, 0.0, 1.0], 1.4142135623730951);
+    let r21 = shared.r19 * shared.r19 - 0.04409999999999999;
+    let roots0 = real_roots(&[r21, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r35 = (0.0 - (0.0 - 0.21 * w3)) / 0.04409999999999999;
-        let r38 = (0.0 - 0.21 * shared.r29) / 0.04409999999999999;
-        let r42 = f64::max(r38 * r38 + r35 * r35, 0.0).sqrt();
-        let c3 = r38 / r42;
-        let s3 = r35 / r42;
+        let r23 = 0.21 * w3 / 0.04409999999999999;
+        let r25 = 0.21 * shared.r19 / 0.04409999999999999;
+        let r29 = f64::max(r25 * r25 + r23 * r23, 0.0).sqrt();
+        let c3 = 0.0 - r25 / r29;
+        let s3 = r23 / r29;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -403,47 +402,44 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Shoulder.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.3 * known.s3;
-    let r8 = p.px + -0.1 * p.cphi;
-    let r9 = p.py + -0.1 * p.sphi;
-    let r15 = r8 * known.c1_ + (0.0 - (0.0 - r9)) * known.s1_;
-    let r19 = 0.0 - (r9 * known.c1_ + (0.0 - r8) * known.s1_);
-    let r20 = 0.0 - (0.3 * known.c3 + 0.75 - 0.4);
-    let r24 = 0.0 - r19;
-    let r25 = 0.0 - (-0.4 - (0.0 - r15));
-    let r26 = p.magnitude + 2.2;
-    let r27 = r26 + r26;
-    let r31 = f64::abs(0.0 - r27);
-    let r32 = f64::abs(0.0 - (r27 + 0.4));
-    let shared = &Shared3 { r2, r20, r24, r25, r31, r32 };
+    let r1 = p.px - 0.1 * p.cphi;
+    let r4 = p.py - 0.1 * p.sphi;
+    let r8 = 0.3 * known.s3;
+    let r10 = 0.3 * known.c3 + 0.35;
+    let r11 = known.c1_ * r4 - known.s1_ * r1;
+    let r13 = 0.4 - (known.c1_ * r1 + known.s1_ * r4);
+    let r14 = 2.0 * p.magnitude;
+    let r17 = f64::abs(r14 + 4.4);
+    let r18 = f64::abs(r14 + 4.8);
+    let shared = &Shared3 { r8, r10, r11, r13, r17, r18 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r2: f64,
-    r20: f64,
-    r24: f64,
-    r25: f64,
-    r31: f64,
-    r32: f64,
+    r8: f64,
+    r10: f64,
+    r11: f64,
+    r13: f64,
+    r17: f64,
+    r18: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r35 = shared.r2 * shared.r2 + shared.r20 * shared.r20;
-    if !is_away(r35, 119425.00000000001) {
+    let r21 = shared.r8 * shared.r8 + shared.r10 * shared.r10;
+    if !is_away(r21, 119425.00000000001) {
         return;
     }
-    let r38 = shared.r20 * shared.r24 - shared.r2 * shared.r25;
-    let r40 = (0.0 - r38) / r35;
-    let r44 = 0.0 - shared.r2 * shared.r24 - shared.r20 * shared.r25;
-    let r46 = (0.0 - r44) / r35;
-    let r50 = f64::max(r46 * r46 + r40 * r40, 0.0).sqrt();
-    let c2 = r46 / r50;
-    let s2 = r40 / r50;
+    let r25 = shared.r8 * shared.r13 - (0.0 - shared.r10 * shared.r11);
+    let r26 = r25 / r21;
+    let r29 = shared.r8 * shared.r11 - shared.r10 * shared.r13;
+    let r30 = r29 / r21;
+    let r34 = f64::max(r30 * r30 + r26 * r26, 0.0).sqrt();
+    let c2 = r30 / r34;
+    let s2 = r26 / r34;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, ..*known };
     block_4(p, &next, answers);
 }
@@ -452,8 +448,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r35 = shared.r2 * shared.r2 + shared.r20 * shared.r20;
-    if !(is_near(r35, 1.1942500000000003e-6) && is_near(shared.r25, 0.01 * shared.r32) && is_near(shared.r24, 0.01 * shared.r31)) {
+    let r21 = shared.r8 * shared.r8 + shared.r10 * shared.r10;
+    if !(is_near(r21, 1.1942500000000003e-6) && is_near(shared.r13, 0.01 * shared.r18) && is_near(shared.r11, 0.01 * shared.r17)) {
         return;
     }
     for [c2, s2] in SAMPLES_1 {
@@ -464,37 +460,28 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: Wrist.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - p.sphi;
-    let r1 = 0.0 - p.cphi;
-    let r3 = 0.0 - r0;
-    let r6 = r0 * known.c1_ + (0.0 - r1) * known.s1_;
-    let r9 = p.cphi * known.c1_ + r3 * known.s1_;
-    let r12 = 0.0 - r6;
-    let r13 = r6 * known.c2;
-    let r26 = (0.0 - (r13 + (0.0 - (0.0 - r9)) * known.s2)) * known.s3;
-    let r27 = (r9 * known.c2 + r12 * known.s2) * known.c3 + r26;
-    let r32 = r1 * known.c1_ + (0.0 - r3) * known.s1_;
-    let r42 = 0.0 - (r32 * known.c2 + (0.0 - r12) * known.s2);
-    let r48 = (r13 + (0.0 - r32) * known.s2) * known.c3 + r42 * known.s3;
-    let r49 = 0.0 - r48;
-    let r50 = 0.0 - (0.0 - r27);
-    let shared = &Shared4 { r49, r50 };
+    let r4 = p.sphi * known.c1_ - p.cphi * known.s1_;
+    let r6 = p.cphi * known.c1_ + p.sphi * known.s1_;
+    let r10 = known.c2 * r4 - known.s2 * r6;
+    let r12 = known.c2 * r6 + known.s2 * r4;
+    let r16 = known.c3 * r12 + known.s3 * r10;
+    let r17 = known.c3 * r10 - known.s3 * r12;
+    let shared = &Shared4 { r16, r17 };
     chart_4_1(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r49: f64,
-    r50: f64,
+    r16: f64,
+    r17: f64,
 }
 
 /// Chart 1 of block 4: generic.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r52 = 0.0 - (0.0 - shared.r49);
-    let r54 = 0.0 - (0.0 - shared.r50);
-    let r58 = f64::max(r54 * r54 + r52 * r52, 0.0).sqrt();
-    let c4 = r54 / r58;
-    let s4 = r52 / r58;
+    let r20 = shared.r16 * shared.r16 + shared.r17 * shared.r17;
+    let r21 = f64::max(r20, 0.0).sqrt();
+    let c4 = shared.r16 / r21;
+    let s4 = shared.r17 / r21;
     let q = [
         angle(known.c1_, known.s1_),
         angle(known.c2, known.s2),
@@ -517,25 +504,28 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s3 = q[2].sin();
     let c4 = q[3].cos();
     let s4 = q[3].sin();
-    let r1 = 0.0 - s1_;
-    let r6 = 0.0 - s2;
-    let r8 = c1_ * c2;
-    let r10 = r8 + r1 * s2;
-    let r13 = s1_ * c2 + c1_ * s2;
-    let r16 = c1_ * r6 + r1 * c2;
-    let r18 = s1_ * r6 + r8;
-    let r29 = 0.0 - s3;
-    let r33 = r10 * c3 + r16 * s3;
-    let r36 = r13 * c3 + r18 * s3;
-    let r46 = 0.4 * c1_ - 0.4 * r10 + 0.75 * r10 - 0.75 * r33;
-    let r47 = 0.4 * s1_ - 0.4 * r13 + 0.75 * r13 - 0.75 * r36;
-    let r57 = r33 * c4 + (r10 * r29 + r16 * c3) * s4;
-    let r60 = r36 * c4 + (r13 * r29 + r18 * c3) * s4;
+    let r0 = c1_ * c2;
+    let r1 = s1_ * s2;
+    let r2 = s1_ * c2;
+    let r3 = c1_ * s2;
+    let r4 = r0 - r1;
+    let r5 = c3 * r4;
+    let r6 = r2 + r3;
+    let r7 = s3 * r6;
+    let r8 = c3 * r6;
+    let r9 = r1 - r0;
+    let r10 = s3 * r9;
+    let r14 = c4 * (r5 - r7);
+    let r16 = s4 * (r8 + s3 * r4);
+    let r18 = c4 * (r8 - r10);
+    let r20 = s4 * (r7 + c3 * r9);
+    let r29 = 0.4 * s1_ + 0.35 * r2 + 0.35 * r3 + 0.3 * r8 - 0.3 * r10;
+    let r43 = 0.4 * c1_ + 0.35 * r0 - 0.35 * r1 + 0.3 * r5 - 0.3 * r7;
     [
-        r46 + 1.05 * r33 - 1.05 * r57 + 1.15 * r57,
-        r47 + 1.05 * r36 - 1.05 * r60 + 1.15 * r60,
-        r57,
-        r60,
+        r43 + 0.1 * r14 - 0.1 * r16,
+        r29 + 0.1 * r18 - 0.1 * r20,
+        r14 - r16,
+        r18 - r20,
         c1_,
         s1_,
     ]
@@ -579,35 +569,43 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s3 = q[2].sin();
     let c4 = q[3].cos();
     let s4 = q[3].sin();
-    let r1 = 0.0 - s1_;
-    let r2 = c1_ + (1.0 - c1_);
-    let r3 = 0.4 * c1_;
-    let r4 = 0.4 * s1_;
-    let r6 = 0.0 - s2;
-    let r8 = c1_ * c2;
-    let r10 = r8 + r1 * s2;
-    let r13 = s1_ * c2 + c1_ * s2;
-    let r16 = c1_ * r6 + r1 * c2;
-    let r18 = s1_ * r6 + r8;
-    let r19 = r2 * (c2 + (1.0 - c2));
-    let r26 = r3 - 0.4 * r10 + 0.75 * r10;
-    let r27 = r4 - 0.4 * r13 + 0.75 * r13;
-    let r29 = 0.0 - s3;
-    let r33 = r10 * c3 + r16 * s3;
-    let r36 = r13 * c3 + r18 * s3;
-    let r43 = r19 * (c3 + (1.0 - c3));
-    let r50 = r26 - 0.75 * r33 + 1.05 * r33;
-    let r51 = r27 - 0.75 * r36 + 1.05 * r36;
-    let r57 = r33 * c4 + (r10 * r29 + r16 * c3) * s4;
-    let r60 = r36 * c4 + (r13 * r29 + r18 * c3) * s4;
-    let r74 = r50 - 1.05 * r57 + 1.15 * r57;
-    let r75 = r51 - 1.05 * r60 + 1.15 * r60;
+    let r0 = c1_ * c2;
+    let r1 = s1_ * s2;
+    let r2 = s1_ * c2;
+    let r3 = c1_ * s2;
+    let r4 = r0 - r1;
+    let r5 = c3 * r4;
+    let r6 = r2 + r3;
+    let r7 = s3 * r6;
+    let r8 = c3 * r6;
+    let r9 = r1 - r0;
+    let r10 = s3 * r9;
+    let r14 = c4 * (r5 - r7);
+    let r16 = s4 * (r8 + s3 * r4);
+    let r18 = c4 * (r8 - r10);
+    let r20 = s4 * (r7 + c3 * r9);
+    let r22 = 0.35 * r2;
+    let r24 = 0.35 * r3;
+    let r26 = 0.3 * r8;
+    let r28 = 0.3 * r10;
+    let r30 = 0.1 * r18;
+    let r32 = 0.1 * r20;
+    let r36 = 0.35 * r0;
+    let r38 = 0.35 * r1;
+    let r40 = 0.3 * r5;
+    let r42 = 0.3 * r7;
+    let r44 = 0.1 * r14;
+    let r46 = 0.1 * r16;
+    let r47 = 0.4 * c1_ + r36 - r38 + r40 - r42 + r44 - r46;
+    let r49 = r14 - r16;
+    let r55 = r32 - (0.4 * s1_ + r22 + r24 + r26 - r28 + r30);
+    let r75 = r20 - r18;
     [
-        [0.0 - r75, 0.0 - r2 * (r75 - r4), 0.0 - r19 * (r75 - r27), 0.0 - r43 * (r75 - r51)],
-        [r74, r2 * (r74 - r3), r19 * (r74 - r26), r43 * (r74 - r50)],
-        [0.0 - r60, 0.0 - r2 * r60, 0.0 - r19 * r60, 0.0 - r43 * r60],
-        [r57, r2 * r57, r19 * r57, r43 * r57],
-        [r1, 0.0, 0.0, 0.0],
+        [r55, r32 - (r30 + (r26 + (r22 + r24) - r28)), r32 - (r30 + (r26 - r28)), 0.0 - 0.1 * (r18 - r20)],
+        [r47, r44 + (r40 + (r36 - r38) - r42) - r46, r44 + (r40 - r42) - r46, 0.1 * r49],
+        [r75, r75, r75, r75],
+        [r49, r49, r49, r49],
+        [0.0 - s1_, 0.0, 0.0, 0.0],
         [c1_, 0.0, 0.0, 0.0],
     ]
 }

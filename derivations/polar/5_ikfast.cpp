@@ -266,13 +266,11 @@ static const int TIP = 3;
 /* The tip at joint values q, as the equations compare it. */
 static void tip(const double *q, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], r1 = 0.0 - s1;
-    const double r2 = c1 + (1.0 - c1), r3 = 0.66 * r2, r7 = 0.0 - s2, r9 = c1 * c2, r10 = r2 * s2, r11 = r1 * c2;
-    const double r17 = 0.66 * (c1 * r7), r18 = 0.66 * (r2 * c2), r19 = 0.66 * (r1 * r7);
-    const double r37 = 0.66 - r3 + r3 - r18 + r10 * d3 + (0.2 * r10 + r18);
-    reached[0] = 0.0 - r17 + r9 * d3 + (0.2 * r9 + r17);
-    reached[1] = r37;
-    reached[2] = 0.0 - r19 + r11 * d3 + (0.2 * r11 + r19);
+    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], r0 = c1 * c2;
+    const double r1 = s1 * c2;
+    reached[0] = d3 * r0 + 0.2 * r0;
+    reached[1] = s2 * d3 + 0.2 * s2 + 0.66;
+    reached[2] = 0.0 - (d3 * r1 + 0.2 * r1);
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -285,7 +283,7 @@ static Equations equations(const Parameters *p, const double *q)
 {
     double reached[TIP];
     tip(q, reached);
-    const double d3 = q[2], r39 = fabs(d3) + 0.8600000000000001;
+    const double d3 = q[2], r6 = fabs(d3) + 0.8600000000000001;
     const Equations result = {
         {
             reached[0] - p->px,
@@ -293,9 +291,9 @@ static Equations equations(const Parameters *p, const double *q)
             reached[2] - p->pz,
         },
         {
-            r39,
-            r39,
-            r39,
+            r6,
+            r6,
+            r6,
         },
     };
     return result;
@@ -309,16 +307,12 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], r1 = 0.0 - s1;
-    const double r2 = c1 + (1.0 - c1), r3 = 0.66 * r2, r5 = 0.66 - r3 + r3, r7 = 0.0 - s2, r9 = c1 * c2;
-    const double r10 = r2 * s2, r11 = r1 * c2, r17 = 0.66 * (c1 * r7), r18 = 0.66 * (r2 * c2);
-    const double r19 = 0.66 * (r1 * r7), r36 = 0.0 - r17 + r9 * d3 + (0.2 * r9 + r17);
-    const double r38 = 0.0 - r19 + r11 * d3 + (0.2 * r11 + r19);
-    const double r42 = r5 - r18 + r10 * d3 + (0.2 * r10 + r18) - r5;
+    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], r0 = c1 * c2;
+    const double r1 = s1 * c2, r8 = s2 * d3 + 0.2 * s2, r10 = d3 * r0 + 0.2 * r0, r12 = d3 * r1 + 0.2 * r1;
     const Jacobian result = { {
-        {r38, 0.0 - c1 * r42, r9},
-        {0.0, c1 * r36 - s1 * r38, r10},
-        {0.0 - r36, s1 * r42, r11},
+        {0.0 - r12, 0.0 - c1 * r8, r0},
+        {0.0, c1 * r10 + s1 * r12, s2},
+        {0.0 - r10, s1 * r8, 0.0 - r1},
     } };
     return result;
 }
@@ -1026,14 +1020,14 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r28;
+    double r7;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double d3 = 0.0 - shared->r28;
+    const double d3 = shared->r7;
     const double q[JOINTS] = {angle(known->c1, known->s1), angle(known->c2, known->s2), d3};
     finish(p, known->branch, known->last, q, known->free, answers);
 }
@@ -1041,20 +1035,19 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Slide. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = p->py - 0.66, r7 = p->px * known->c1 + (0.0 - p->pz) * known->s1;
-    const double r16 = 0.0 - (r0 + (r0 - r0) * known->c1 + 0.66 - 0.66);
-    const double r28 = 0.2 - (r7 * known->c2 + (0.0 - r16) * known->s2);
-    const Shared3 own = { r28 };
+    const double r3 = known->c2 * (p->px * known->c1 - p->pz * known->s1);
+    const double r7 = r3 + known->s2 * (p->py - 0.66) - 0.2;
+    const Shared3 own = { r7 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r17;
-    double r20;
-    double r28;
-    double r29;
+    double r2;
+    double r3;
+    double r7;
+    double r8;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1062,17 +1055,16 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r30 = shared->r17 * shared->r17, r31 = shared->r20 * shared->r20, r32 = r30 + r31;
-    const double r35 = shared->r28 * shared->r28 + shared->r29 * shared->r29;
-    if (!is_away(r32, 10000.0 * r35)) {
+    const double r9 = shared->r2 * shared->r2, r10 = shared->r3 * shared->r3, r11 = r9 + r10;
+    const double r14 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
+    if (!is_away(r11, 10000.0 * r14)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r30 - r31, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->f1 * sqrt(fmax(r35, 0.0)));
+    const double choice0_0[3] = {0.0 - r9 - r10, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, known->f1 * sqrt(fmax(r14, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r44 = (0.0 - (0.0 - shared->r17 * w2)) / r32;
-        const double r47 = (0.0 - shared->r20 * w2) / r32, r51 = sqrt(fmax(r47 * r47 + r44 * r44, 0.0));
-        const double c2 = r47 / r51, s2 = r44 / r51;
+        const double w2 = roots0.values[i0], r21 = w2 * shared->r2 / r11, r23 = w2 * shared->r3 / r11;
+        const double r27 = sqrt(fmax(r23 * r23 + r21 * r21, 0.0)), c2 = 0.0 - r23 / r27, s2 = r21 / r27;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1088,9 +1080,9 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r32 = shared->r17 * shared->r17 + shared->r20 * shared->r20;
-    const double r35 = shared->r28 * shared->r28 + shared->r29 * shared->r29;
-    if (!is_near(r32, 1.0000000000000001e-7 * r35)) {
+    const double r11 = shared->r2 * shared->r2 + shared->r3 * shared->r3;
+    const double r14 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
+    if (!is_near(r11, 1.0000000000000001e-7 * r14)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1108,40 +1100,30 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Pitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = p->py - 0.66, r7 = p->px * known->c1 + (0.0 - p->pz) * known->s1;
-    const double r16 = 0.0 - (r0 + (r0 - r0) * known->c1 + 0.66 - 0.66), r17 = 0.0 - r16;
-    const double r20 = 0.0 - (0.0 - (0.0 - r7)), r21 = p->magnitude + 0.66;
-    const double r28 = fabs(r21 + (r21 + r21) + 0.66 + 0.66), r29 = fabs(p->magnitude + p->magnitude);
-    const Shared2 own = { r17, r20, r28, r29 };
+    const double r2 = p->py - 0.66, r3 = p->pz * known->s1 - p->px * known->c1;
+    const double r7 = fabs(3.0 * p->magnitude + 3.3), r8 = fabs(2.0 * p->magnitude);
+    const Shared2 own = { r2, r3, r7, r8 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
-/* What the charts of block 1 share. */
-typedef struct {
-    double r3;
-    double r6;
-    double r10;
-} Shared1;
-
 /* Chart 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r11 = shared->r3 * shared->r3, r12 = shared->r6 * shared->r6, r13 = r11 + r12;
-    const double r14 = shared->r10 * shared->r10, r15 = r14 + r14;
-    if (!is_away(r13, 10000.0 * r15)) {
+    const double r0 = p->pz * p->pz, r1 = p->px * p->px, r2 = r0 + r1, r3 = p->magnitude * p->magnitude;
+    const double r4 = r3 + r3;
+    if (!is_away(r2, 10000.0 * r4)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r11 - r12, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r15, 0.0)));
+    const double choice0_0[3] = {0.0 - r0 - r1, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r4, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r23 = (0.0 - (0.0 - shared->r3 * w1)) / r13;
-        const double r26 = (0.0 - shared->r6 * w1) / r13, r30 = sqrt(fmax(r26 * r26 + r23 * r23, 0.0));
-        const double c1 = r26 / r30, s1 = r23 / r30;
+        const double w1 = roots0.values[i0], r10 = p->pz * w1 / r2, r12 = p->px * w1 / r2;
+        const double r16 = sqrt(fmax(r12 * r12 + r10 * r10, 0.0)), c1 = r12 / r16, s1 = 0.0 - r10 / r16;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1156,10 +1138,10 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
  * It runs where A^2 + B^2 is near zero.
  * Free: Yaw.
  */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_2(const Parameters *p, Answers *answers)
 {
-    const double r13 = shared->r3 * shared->r3 + shared->r6 * shared->r6, r14 = shared->r10 * shared->r10;
-    if (!is_near(r13, 1.0000000000000001e-7 * (r14 + r14))) {
+    const double r3 = p->magnitude * p->magnitude;
+    if (!is_near(p->pz * p->pz + p->px * p->px, 1.0000000000000001e-7 * (r3 + r3))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1179,11 +1161,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Yaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r3 = 0.0 - p->pz, r6 = 0.0 - (0.0 - (0.0 - p->px)), r10 = fabs(p->magnitude);
-    const Shared1 own = { r3, r6, r10 };
-    const Shared1 *const shared = &own;
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
+    chart_1_1(p, answers);
+    chart_1_2(p, answers);
 }
 
 static bool all_finite(const double *target)

@@ -349,40 +349,29 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Yaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r3 = 0.0 - p.pz;
-    let r6 = 0.0 - (0.0 - (0.0 - p.px));
-    let r10 = f64::abs(p.magnitude);
-    let shared = &Shared1 { r3, r6, r10 };
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
-}
-
-/// What the charts of block 1 share.
-struct Shared1 {
-    r3: f64,
-    r6: f64,
-    r10: f64,
+    chart_1_1(p, answers);
+    chart_1_2(p, answers);
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r11 = shared.r3 * shared.r3;
-    let r12 = shared.r6 * shared.r6;
-    let r13 = r11 + r12;
-    let r14 = shared.r10 * shared.r10;
-    let r15 = r14 + r14;
-    if !is_away(r13, 10000.0 * r15) {
+fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let r0 = p.pz * p.pz;
+    let r1 = p.px * p.px;
+    let r2 = r0 + r1;
+    let r3 = p.magnitude * p.magnitude;
+    let r4 = r3 + r3;
+    if !is_away(r2, 10000.0 * r4) {
         return;
     }
     let f1 = 1.0;
-    let roots0 = real_roots(&[0.0 - r11 - r12, 0.0, 1.0], f64::max(r15, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r0 - r1, 0.0, 1.0], f64::max(r4, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r23 = (0.0 - (0.0 - shared.r3 * w1)) / r13;
-        let r26 = (0.0 - shared.r6 * w1) / r13;
-        let r30 = f64::max(r26 * r26 + r23 * r23, 0.0).sqrt();
-        let c1 = r26 / r30;
-        let s1 = r23 / r30;
+        let r10 = p.pz * w1 / r2;
+        let r12 = p.px * w1 / r2;
+        let r16 = f64::max(r12 * r12 + r10 * r10, 0.0).sqrt();
+        let c1 = r12 / r16;
+        let s1 = 0.0 - r10 / r16;
         let next = Known { branch: i0, last: 2, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -391,10 +380,9 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 2 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Yaw.
-fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r13 = shared.r3 * shared.r3 + shared.r6 * shared.r6;
-    let r14 = shared.r10 * shared.r10;
-    if !is_near(r13, 1.0000000000000001e-7 * (r14 + r14)) {
+fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
+    let r3 = p.magnitude * p.magnitude;
+    if !is_near(p.pz * p.pz + p.px * p.px, 1.0000000000000001e-7 * (r3 + r3)) {
         return;
     }
     let f1 = 1000000.0;
@@ -406,44 +394,40 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Pitch.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = p.py - 0.66;
-    let r16 = 0.0 - (r0 + (r0 - r0) * known.c1 + 0.66 - 0.66);
-    let r17 = 0.0 - r16;
-    let r18 = 0.0 - (p.px * known.c1 + (0.0 - p.pz) * known.s1);
-    let r20 = 0.0 - (0.0 - r18);
-    let r21 = p.magnitude + 0.66;
-    let r28 = f64::abs(r21 + (r21 + r21) + 0.66 + 0.66);
-    let r29 = f64::abs(p.magnitude + p.magnitude);
-    let shared = &Shared2 { r17, r20, r28, r29 };
+    let r2 = p.py - 0.66;
+    let r3 = p.pz * known.s1 - p.px * known.c1;
+    let r7 = f64::abs(3.0 * p.magnitude + 3.3);
+    let r8 = f64::abs(2.0 * p.magnitude);
+    let shared = &Shared2 { r2, r3, r7, r8 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r17: f64,
-    r20: f64,
-    r28: f64,
-    r29: f64,
+    r2: f64,
+    r3: f64,
+    r7: f64,
+    r8: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r30 = shared.r17 * shared.r17;
-    let r31 = shared.r20 * shared.r20;
-    let r32 = r30 + r31;
-    let r35 = shared.r28 * shared.r28 + shared.r29 * shared.r29;
-    if !is_away(r32, 10000.0 * r35) {
+    let r9 = shared.r2 * shared.r2;
+    let r10 = shared.r3 * shared.r3;
+    let r11 = r9 + r10;
+    let r14 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
+    if !is_away(r11, 10000.0 * r14) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r30 - r31, 0.0, 1.0], known.f1 * f64::max(r35, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r9 - r10, 0.0, 1.0], known.f1 * f64::max(r14, 0.0).sqrt());
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let r44 = (0.0 - (0.0 - shared.r17 * w2)) / r32;
-        let r47 = (0.0 - shared.r20 * w2) / r32;
-        let r51 = f64::max(r47 * r47 + r44 * r44, 0.0).sqrt();
-        let c2 = r47 / r51;
-        let s2 = r44 / r51;
+        let r21 = w2 * shared.r2 / r11;
+        let r23 = w2 * shared.r3 / r11;
+        let r27 = f64::max(r23 * r23 + r21 * r21, 0.0).sqrt();
+        let c2 = 0.0 - r23 / r27;
+        let s2 = r21 / r27;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c2, s2, ..*known };
         block_3(p, &next, answers);
     }
@@ -453,9 +437,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Pitch.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r32 = shared.r17 * shared.r17 + shared.r20 * shared.r20;
-    let r35 = shared.r28 * shared.r28 + shared.r29 * shared.r29;
-    if !is_near(r32, 1.0000000000000001e-7 * r35) {
+    let r11 = shared.r2 * shared.r2 + shared.r3 * shared.r3;
+    let r14 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
+    if !is_near(r11, 1.0000000000000001e-7 * r14) {
         return;
     }
     for [c2, s2] in SAMPLES_1 {
@@ -466,22 +450,20 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Slide.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = p.py - 0.66;
-    let r16 = 0.0 - (r0 + (r0 - r0) * known.c1 + 0.66 - 0.66);
-    let r19 = (p.px * known.c1 + (0.0 - p.pz) * known.s1) * known.c2;
-    let r28 = 0.2 - (r19 + (0.0 - r16) * known.s2);
-    let shared = &Shared3 { r28 };
+    let r3 = known.c2 * (p.px * known.c1 - p.pz * known.s1);
+    let r7 = r3 + known.s2 * (p.py - 0.66) - 0.2;
+    let shared = &Shared3 { r7 };
     chart_3_1(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r28: f64,
+    r7: f64,
 }
 
 /// Chart 1 of block 3: generic.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let d3 = 0.0 - shared.r28;
+    let d3 = shared.r7;
     let q = [angle(known.c1, known.s1), angle(known.c2, known.s2), d3];
     answers.finish(p, known.branch, known.last, q, known.free);
 }
@@ -496,21 +478,12 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let c2 = q[1].cos();
     let s2 = q[1].sin();
     let d3 = q[2];
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.66 * r2;
-    let r7 = 0.0 - s2;
-    let r9 = c1 * c2;
-    let r10 = r2 * s2;
-    let r11 = r1 * c2;
-    let r17 = 0.66 * (c1 * r7);
-    let r18 = 0.66 * (r2 * c2);
-    let r19 = 0.66 * (r1 * r7);
-    let r37 = 0.66 - r3 + r3 - r18 + r10 * d3 + (0.2 * r10 + r18);
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
     [
-        0.0 - r17 + r9 * d3 + (0.2 * r9 + r17),
-        r37,
-        0.0 - r19 + r11 * d3 + (0.2 * r11 + r19),
+        d3 * r0 + 0.2 * r0,
+        s2 * d3 + 0.2 * s2 + 0.66,
+        0.0 - (d3 * r1 + 0.2 * r1),
     ]
 }
 
@@ -523,7 +496,7 @@ struct Equations {
 fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
     let reached = tip(q);
     let d3 = q[2];
-    let r39 = f64::abs(d3) + 0.8600000000000001;
+    let r6 = f64::abs(d3) + 0.8600000000000001;
     Equations {
         value: [
             reached[0] - p.px,
@@ -531,9 +504,9 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
             reached[2] - p.pz,
         ],
         size: [
-            r39,
-            r39,
-            r39,
+            r6,
+            r6,
+            r6,
         ],
     }
 }
@@ -545,24 +518,15 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let c2 = q[1].cos();
     let s2 = q[1].sin();
     let d3 = q[2];
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.66 * r2;
-    let r5 = 0.66 - r3 + r3;
-    let r7 = 0.0 - s2;
-    let r9 = c1 * c2;
-    let r10 = r2 * s2;
-    let r11 = r1 * c2;
-    let r17 = 0.66 * (c1 * r7);
-    let r18 = 0.66 * (r2 * c2);
-    let r19 = 0.66 * (r1 * r7);
-    let r36 = 0.0 - r17 + r9 * d3 + (0.2 * r9 + r17);
-    let r38 = 0.0 - r19 + r11 * d3 + (0.2 * r11 + r19);
-    let r42 = r5 - r18 + r10 * d3 + (0.2 * r10 + r18) - r5;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r8 = s2 * d3 + 0.2 * s2;
+    let r10 = d3 * r0 + 0.2 * r0;
+    let r12 = d3 * r1 + 0.2 * r1;
     [
-        [r38, 0.0 - c1 * r42, r9],
-        [0.0, c1 * r36 - s1 * r38, r10],
-        [0.0 - r36, s1 * r42, r11],
+        [0.0 - r12, 0.0 - c1 * r8, r0],
+        [0.0, c1 * r10 + s1 * r12, s2],
+        [0.0 - r10, s1 * r8, 0.0 - r1],
     ]
 }
 

@@ -269,12 +269,12 @@ static Parameters parameters(const double *target)
 /* The tip at joint values q, as the equations compare it. */
 static void tip(const double *q, double *reached)
 {
-    const double d1 = q[0], c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double r19 = c2 * s3 + s2 * c3, r21 = (0.0 - s2) * s3 + c2 * c3;
-    reached[0] = d1 + -0.45 * s2 - -0.45 * r19 + -0.75 * r19;
-    reached[1] = -0.45 * c2 - -0.45 * r21 + -0.75 * r21;
-    reached[2] = r21;
-    reached[3] = r19;
+    const double d1 = q[0], c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]), r1 = c2 * c3;
+    const double r2 = s2 * s3, r3 = s2 * c3, r4 = c2 * s3;
+    reached[0] = d1 - 0.45 * s2 - 0.3 * r4 - 0.3 * r3;
+    reached[1] = 0.0 - (0.45 * c2 - 0.3 * r2 + 0.3 * r1);
+    reached[2] = r1 - r2;
+    reached[3] = r3 + r4;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -287,7 +287,7 @@ static Equations equations(const Parameters *p, const double *q)
 {
     double reached[TIP];
     tip(q, reached);
-    const double d1 = q[0], r30 = fabs(d1) + 0.75;
+    const double d1 = q[0], r5 = fabs(d1) + 0.75;
     const Equations result = {
         {
             reached[0] - p->px,
@@ -296,8 +296,8 @@ static Equations equations(const Parameters *p, const double *q)
             reached[3] - p->sphi,
         },
         {
-            r30,
-            r30,
+            r5,
+            r5,
             1.0,
             1.0,
         },
@@ -313,14 +313,13 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
-    const double d1 = q[0], c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]), r3 = c2 + (1.0 - c2);
-    const double r5 = -0.45 * c2, r6 = d1 + -0.45 * s2, r19 = c2 * s3 + s2 * c3, r21 = (0.0 - s2) * s3 + c2 * c3;
-    const double r28 = r6 - -0.45 * r19 + -0.75 * r19, r29 = r5 - -0.45 * r21 + -0.75 * r21;
+    const double c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]), r1 = c2 * c3, r2 = s2 * s3;
+    const double r3 = s2 * c3, r4 = c2 * s3, r19 = r3 + r4, r21 = r1 - r2, r29 = 0.0 - r19;
     const Jacobian result = { {
-        {1.0, r29, r3 * (r29 - r5)},
-        {0.0, 0.0 - (r28 - d1), 0.0 - r3 * (r28 - r6)},
-        {0.0, 0.0 - r19, 0.0 - r3 * r19},
-        {0.0, r21, r3 * r21},
+        {1.0, 0.0 - (0.45 * c2 - 0.3 * r2 + 0.3 * r1), 0.3 * (r2 - r1)},
+        {0.0, 0.3 * r3 + (0.45 * s2 + 0.3 * r4), 0.3 * r19},
+        {0.0, r29, r29},
+        {0.0, r21, r21},
     } };
     return result;
 }
@@ -857,16 +856,16 @@ static const Known NOTHING_KNOWN = { 0, 0, 0.0, 0.0, 0.0 };
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r18;
-    double r19;
+    double r4;
+    double r5;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r21 = 0.0 - (0.0 - shared->r18), r23 = 0.0 - (0.0 - shared->r19);
-    const double r27 = sqrt(fmax(r23 * r23 + r21 * r21, 0.0)), c3 = r23 / r27, s3 = r21 / r27;
+    const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5, r9 = sqrt(fmax(r8, 0.0));
+    const double c3 = shared->r4 / r9, s3 = shared->r5 / r9;
     const double q[JOINTS] = {known->d1, angle(known->c2, known->s2), angle(c3, s3)};
     finish(p, known->branch, known->last, q, NONE_FREE, answers);
 }
@@ -874,28 +873,24 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Elbow. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - p->cphi, r2 = 0.0 - (0.0 - p->sphi);
-    const double r11 = 0.0 - (r1 * known->c2 + (0.0 - r2) * known->s2);
-    const double r16 = r2 * known->c2 + (0.0 - (0.0 - r1)) * known->s2, r18 = 0.0 - (0.0 - r16);
-    const double r19 = 0.0 - (0.0 - r11);
-    const Shared3 own = { r18, r19 };
+    const double r4 = p->cphi * known->c2 + p->sphi * known->s2, r5 = p->sphi * known->c2 - p->cphi * known->s2;
+    const Shared3 own = { r4, r5 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r9;
-    double r10;
+    double r1;
+    double r4;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r14 = (0.0 - (0.0 - -0.45 * shared->r9)) / 0.2025;
-    const double r18 = (0.0 - (0.0 - -0.45 * shared->r10)) / 0.2025;
-    const double r22 = sqrt(fmax(r18 * r18 + r14 * r14, 0.0)), c2 = r18 / r22, s2 = r14 / r22;
+    const double r6 = 0.45 * shared->r4 / 0.2025, r8 = 0.45 * shared->r1 / 0.2025;
+    const double r12 = sqrt(fmax(r8 * r8 + r6 * r6, 0.0)), c2 = 0.0 - r8 / r12, s2 = 0.0 - r6 / r12;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -907,28 +902,26 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Shoulder. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r8 = 0.0 - (0.0 - known->d1 + (p->px + 0.3 * p->sphi)), r9 = 0.0 - r8;
-    const double r10 = 0.0 - (0.0 - (p->pz + 0.3 * p->cphi));
-    const Shared2 own = { r9, r10 };
+    const double r1 = p->pz + 0.3 * p->cphi, r4 = 0.3 * p->sphi - (known->d1 - p->px);
+    const Shared2 own = { r1, r4 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r17;
-    double r19;
+    double r1;
+    double r13;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r22 = 0.0 - shared->r17 - shared->r19 * shared->r19;
-    const double choice0_0[3] = {r22, 0.0, 1.0};
+    const double choice0_0[3] = {shared->r13 - shared->r1 * shared->r1, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], d1 = (0.0 - (shared->r19 - w1)) / (-1.0);
+        const double w1 = roots0.values[i0], d1 = shared->r1 - w1;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -940,10 +933,9 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Rail. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r3 = p->px + 0.3 * p->sphi, r7 = p->px * r3 + p->pz * (p->pz + 0.3 * p->cphi);
-    const double r13 = r7 + r7 - (p->px * p->px + p->pz * p->pz) + 0.09, r14 = 0.0 - r3, r17 = 0.2025 - r13;
-    const double r19 = 0.5 * (0.0 - (r14 + r14));
-    const Shared1 own = { r17, r19 };
+    const double r1 = p->px + 0.3 * p->sphi, r10 = 2.0 * (p->px * r1) + 2.0 * (p->pz * (p->pz + 0.3 * p->cphi));
+    const double r13 = r10 - p->px * p->px - p->pz * p->pz - 0.1125;
+    const Shared1 own = { r1, r13 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

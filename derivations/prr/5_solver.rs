@@ -291,30 +291,24 @@ const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, d1: 0.0, c2: 0.0, s2: 0
 
 /// Block 1: Rail.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r3 = p.px + 0.3 * p.sphi;
-    let r7 = p.px * r3 + p.pz * (p.pz + 0.3 * p.cphi);
-    let r14 = 0.0 - r3;
-    let r17 = 0.2025 - (r7 + r7 - (p.px * p.px + p.pz * p.pz) + 0.09);
-    let r19 = 0.5 * (0.0 - (r14 + r14));
-    let shared = &Shared1 { r17, r19 };
+    let r1 = p.px + 0.3 * p.sphi;
+    let r10 = 2.0 * (p.px * r1) + 2.0 * (p.pz * (p.pz + 0.3 * p.cphi));
+    let r13 = r10 - p.px * p.px - p.pz * p.pz - 0.1125;
+    let shared = &Shared1 { r1, r13 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r17: f64,
-    r19: f64,
+    r1: f64,
+    r13: f64,
 }
 
 /// Chart 1 of block 1: generic.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let roots0 = real_roots(&[
-        0.0 - shared.r17 - shared.r19 * shared.r19,
-        0.0,
-        1.0,
-    ], 1.4142135623730951);
+    let roots0 = real_roots(&[shared.r13 - shared.r1 * shared.r1, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let d1 = (0.0 - (shared.r19 - w1)) / (-1.0);
+        let d1 = shared.r1 - w1;
         let next = Known { branch: i0, last: 2, d1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -322,55 +316,49 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Shoulder.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r8 = 0.0 - (0.0 - known.d1 + (p.px + 0.3 * p.sphi));
-    let r9 = 0.0 - r8;
-    let r10 = 0.0 - (0.0 - (p.pz + 0.3 * p.cphi));
-    let shared = &Shared2 { r9, r10 };
+    let r1 = p.pz + 0.3 * p.cphi;
+    let r4 = 0.3 * p.sphi - (known.d1 - p.px);
+    let shared = &Shared2 { r1, r4 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r9: f64,
-    r10: f64,
+    r1: f64,
+    r4: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r14 = (0.0 - (0.0 - -0.45 * shared.r9)) / 0.2025;
-    let r18 = (0.0 - (0.0 - -0.45 * shared.r10)) / 0.2025;
-    let r22 = f64::max(r18 * r18 + r14 * r14, 0.0).sqrt();
-    let c2 = r18 / r22;
-    let s2 = r14 / r22;
+    let r6 = 0.45 * shared.r4 / 0.2025;
+    let r8 = 0.45 * shared.r1 / 0.2025;
+    let r12 = f64::max(r8 * r8 + r6 * r6, 0.0).sqrt();
+    let c2 = 0.0 - r8 / r12;
+    let s2 = 0.0 - r6 / r12;
     let next = Known { branch: known.branch, last: known.last, c2, s2, ..*known };
     block_3(p, &next, answers);
 }
 
 /// Block 3: Elbow.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - p.cphi;
-    let r2 = 0.0 - (0.0 - p.sphi);
-    let r11 = 0.0 - (r1 * known.c2 + (0.0 - r2) * known.s2);
-    let r16 = r2 * known.c2 + (0.0 - (0.0 - r1)) * known.s2;
-    let r18 = 0.0 - (0.0 - r16);
-    let r19 = 0.0 - (0.0 - r11);
-    let shared = &Shared3 { r18, r19 };
+    let r4 = p.cphi * known.c2 + p.sphi * known.s2;
+    let r5 = p.sphi * known.c2 - p.cphi * known.s2;
+    let shared = &Shared3 { r4, r5 };
     chart_3_1(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r18: f64,
-    r19: f64,
+    r4: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 3: generic.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r21 = 0.0 - (0.0 - shared.r18);
-    let r23 = 0.0 - (0.0 - shared.r19);
-    let r27 = f64::max(r23 * r23 + r21 * r21, 0.0).sqrt();
-    let c3 = r23 / r27;
-    let s3 = r21 / r27;
+    let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5;
+    let r9 = f64::max(r8, 0.0).sqrt();
+    let c3 = shared.r4 / r9;
+    let s3 = shared.r5 / r9;
     let q = [known.d1, angle(known.c2, known.s2), angle(c3, s3)];
     answers.finish(p, known.branch, known.last, q, NONE_FREE);
 }
@@ -385,13 +373,15 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s2 = q[1].sin();
     let c3 = q[2].cos();
     let s3 = q[2].sin();
-    let r19 = c2 * s3 + s2 * c3;
-    let r21 = (0.0 - s2) * s3 + c2 * c3;
+    let r1 = c2 * c3;
+    let r2 = s2 * s3;
+    let r3 = s2 * c3;
+    let r4 = c2 * s3;
     [
-        d1 + -0.45 * s2 - -0.45 * r19 + -0.75 * r19,
-        -0.45 * c2 - -0.45 * r21 + -0.75 * r21,
-        r21,
-        r19,
+        d1 - 0.45 * s2 - 0.3 * r4 - 0.3 * r3,
+        0.0 - (0.45 * c2 - 0.3 * r2 + 0.3 * r1),
+        r1 - r2,
+        r3 + r4,
     ]
 }
 
@@ -404,7 +394,7 @@ struct Equations {
 fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
     let reached = tip(q);
     let d1 = q[0];
-    let r30 = f64::abs(d1) + 0.75;
+    let r5 = f64::abs(d1) + 0.75;
     Equations {
         value: [
             reached[0] - p.px,
@@ -413,8 +403,8 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
             reached[3] - p.sphi,
         ],
         size: [
-            r30,
-            r30,
+            r5,
+            r5,
             1.0,
             1.0,
         ],
@@ -423,23 +413,22 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
-    let d1 = q[0];
     let c2 = q[1].cos();
     let s2 = q[1].sin();
     let c3 = q[2].cos();
     let s3 = q[2].sin();
-    let r3 = c2 + (1.0 - c2);
-    let r5 = -0.45 * c2;
-    let r6 = d1 + -0.45 * s2;
-    let r19 = c2 * s3 + s2 * c3;
-    let r21 = (0.0 - s2) * s3 + c2 * c3;
-    let r28 = r6 - -0.45 * r19 + -0.75 * r19;
-    let r29 = r5 - -0.45 * r21 + -0.75 * r21;
+    let r1 = c2 * c3;
+    let r2 = s2 * s3;
+    let r3 = s2 * c3;
+    let r4 = c2 * s3;
+    let r19 = r3 + r4;
+    let r21 = r1 - r2;
+    let r29 = 0.0 - r19;
     [
-        [1.0, r29, r3 * (r29 - r5)],
-        [0.0, 0.0 - (r28 - d1), 0.0 - r3 * (r28 - r6)],
-        [0.0, 0.0 - r19, 0.0 - r3 * r19],
-        [0.0, r21, r3 * r21],
+        [1.0, 0.0 - (0.45 * c2 - 0.3 * r2 + 0.3 * r1), 0.3 * (r2 - r1)],
+        [0.0, 0.3 * r3 + (0.45 * s2 + 0.3 * r4), 0.3 * r19],
+        [0.0, r29, r29],
+        [0.0, r21, r21],
     ]
 }
 

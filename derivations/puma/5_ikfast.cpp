@@ -284,39 +284,28 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r2 = c1 + (1.0 - c1), r3 = 0.66 * r2, r7 = c2 + (1.0 - c2), r11 = s1 * s2, r12 = r2 * c2;
-    const double r13 = c1 * s2, r14 = s1 * c2, r15 = r2 * (0.0 - s2), r16 = c1 * c2, r30 = c3 + (1.0 - c3);
-    const double r31 = 0.0 - s3, r32 = c1 * r7 * r30, r33 = (0.0 - s1) * r7 * r30, r36 = r11 * c3 + r14 * s3;
-    const double r39 = r12 * c3 + r15 * s3, r42 = r13 * c3 + r16 * s3, r45 = r11 * r31 + r14 * c3;
-    const double r48 = r12 * r31 + r15 * c3, r51 = r13 * r31 + r16 * c3;
-    const double r56 = 0.66 - r3 + r3 - 0.66 * r12 + 1.092 * r12 - 1.092 * r39;
-    const double r61 = 0.0 - 0.66 * r11 + 1.092 * r11 - 1.092 * r36 + 1.524 * r36;
-    const double r63 = 0.0 - 0.66 * r13 + 1.092 * r13 - 1.092 * r42 + 1.524 * r42, r65 = 0.0 - s4;
-    const double r66 = c4 + (1.0 - c4), r74 = r36 * r66, r75 = r39 * r66, r76 = r42 * r66;
-    const double r79 = r32 * s4 + r45 * c4, r80 = r48 * c4, r83 = r33 * s4 + r51 * c4, r84 = 1.524 * r74;
-    const double r85 = 1.524 * r75, r86 = 1.524 * r76, r94 = c5 + (1.0 - c5), r95 = 0.0 - s5;
-    const double r96 = (r32 * c4 + r45 * r65) * r94, r97 = r48 * r65 * r94, r98 = (r33 * c4 + r51 * r65) * r94;
-    const double r101 = r74 * c5 + r79 * s5, r104 = r75 * c5 + r80 * s5, r107 = r76 * c5 + r83 * s5;
-    const double r117 = 1.524 * r101, r118 = 1.524 * r104, r119 = 1.524 * r107, r127 = 0.0 - s6;
-    const double r128 = c6 + (1.0 - c6), r140 = r96 * r127 + r101 * c6, r143 = r97 * r127 + r104 * c6;
-    const double r146 = r98 * r127 + r107 * c6, r147 = (r74 * r95 + r79 * c5) * r128;
-    const double r148 = (r75 * r95 + r80 * c5) * r128, r149 = (r76 * r95 + r83 * c5) * r128, r150 = 1.524 * r140;
-    const double r151 = 1.524 * r143, r152 = 1.524 * r146;
-    const double r154 = r56 + 1.524 * r39 - r85 + r85 - r118 + r118 - r151;
-    const double r162 = r61 - r84 + r84 - r117 + r117 - r150 + (r150 + 0.15 * r147);
-    const double r164 = r63 - r86 + r86 - r119 + r119 - r152 + (r152 + 0.15 * r149);
-    reached[0] = r162;
-    reached[1] = r154 + (r151 + 0.15 * r148);
-    reached[2] = r164;
-    reached[3] = r96 * c6 + r101 * s6;
-    reached[4] = r97 * c6 + r104 * s6;
-    reached[5] = r98 * c6 + r107 * s6;
-    reached[6] = r140;
-    reached[7] = r143;
-    reached[8] = r146;
-    reached[9] = r147;
-    reached[10] = r148;
-    reached[11] = r149;
+    const double r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c2 * c3, r7 = s2 * s3, r8 = c3 * r1, r9 = s3 * r3, r17 = s3 * r0 - c3 * r2;
+    const double r19 = c2 * s3 + s2 * c3, r20 = s4 * r19, r22 = s3 * r1 - c3 * r3, r26 = c4 * r19, r29 = r4 + r5;
+    const double r31 = c1 * s4 - c4 * r17, r33 = r6 - r7, r36 = r8 + r9, r38 = s1 * s4 + c4 * r22;
+    const double r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r26, r44 = s5 * r36, r45 = c5 * r38;
+    const double r46 = c1 * c4 + s4 * r17, r48 = c5 * r29 + s5 * r31, r51 = c5 * r33 - s5 * r26;
+    const double r53 = s1 * c4 - s4 * r22, r55 = c5 * r36 - s5 * r38;
+    const double r69 = 0.432 * c2 + 0.432 * r6 - 0.432 * r7 - 0.15 * r42;
+    const double r78 = 0.432 * r0 + 0.432 * r4 + 0.432 * r5 - 0.15 * r40;
+    const double r87 = 0.432 * r1 + 0.432 * r8 + 0.432 * r9 - 0.15 * r44;
+    reached[0] = r78 + 0.15 * r41;
+    reached[1] = r69 - 0.15 * r43 + 0.66;
+    reached[2] = r87 - 0.15 * r45;
+    reached[3] = c6 * r46 + s6 * r48;
+    reached[4] = c6 * r20 + s6 * r51;
+    reached[5] = s6 * r55 - c6 * r53;
+    reached[6] = c6 * r48 - s6 * r46;
+    reached[7] = c6 * r51 - s6 * r20;
+    reached[8] = s6 * r53 + c6 * r55;
+    reached[9] = r41 - r40;
+    reached[10] = 0.0 - (r42 + r43);
+    reached[11] = 0.0 - (r44 + r45);
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -372,45 +361,39 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.66 * r2, r5 = 0.66 - r3 + r3, r7 = c2 + (1.0 - c2);
-    const double r9 = c1 * r7, r10 = r1 * r7, r11 = s1 * s2, r12 = r2 * c2, r13 = c1 * s2, r14 = s1 * c2;
-    const double r15 = r2 * (0.0 - s2), r16 = c1 * c2, r26 = 0.0 - 0.66 * r11 + 1.092 * r11;
-    const double r27 = r5 - 0.66 * r12 + 1.092 * r12, r28 = 0.0 - 0.66 * r13 + 1.092 * r13;
-    const double r30 = c3 + (1.0 - c3), r31 = 0.0 - s3, r32 = r9 * r30, r33 = r10 * r30;
-    const double r36 = r11 * c3 + r14 * s3, r39 = r12 * c3 + r15 * s3, r42 = r13 * c3 + r16 * s3;
-    const double r45 = r11 * r31 + r14 * c3, r48 = r12 * r31 + r15 * c3, r51 = r13 * r31 + r16 * c3;
-    const double r61 = r26 - 1.092 * r36 + 1.524 * r36, r62 = r27 - 1.092 * r39 + 1.524 * r39;
-    const double r63 = r28 - 1.092 * r42 + 1.524 * r42, r65 = 0.0 - s4, r66 = c4 + (1.0 - c4);
-    const double r69 = r32 * c4 + r45 * r65, r70 = r48 * r65, r73 = r33 * c4 + r51 * r65, r74 = r36 * r66;
-    const double r75 = r39 * r66, r76 = r42 * r66, r79 = r32 * s4 + r45 * c4, r80 = r48 * c4;
-    const double r83 = r33 * s4 + r51 * c4, r84 = 1.524 * r74, r85 = 1.524 * r75, r86 = 1.524 * r76;
-    const double r90 = r61 - r84 + r84, r91 = r62 - r85 + r85, r92 = r63 - r86 + r86, r94 = c5 + (1.0 - c5);
-    const double r95 = 0.0 - s5, r96 = r69 * r94, r97 = r70 * r94, r98 = r73 * r94, r101 = r74 * c5 + r79 * s5;
-    const double r104 = r75 * c5 + r80 * s5, r107 = r76 * c5 + r83 * s5, r110 = r74 * r95 + r79 * c5;
-    const double r113 = r75 * r95 + r80 * c5, r116 = r76 * r95 + r83 * c5, r117 = 1.524 * r101;
-    const double r118 = 1.524 * r104, r119 = 1.524 * r107, r123 = r90 - r117 + r117, r124 = r91 - r118 + r118;
-    const double r125 = r92 - r119 + r119, r127 = 0.0 - s6, r128 = c6 + (1.0 - c6), r131 = r96 * c6 + r101 * s6;
-    const double r134 = r97 * c6 + r104 * s6, r137 = r98 * c6 + r107 * s6, r140 = r96 * r127 + r101 * c6;
-    const double r143 = r97 * r127 + r104 * c6, r146 = r98 * r127 + r107 * c6, r147 = r110 * r128;
-    const double r148 = r113 * r128, r149 = r116 * r128, r150 = 1.524 * r140, r151 = 1.524 * r143;
-    const double r152 = 1.524 * r146, r162 = r123 - r150 + (r150 + 0.15 * r147);
-    const double r163 = r124 - r151 + (r151 + 0.15 * r148), r164 = r125 - r152 + (r152 + 0.15 * r149);
-    const double r167 = r163 - r5, r175 = r163 - r27, r183 = r162 - r61, r184 = r163 - r62, r185 = r164 - r63;
-    const double r195 = r162 - r90, r196 = r163 - r91, r197 = r164 - r92, r207 = r162 - r123, r208 = r163 - r124;
-    const double r209 = r164 - r125;
+    const double r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c2 * c3, r7 = s2 * s3, r8 = c3 * r1, r9 = s3 * r3, r17 = s3 * r0 - c3 * r2;
+    const double r19 = c2 * s3 + s2 * c3, r20 = s4 * r19, r22 = s3 * r1 - c3 * r3, r26 = c4 * r19, r29 = r4 + r5;
+    const double r31 = c1 * s4 - c4 * r17, r33 = r6 - r7, r36 = r8 + r9, r38 = s1 * s4 + c4 * r22;
+    const double r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r26, r44 = s5 * r36, r45 = c5 * r38;
+    const double r46 = c1 * c4 + s4 * r17, r48 = c5 * r29 + s5 * r31, r51 = c5 * r33 - s5 * r26;
+    const double r53 = s1 * c4 - s4 * r22, r54 = c6 * r53, r55 = c5 * r36 - s5 * r38, r56 = s6 * r55;
+    const double r64 = 0.432 * r6, r66 = 0.432 * r7, r68 = 0.15 * r42, r70 = 0.15 * r43;
+    const double r71 = 0.432 * c2 + r64 - r66 - r68 - r70, r73 = 0.432 * r4, r75 = 0.432 * r5, r77 = 0.15 * r40;
+    const double r79 = 0.15 * r41, r80 = 0.432 * r0 + r73 + r75 - r77 + r79, r82 = 0.432 * r8, r84 = 0.432 * r9;
+    const double r86 = 0.15 * r44, r88 = 0.15 * r45, r89 = 0.432 * r1 + r82 + r84 - r86 - r88, r90 = r44 + r45;
+    const double r91 = r42 + r43, r96 = c6 * r20 + s6 * r51, r97 = c6 * r46 + s6 * r48;
+    const double r102 = s6 * r53 + c6 * r55, r120 = r64 - r66 - r68 - r70, r131 = r33 * r90, r132 = r36 * r91;
+    const double r133 = r40 - r41, r134 = r36 * r133, r135 = r29 * r90, r136 = r29 * r91, r137 = r33 * r133;
+    const double r142 = r46 * r91, r143 = r20 * r133, r147 = r20 * r90 + r53 * r91;
+    const double r152 = s1 * (r79 + (r73 + r75 - r77)) + c1 * (r82 + r84 - r86 - r88);
+    const double r157 = r53 * r133 + r46 * r90, r166 = s1 * r96, r168 = r54 - r56, r170 = c1 * r96;
+    const double r193 = c1 * r168 - s1 * r97, r202 = s6 * r20 - c6 * r51, r204 = s6 * r46 - c6 * r48;
+    const double r226 = 0.0 - s1 * r202, r231 = s1 * r204 - c1 * r102, r236 = 0.0 - c1 * r202;
+    const double r244 = 0.0 - s1 * r91, r247 = s1 * r133 + c1 * r90, r249 = 0.0 - c1 * r91;
     const Jacobian result = { {
-        {r164, 0.0 - r1 * r167, 0.0 - r10 * r175, r39 * r185 - r42 * r184, r70 * r197 - r73 * r196, r113 * r209 - r116 * r208},
-        {0.0, r1 * r162 - c1 * r164, r10 * (r162 - r26) - r9 * (r164 - r28), r42 * r183 - r36 * r185, r73 * r195 - r69 * r197, r116 * r207 - r110 * r209},
-        {0.0 - r162, c1 * r167, r9 * r175, r36 * r184 - r39 * r183, r69 * r196 - r70 * r195, r110 * r208 - r113 * r207},
-        {r137, 0.0 - r1 * r134, 0.0 - r10 * r134, r39 * r137 - r42 * r134, r70 * r137 - r73 * r134, r113 * r137 - r116 * r134},
-        {0.0, r1 * r131 - c1 * r137, r10 * r131 - r9 * r137, r42 * r131 - r36 * r137, r73 * r131 - r69 * r137, r116 * r131 - r110 * r137},
-        {0.0 - r131, c1 * r134, r9 * r134, r36 * r134 - r39 * r131, r69 * r134 - r70 * r131, r110 * r134 - r113 * r131},
-        {r146, 0.0 - r1 * r143, 0.0 - r10 * r143, r39 * r146 - r42 * r143, r70 * r146 - r73 * r143, r113 * r146 - r116 * r143},
-        {0.0, r1 * r140 - c1 * r146, r10 * r140 - r9 * r146, r42 * r140 - r36 * r146, r73 * r140 - r69 * r146, r116 * r140 - r110 * r146},
-        {0.0 - r140, c1 * r143, r9 * r143, r36 * r143 - r39 * r140, r69 * r143 - r70 * r140, r110 * r143 - r113 * r140},
-        {r149, 0.0 - r1 * r148, 0.0 - r10 * r148, r39 * r149 - r42 * r148, r70 * r149 - r73 * r148, r113 * r149 - r116 * r148},
-        {0.0, r1 * r147 - c1 * r149, r10 * r147 - r9 * r149, r42 * r147 - r36 * r149, r73 * r147 - r69 * r149, r116 * r147 - r110 * r149},
-        {0.0 - r147, c1 * r148, r9 * r148, r36 * r148 - r39 * r147, r69 * r148 - r70 * r147, r110 * r148 - r113 * r147},
+        {r89, s1 * r71, s1 * r120, 0.0 - 0.15 * (r131 - r132), 0.0 - 0.15 * r147, 0.0},
+        {0.0, 0.0 - (s1 * r80 + c1 * r89), 0.0 - r152, 0.0 - 0.15 * (r134 - r135), 0.15 * r157, 0.0},
+        {0.0 - r80, c1 * r71, c1 * r120, 0.0 - 0.15 * (r136 - r137), 0.0 - 0.15 * (r142 - r143), 0.0},
+        {r56 - r54, r166, r166, 0.0 - (r33 * r168 + r36 * r96), r53 * r96 - r20 * r168, r91 * r168 + r90 * r96},
+        {0.0, r193, r193, r36 * r97 + r29 * r168, r46 * r168 - r53 * r97, 0.0 - (r90 * r97 + r133 * r168)},
+        {0.0 - r97, r170, r170, r29 * r96 - r33 * r97, r46 * r96 - r20 * r97, r91 * r97 - r133 * r96},
+        {r102, r226, r226, r33 * r102 + r36 * r202, r20 * r102 - r53 * r202, 0.0 - (r91 * r102 + r90 * r202)},
+        {0.0, r231, r231, 0.0 - (r36 * r204 + r29 * r102), r53 * r204 - r46 * r102, r90 * r204 + r133 * r102},
+        {r204, r236, r236, r33 * r204 - r29 * r202, r20 * r204 - r46 * r202, r133 * r202 - r91 * r204},
+        {0.0 - r90, r244, r244, r132 - r131, 0.0 - r147, 0.0},
+        {0.0, r247, r247, r135 - r134, r157, 0.0},
+        {r133, r249, r249, r137 - r136, r143 - r142, 0.0},
     } };
     return result;
 }
@@ -1144,16 +1127,17 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r100;
-    double r101;
+    double r14;
+    double r16;
+    double r34;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r102 = 0.0 - shared->r101, r104 = 0.0 - (-0.0 - shared->r100);
-    const double r108 = sqrt(fmax(r104 * r104 + r102 * r102, 0.0)), c6 = r104 / r108, s6 = r102 / r108;
+    const double r35 = shared->r16 - shared->r14, r39 = sqrt(fmax(shared->r34 * shared->r34 + r35 * r35, 0.0));
+    const double c6 = shared->r34 / r39, s6 = r35 / r39;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1168,37 +1152,32 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: WristRoll. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r12_ * known->c1 + (0.0 - p->r32_) * known->s1;
-    const double r10 = p->r32_ * known->c1 + (0.0 - (0.0 - p->r12_)) * known->s1;
-    const double r11 = p->r22_ + (p->r22_ - p->r22_) * known->c1;
-    const double r19 = r11 * known->c2 + (0.0 - (0.0 - r10)) * known->s2, r23 = r6 + (r6 - r6) * known->c2;
-    const double r32 = (r10 * known->c2 + (0.0 - r11) * known->s2) * known->c3;
-    const double r41 = (0.0 - (r32 + (0.0 - r19) * known->s3)) * known->s4;
-    const double r42 = (r23 + (r23 - r23) * known->c3) * known->c4 + r41, r49 = 0.0 - p->r11_;
-    const double r50 = 0.0 - p->r21_, r51 = 0.0 - p->r31_, r58 = r49 * known->c1 + (0.0 - r51) * known->s1;
-    const double r62 = r51 * known->c1 + (0.0 - (0.0 - r49)) * known->s1, r63 = r50 + (r50 - r50) * known->c1;
-    const double r71 = r63 * known->c2 + (0.0 - (0.0 - r62)) * known->s2, r75 = r58 + (r58 - r58) * known->c2;
-    const double r84 = (r62 * known->c2 + (0.0 - r63) * known->s2) * known->c3;
-    const double r93 = (0.0 - (r84 + (0.0 - r71) * known->s3)) * known->s4;
-    const double r94 = (r75 + (r75 - r75) * known->c3) * known->c4 + r93, r100 = 0.0 - r94;
-    const double r101 = 0.0 - (0.0 - r42);
-    const Shared6 own = { r100, r101 };
+    const double r5 = p->r32_ * known->c1 + p->r12_ * known->s1;
+    const double r11 = known->c3 * (known->c2 * r5 - p->r22_ * known->s2);
+    const double r12 = known->s3 * (p->r22_ * known->c2 + known->s2 * r5);
+    const double r14 = known->c4 * (p->r12_ * known->c1 - p->r32_ * known->s1), r16 = known->s4 * (r11 - r12);
+    const double r22 = p->r31_ * known->c1 + p->r11_ * known->s1;
+    const double r28 = known->c3 * (known->c2 * r22 - p->r21_ * known->s2);
+    const double r29 = known->s3 * (p->r21_ * known->c2 + known->s2 * r22);
+    const double r31 = known->c4 * (p->r11_ * known->c1 - p->r31_ * known->s1);
+    const double r34 = r31 - known->s4 * (r28 - r29);
+    const Shared6 own = { r14, r16, r34 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r50;
-    double r51;
+    double r19;
+    double r20;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r52 = 0.0 - shared->r50, r54 = 0.0 - (-0.0 - shared->r51);
-    const double r58 = sqrt(fmax(r54 * r54 + r52 * r52, 0.0)), c5 = r54 / r58, s5 = r52 / r58;
+    const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r24 = sqrt(fmax(r23, 0.0));
+    const double c5 = shared->r20 / r24, s5 = 0.0 - shared->r19 / r24;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1210,24 +1189,20 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: WristPitch. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - p->r33_) * known->s1;
-    const double r10 = p->r33_ * known->c1 + (0.0 - (0.0 - p->r13_)) * known->s1;
-    const double r11 = p->r23_ + (p->r23_ - p->r23_) * known->c1;
-    const double r19 = r11 * known->c2 + (0.0 - (0.0 - r10)) * known->s2;
-    const double r22 = r10 * known->c2 + (0.0 - r11) * known->s2, r23 = r6 + (r6 - r6) * known->c2;
-    const double r31 = r19 * known->c3 + (0.0 - (0.0 - r22)) * known->s3;
-    const double r40 = 0.0 - (0.0 - (r23 + (r23 - r23) * known->c3));
-    const double r45 = (r22 * known->c3 + (0.0 - r19) * known->s3) * known->c4, r50 = 0.0 - (0.0 - r31);
-    const double r51 = 0.0 - (0.0 - (r45 + r40 * known->s4));
-    const Shared5 own = { r50, r51 };
+    const double r5 = p->r33_ * known->c1 + p->r13_ * known->s1, r9 = p->r23_ * known->c2 + known->s2 * r5;
+    const double r11 = known->c2 * r5 - p->r23_ * known->s2;
+    const double r17 = known->c4 * (known->c3 * r11 - known->s3 * r9);
+    const double r18 = known->s4 * (p->r13_ * known->c1 - p->r33_ * known->s1);
+    const double r19 = known->c3 * r9 + known->s3 * r11, r20 = r17 + r18;
+    const Shared5 own = { r19, r20 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r37;
-    double r40;
+    double r13;
+    double r14;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1235,16 +1210,15 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r41 = shared->r37 * shared->r37, r42 = shared->r40 * shared->r40, r43 = r41 + r42;
-    if (!is_away(r43, 4240000.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
+    if (!is_away(r17, 4240000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r41 - r42, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r15 - r16, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, known->f2 * (20.591260281974 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r51 = (0.0 - (0.0 - shared->r37 * w4)) / r43;
-        const double r54 = (0.0 - shared->r40 * w4) / r43, r58 = sqrt(fmax(r54 * r54 + r51 * r51, 0.0));
-        const double c4 = r54 / r58, s4 = r51 / r58;
+        const double w4 = roots0.values[i0], r23 = w4 * shared->r13 / r17, r25 = w4 * shared->r14 / r17;
+        const double r29 = sqrt(fmax(r25 * r25 + r23 * r23, 0.0)), c4 = 0.0 - r25 / r29, s4 = r23 / r29;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1260,8 +1234,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r43 = shared->r37 * shared->r37 + shared->r40 * shared->r40;
-    if (!is_near(r43, 4.24e-5)) {
+    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
+    if (!is_near(r17, 4.24e-5)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1279,14 +1253,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: WristYaw. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - p->r33_) * known->s1;
-    const double r10 = p->r33_ * known->c1 + (0.0 - (0.0 - p->r13_)) * known->s1;
-    const double r11 = p->r23_ + (p->r23_ - p->r23_) * known->c1;
-    const double r19 = r11 * known->c2 + (0.0 - (0.0 - r10)) * known->s2, r23 = r6 + (r6 - r6) * known->c2;
-    const double r32 = (r10 * known->c2 + (0.0 - r11) * known->s2) * known->c3;
-    const double r37 = 0.0 - (r23 + (r23 - r23) * known->c3);
-    const double r40 = 0.0 - (0.0 - (r32 + (0.0 - r19) * known->s3));
-    const Shared4 own = { r37, r40 };
+    const double r5 = p->r33_ * known->c1 + p->r13_ * known->s1;
+    const double r11 = known->c3 * (known->c2 * r5 - p->r23_ * known->s2);
+    const double r12 = known->s3 * (p->r23_ * known->c2 + known->s2 * r5);
+    const double r13 = p->r33_ * known->s1 - p->r13_ * known->c1, r14 = r11 - r12;
+    const Shared4 own = { r13, r14 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1294,12 +1265,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r3;
-    double r27;
-    double r28;
-    double r29;
-    double r38;
-    double r39;
+    double r7;
+    double r8;
+    double r11;
+    double r12;
+    double r16;
+    double r17;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1307,13 +1278,13 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r42 = shared->r3 * shared->r3 + shared->r27 * shared->r27;
-    if (!is_away(r42, 259228.80000000002)) {
+    const double r20 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
+    if (!is_away(r20, 259228.80000000002)) {
         return;
     }
-    const double f2 = 1.0, r45 = shared->r27 * shared->r28 - shared->r3 * shared->r29, r47 = (0.0 - r45) / r42;
-    const double r51 = 0.0 - shared->r3 * shared->r28 - shared->r27 * shared->r29, r53 = (0.0 - r51) / r42;
-    const double r57 = sqrt(fmax(r53 * r53 + r47 * r47, 0.0)), c2 = r53 / r57, s2 = r47 / r57;
+    const double f2 = 1.0, r23 = shared->r7 * shared->r12 - shared->r8 * shared->r11, r24 = r23 / r20;
+    const double r28 = shared->r8 * shared->r12 - (0.0 - shared->r7 * shared->r11), r29 = r28 / r20;
+    const double r33 = sqrt(fmax(r29 * r29 + r24 * r24, 0.0)), c2 = r29 / r33, s2 = r24 / r33;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1329,8 +1300,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r42 = shared->r3 * shared->r3 + shared->r27 * shared->r27;
-    if (!(is_near(r42, 2.5922880000000007e-6) && is_near(shared->r29, 0.01 * shared->r39) && is_near(shared->r28, 0.01 * shared->r38))) {
+    const double r20 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
+    if (!(is_near(r20, 2.5922880000000007e-6) && is_near(shared->r12, 0.01 * shared->r17) && is_near(shared->r11, 0.01 * shared->r16))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1350,13 +1321,10 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: ShoulderPitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r3 = 0.432 * known->c3 + 1.092 - 0.66;
-    const double r22 = (0.0 - (0.0 - (p->px + -0.15 * p->r13_))) * known->s1;
-    const double r26 = 0.0 - ((p->pz + -0.15 * p->r33_) * known->c1 + r22);
-    const double r27 = 0.0 - (0.0 - 0.432 * known->s3), r28 = 0.0 - (0.66 - (p->py + -0.15 * p->r23_));
-    const double r29 = 0.0 - r26, r30 = p->magnitude + 3.198, r38 = fabs(0.0 - (r30 + 0.66));
-    const double r39 = fabs(0.0 - (r30 + r30));
-    const Shared3 own = { r3, r27, r28, r29, r38, r39 };
+    const double r7 = 0.432 * (known->c3 + 1.0), r8 = 0.432 * known->s3, r11 = p->py - 0.15 * p->r23_ - 0.66;
+    const double r12 = known->c1 * (p->pz - 0.15 * p->r33_) + known->s1 * (p->px - 0.15 * p->r13_);
+    const double r16 = fabs(p->magnitude + 3.858), r17 = fabs(2.0 * p->magnitude + 6.396);
+    const Shared3 own = { r7, r8, r11, r12, r16, r17 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1364,20 +1332,20 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r26;
+    double r24;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r28 = shared->r26 * shared->r26 - 0.13931406950400002;
-    const double choice0_0[3] = {r28, 0.0, 1.0};
+    const double r26 = shared->r24 * shared->r24 - 0.13931406950400002;
+    const double choice0_0[3] = {r26, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->f1);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r33 = (0.0 - (0.0 - 0.373248 * w3)) / 0.13931406950400002;
-        const double r36 = (0.0 - 0.373248 * shared->r26) / 0.13931406950400002;
-        const double r40 = sqrt(fmax(r36 * r36 + r33 * r33, 0.0)), c3 = r36 / r40, s3 = r33 / r40;
+        const double w3 = roots0.values[i0], r29 = 0.373248 * w3 / 0.13931406950400002;
+        const double r31 = 0.373248 * shared->r24 / 0.13931406950400002;
+        const double r35 = sqrt(fmax(r31 * r31 + r29 * r29, 0.0)), c3 = r31 / r35, s3 = r29 / r35;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1390,20 +1358,20 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: ElbowPitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r4 = p->py + -0.15 * p->r23_, r9 = p->px * (p->px + -0.15 * p->r13_) + p->py * r4;
-    const double r10 = r9 + p->pz * (p->pz + -0.15 * p->r33_);
-    const double r16 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r24 = r10 + r10 - r16 + 0.0225 + 0.66 * (0.66 - r4), r26 = 0.373248 - (r24 - 0.66 * r4);
-    const Shared2 own = { r26 };
+    const double r14 = 2.0 * (p->px * (p->px - 0.15 * p->r13_)) + 2.0 * (p->py * (p->py - 0.15 * p->r23_));
+    const double r16 = r14 + 2.0 * (p->pz * (p->pz - 0.15 * p->r33_));
+    const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
+    const double r24 = r19 - 1.32 * p->py + 0.198 * p->r23_ + 0.084852;
+    const Shared2 own = { r24 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r8;
-    double r12;
-    double r17;
+    double r1;
+    double r3;
+    double r5;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
@@ -1411,18 +1379,17 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r18 = shared->r8 * shared->r8, r19 = shared->r12 * shared->r12, r20 = r18 + r19;
-    const double r21 = shared->r17 * shared->r17, r22 = r21 + r21;
-    if (!is_away(r20, 10000.0 * r22)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 10000.0 * r10)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r18 - r19, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r22, 0.0)));
+    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r30 = (0.0 - (0.0 - shared->r8 * w1)) / r20;
-        const double r33 = (0.0 - shared->r12 * w1) / r20, r37 = sqrt(fmax(r33 * r33 + r30 * r30, 0.0));
-        const double c1 = r33 / r37, s1 = r30 / r37;
+        const double w1 = roots0.values[i0], r16 = w1 * shared->r1 / r8, r18 = w1 * shared->r3 / r8;
+        const double r22 = sqrt(fmax(r18 * r18 + r16 * r16, 0.0)), c1 = 0.0 - r18 / r22, s1 = r16 / r22;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1439,8 +1406,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
  */
 static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r20 = shared->r8 * shared->r8 + shared->r12 * shared->r12, r21 = shared->r17 * shared->r17;
-    if (!is_near(r20, 1.0000000000000001e-7 * (r21 + r21))) {
+    const double r8 = shared->r1 * shared->r1 + shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
+    if (!is_near(r8, 1.0000000000000001e-7 * (r9 + r9))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1460,9 +1427,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: ShoulderYaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r8 = 0.0 - (p->px + -0.15 * p->r13_), r12 = 0.0 - (0.0 - (p->pz + -0.15 * p->r33_));
-    const double r17 = fabs(p->magnitude + 3.198);
-    const Shared1 own = { r8, r12, r17 };
+    const double r1 = 0.15 * p->r13_ - p->px, r3 = p->pz - 0.15 * p->r33_, r5 = fabs(p->magnitude + 3.198);
+    const Shared1 own = { r1, r3, r5 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);

@@ -441,40 +441,40 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: ShoulderYaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r8 = 0.0 - (p.px + -0.15 * p.r13_);
-    let r12 = 0.0 - (0.0 - (p.pz + -0.15 * p.r33_));
-    let r17 = f64::abs(p.magnitude + 3.198);
-    let shared = &Shared1 { r8, r12, r17 };
+    let r1 = 0.15 * p.r13_ - p.px;
+    let r3 = p.pz - 0.15 * p.r33_;
+    let r5 = f64::abs(p.magnitude + 3.198);
+    let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r8: f64,
-    r12: f64,
-    r17: f64,
+    r1: f64,
+    r3: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r18 = shared.r8 * shared.r8;
-    let r19 = shared.r12 * shared.r12;
-    let r20 = r18 + r19;
-    let r21 = shared.r17 * shared.r17;
-    let r22 = r21 + r21;
-    if !is_away(r20, 10000.0 * r22) {
+    let r6 = shared.r1 * shared.r1;
+    let r7 = shared.r3 * shared.r3;
+    let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5;
+    let r10 = r9 + r9;
+    if !is_away(r8, 10000.0 * r10) {
         return;
     }
     let f1 = 1.0;
-    let roots0 = real_roots(&[0.0 - r18 - r19, 0.0, 1.0], f64::max(r22, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r6 - r7, 0.0, 1.0], f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r30 = (0.0 - (0.0 - shared.r8 * w1)) / r20;
-        let r33 = (0.0 - shared.r12 * w1) / r20;
-        let r37 = f64::max(r33 * r33 + r30 * r30, 0.0).sqrt();
-        let c1 = r33 / r37;
-        let s1 = r30 / r37;
+        let r16 = w1 * shared.r1 / r8;
+        let r18 = w1 * shared.r3 / r8;
+        let r22 = f64::max(r18 * r18 + r16 * r16, 0.0).sqrt();
+        let c1 = 0.0 - r18 / r22;
+        let s1 = r16 / r22;
         let next = Known { branch: i0, last: 2, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -484,9 +484,9 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderYaw.
 fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r20 = shared.r8 * shared.r8 + shared.r12 * shared.r12;
-    let r21 = shared.r17 * shared.r17;
-    if !is_near(r20, 1.0000000000000001e-7 * (r21 + r21)) {
+    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
+    let r9 = shared.r5 * shared.r5;
+    if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9)) {
         return;
     }
     let f1 = 1000000.0;
@@ -498,30 +498,29 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: ElbowPitch.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.py + -0.15 * p.r23_;
-    let r10 = p.px * (p.px + -0.15 * p.r13_) + p.py * r4 + p.pz * (p.pz + -0.15 * p.r33_);
-    let r17 = r10 + r10 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r25 = r17 + 0.0225 + 0.66 * (0.66 - r4) - 0.66 * r4;
-    let r26 = 0.373248 - r25;
-    let shared = &Shared2 { r26 };
+    let r14 = 2.0 * (p.px * (p.px - 0.15 * p.r13_)) + 2.0 * (p.py * (p.py - 0.15 * p.r23_));
+    let r17 = r14 + 2.0 * (p.pz * (p.pz - 0.15 * p.r33_)) - p.px * p.px;
+    let r21 = r17 - p.py * p.py - p.pz * p.pz - 1.32 * p.py;
+    let r24 = r21 + 0.198 * p.r23_ + 0.084852;
+    let shared = &Shared2 { r24 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r26: f64,
+    r24: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r28 = shared.r26 * shared.r26 - 0.13931406950400002;
-    let roots0 = real_roots(&[r28, 0.0, 1.0], 1.4142135623730951 * known.f1);
+    let r26 = shared.r24 * shared.r24 - 0.13931406950400002;
+    let roots0 = real_roots(&[r26, 0.0, 1.0], 1.4142135623730951 * known.f1);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r33 = (0.0 - (0.0 - 0.373248 * w3)) / 0.13931406950400002;
-        let r36 = (0.0 - 0.373248 * shared.r26) / 0.13931406950400002;
-        let r40 = f64::max(r36 * r36 + r33 * r33, 0.0).sqrt();
-        let c3 = r36 / r40;
-        let s3 = r33 / r40;
+        let r29 = 0.373248 * w3 / 0.13931406950400002;
+        let r31 = 0.373248 * shared.r24 / 0.13931406950400002;
+        let r35 = f64::max(r31 * r31 + r29 * r29, 0.0).sqrt();
+        let c3 = r31 / r35;
+        let s3 = r29 / r35;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -529,45 +528,42 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: ShoulderPitch.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = 0.432 * known.c3 + 1.092 - 0.66;
-    let r22 = (0.0 - (0.0 - (p.px + -0.15 * p.r13_))) * known.s1;
-    let r26 = 0.0 - ((p.pz + -0.15 * p.r33_) * known.c1 + r22);
-    let r27 = 0.0 - (0.0 - 0.432 * known.s3);
-    let r28 = 0.0 - (0.66 - (p.py + -0.15 * p.r23_));
-    let r29 = 0.0 - r26;
-    let r30 = p.magnitude + 3.198;
-    let r38 = f64::abs(0.0 - (r30 + 0.66));
-    let r39 = f64::abs(0.0 - (r30 + r30));
-    let shared = &Shared3 { r3, r27, r28, r29, r38, r39 };
+    let r7 = 0.432 * (known.c3 + 1.0);
+    let r8 = 0.432 * known.s3;
+    let r11 = p.py - 0.15 * p.r23_ - 0.66;
+    let r12 = known.c1 * (p.pz - 0.15 * p.r33_) + known.s1 * (p.px - 0.15 * p.r13_);
+    let r16 = f64::abs(p.magnitude + 3.858);
+    let r17 = f64::abs(2.0 * p.magnitude + 6.396);
+    let shared = &Shared3 { r7, r8, r11, r12, r16, r17 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r3: f64,
-    r27: f64,
-    r28: f64,
-    r29: f64,
-    r38: f64,
-    r39: f64,
+    r7: f64,
+    r8: f64,
+    r11: f64,
+    r12: f64,
+    r16: f64,
+    r17: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r42 = shared.r3 * shared.r3 + shared.r27 * shared.r27;
-    if !is_away(r42, 259228.80000000002) {
+    let r20 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
+    if !is_away(r20, 259228.80000000002) {
         return;
     }
     let f2 = 1.0;
-    let r45 = shared.r27 * shared.r28 - shared.r3 * shared.r29;
-    let r47 = (0.0 - r45) / r42;
-    let r51 = 0.0 - shared.r3 * shared.r28 - shared.r27 * shared.r29;
-    let r53 = (0.0 - r51) / r42;
-    let r57 = f64::max(r53 * r53 + r47 * r47, 0.0).sqrt();
-    let c2 = r53 / r57;
-    let s2 = r47 / r57;
+    let r23 = shared.r7 * shared.r12 - shared.r8 * shared.r11;
+    let r24 = r23 / r20;
+    let r28 = shared.r8 * shared.r12 - (0.0 - shared.r7 * shared.r11);
+    let r29 = r28 / r20;
+    let r33 = f64::max(r29 * r29 + r24 * r24, 0.0).sqrt();
+    let c2 = r29 / r33;
+    let s2 = r24 / r33;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -576,8 +572,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: ShoulderPitch.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r42 = shared.r3 * shared.r3 + shared.r27 * shared.r27;
-    if !(is_near(r42, 2.5922880000000007e-6) && is_near(shared.r29, 0.01 * shared.r39) && is_near(shared.r28, 0.01 * shared.r38)) {
+    let r20 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
+    if !(is_near(r20, 2.5922880000000007e-6) && is_near(shared.r12, 0.01 * shared.r17) && is_near(shared.r11, 0.01 * shared.r16)) {
         return;
     }
     let f2 = 1000000.0;
@@ -589,41 +585,38 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: WristYaw.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - p.r33_) * known.s1;
-    let r10 = p.r33_ * known.c1 + (0.0 - (0.0 - p.r13_)) * known.s1;
-    let r11 = p.r23_ + (p.r23_ - p.r23_) * known.c1;
-    let r19 = r11 * known.c2 + (0.0 - (0.0 - r10)) * known.s2;
-    let r23 = r6 + (r6 - r6) * known.c2;
-    let r32 = (r10 * known.c2 + (0.0 - r11) * known.s2) * known.c3;
-    let r37 = 0.0 - (r23 + (r23 - r23) * known.c3);
-    let r40 = 0.0 - (0.0 - (r32 + (0.0 - r19) * known.s3));
-    let shared = &Shared4 { r37, r40 };
+    let r5 = p.r33_ * known.c1 + p.r13_ * known.s1;
+    let r11 = known.c3 * (known.c2 * r5 - p.r23_ * known.s2);
+    let r12 = known.s3 * (p.r23_ * known.c2 + known.s2 * r5);
+    let r13 = p.r33_ * known.s1 - p.r13_ * known.c1;
+    let r14 = r11 - r12;
+    let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r37: f64,
-    r40: f64,
+    r13: f64,
+    r14: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r41 = shared.r37 * shared.r37;
-    let r42 = shared.r40 * shared.r40;
-    let r43 = r41 + r42;
-    if !is_away(r43, 4240000.0) {
+    let r15 = shared.r13 * shared.r13;
+    let r16 = shared.r14 * shared.r14;
+    let r17 = r15 + r16;
+    if !is_away(r17, 4240000.0) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r41 - r42, 0.0, 1.0], known.f2 * (20.591260281974 * known.f1));
+    let roots0 = real_roots(&[0.0 - r15 - r16, 0.0, 1.0], known.f2 * (20.591260281974 * known.f1));
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r51 = (0.0 - (0.0 - shared.r37 * w4)) / r43;
-        let r54 = (0.0 - shared.r40 * w4) / r43;
-        let r58 = f64::max(r54 * r54 + r51 * r51, 0.0).sqrt();
-        let c4 = r54 / r58;
-        let s4 = r51 / r58;
+        let r23 = w4 * shared.r13 / r17;
+        let r25 = w4 * shared.r14 / r17;
+        let r29 = f64::max(r25 * r25 + r23 * r23, 0.0).sqrt();
+        let c4 = 0.0 - r25 / r29;
+        let s4 = r23 / r29;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -633,8 +626,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: WristYaw.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r43 = shared.r37 * shared.r37 + shared.r40 * shared.r40;
-    if !is_near(r43, 4.24e-5) {
+    let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
+    if !is_near(r17, 4.24e-5) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -645,78 +638,61 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: WristPitch.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - p.r33_) * known.s1;
-    let r10 = p.r33_ * known.c1 + (0.0 - (0.0 - p.r13_)) * known.s1;
-    let r11 = p.r23_ + (p.r23_ - p.r23_) * known.c1;
-    let r19 = r11 * known.c2 + (0.0 - (0.0 - r10)) * known.s2;
-    let r22 = r10 * known.c2 + (0.0 - r11) * known.s2;
-    let r23 = r6 + (r6 - r6) * known.c2;
-    let r31 = r19 * known.c3 + (0.0 - (0.0 - r22)) * known.s3;
-    let r45 = (r22 * known.c3 + (0.0 - r19) * known.s3) * known.c4;
-    let r46 = (0.0 - (0.0 - (r23 + (r23 - r23) * known.c3))) * known.s4;
-    let r50 = 0.0 - (0.0 - r31);
-    let r51 = 0.0 - (0.0 - (r45 + r46));
-    let shared = &Shared5 { r50, r51 };
+    let r5 = p.r33_ * known.c1 + p.r13_ * known.s1;
+    let r9 = p.r23_ * known.c2 + known.s2 * r5;
+    let r11 = known.c2 * r5 - p.r23_ * known.s2;
+    let r18 = known.s4 * (p.r13_ * known.c1 - p.r33_ * known.s1);
+    let r19 = known.c3 * r9 + known.s3 * r11;
+    let r20 = known.c4 * (known.c3 * r11 - known.s3 * r9) + r18;
+    let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r50: f64,
-    r51: f64,
+    r19: f64,
+    r20: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r52 = 0.0 - shared.r50;
-    let r54 = 0.0 - (-0.0 - shared.r51);
-    let r58 = f64::max(r54 * r54 + r52 * r52, 0.0).sqrt();
-    let c5 = r54 / r58;
-    let s5 = r52 / r58;
+    let r23 = shared.r20 * shared.r20 + shared.r19 * shared.r19;
+    let r24 = f64::max(r23, 0.0).sqrt();
+    let c5 = shared.r20 / r24;
+    let s5 = 0.0 - shared.r19 / r24;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: WristRoll.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r12_ * known.c1 + (0.0 - p.r32_) * known.s1;
-    let r10 = p.r32_ * known.c1 + (0.0 - (0.0 - p.r12_)) * known.s1;
-    let r11 = p.r22_ + (p.r22_ - p.r22_) * known.c1;
-    let r19 = r11 * known.c2 + (0.0 - (0.0 - r10)) * known.s2;
-    let r23 = r6 + (r6 - r6) * known.c2;
-    let r32 = (r10 * known.c2 + (0.0 - r11) * known.s2) * known.c3;
-    let r41 = (0.0 - (r32 + (0.0 - r19) * known.s3)) * known.s4;
-    let r42 = (r23 + (r23 - r23) * known.c3) * known.c4 + r41;
-    let r49 = 0.0 - p.r11_;
-    let r50 = 0.0 - p.r21_;
-    let r51 = 0.0 - p.r31_;
-    let r58 = r49 * known.c1 + (0.0 - r51) * known.s1;
-    let r62 = r51 * known.c1 + (0.0 - (0.0 - r49)) * known.s1;
-    let r63 = r50 + (r50 - r50) * known.c1;
-    let r71 = r63 * known.c2 + (0.0 - (0.0 - r62)) * known.s2;
-    let r75 = r58 + (r58 - r58) * known.c2;
-    let r84 = (r62 * known.c2 + (0.0 - r63) * known.s2) * known.c3;
-    let r93 = (0.0 - (r84 + (0.0 - r71) * known.s3)) * known.s4;
-    let r94 = (r75 + (r75 - r75) * known.c3) * known.c4 + r93;
-    let r100 = 0.0 - r94;
-    let r101 = 0.0 - (0.0 - r42);
-    let shared = &Shared6 { r100, r101 };
+    let r5 = p.r32_ * known.c1 + p.r12_ * known.s1;
+    let r11 = known.c3 * (known.c2 * r5 - p.r22_ * known.s2);
+    let r12 = known.s3 * (p.r22_ * known.c2 + known.s2 * r5);
+    let r14 = known.c4 * (p.r12_ * known.c1 - p.r32_ * known.s1);
+    let r16 = known.s4 * (r11 - r12);
+    let r22 = p.r31_ * known.c1 + p.r11_ * known.s1;
+    let r28 = known.c3 * (known.c2 * r22 - p.r21_ * known.s2);
+    let r29 = known.s3 * (p.r21_ * known.c2 + known.s2 * r22);
+    let r31 = known.c4 * (p.r11_ * known.c1 - p.r31_ * known.s1);
+    let r34 = r31 - known.s4 * (r28 - r29);
+    let shared = &Shared6 { r14, r16, r34 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r100: f64,
-    r101: f64,
+    r14: f64,
+    r16: f64,
+    r34: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r102 = 0.0 - shared.r101;
-    let r104 = 0.0 - (-0.0 - shared.r100);
-    let r108 = f64::max(r104 * r104 + r102 * r102, 0.0).sqrt();
-    let c6 = r104 / r108;
-    let s6 = r102 / r108;
+    let r35 = shared.r16 - shared.r14;
+    let r39 = f64::max(shared.r34 * shared.r34 + r35 * r35, 0.0).sqrt();
+    let c6 = shared.r34 / r39;
+    let s6 = r35 / r39;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -745,77 +721,53 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.66 * r2;
-    let r7 = c2 + (1.0 - c2);
-    let r11 = s1 * s2;
-    let r12 = r2 * c2;
-    let r13 = c1 * s2;
-    let r14 = s1 * c2;
-    let r15 = r2 * (0.0 - s2);
-    let r16 = c1 * c2;
-    let r30 = c3 + (1.0 - c3);
-    let r31 = 0.0 - s3;
-    let r32 = c1 * r7 * r30;
-    let r33 = (0.0 - s1) * r7 * r30;
-    let r36 = r11 * c3 + r14 * s3;
-    let r39 = r12 * c3 + r15 * s3;
-    let r42 = r13 * c3 + r16 * s3;
-    let r45 = r11 * r31 + r14 * c3;
-    let r48 = r12 * r31 + r15 * c3;
-    let r51 = r13 * r31 + r16 * c3;
-    let r56 = 0.66 - r3 + r3 - 0.66 * r12 + 1.092 * r12 - 1.092 * r39;
-    let r61 = 0.0 - 0.66 * r11 + 1.092 * r11 - 1.092 * r36 + 1.524 * r36;
-    let r63 = 0.0 - 0.66 * r13 + 1.092 * r13 - 1.092 * r42 + 1.524 * r42;
-    let r65 = 0.0 - s4;
-    let r66 = c4 + (1.0 - c4);
-    let r74 = r36 * r66;
-    let r75 = r39 * r66;
-    let r76 = r42 * r66;
-    let r79 = r32 * s4 + r45 * c4;
-    let r80 = r48 * c4;
-    let r83 = r33 * s4 + r51 * c4;
-    let r84 = 1.524 * r74;
-    let r85 = 1.524 * r75;
-    let r86 = 1.524 * r76;
-    let r94 = c5 + (1.0 - c5);
-    let r95 = 0.0 - s5;
-    let r96 = (r32 * c4 + r45 * r65) * r94;
-    let r97 = r48 * r65 * r94;
-    let r98 = (r33 * c4 + r51 * r65) * r94;
-    let r101 = r74 * c5 + r79 * s5;
-    let r104 = r75 * c5 + r80 * s5;
-    let r107 = r76 * c5 + r83 * s5;
-    let r117 = 1.524 * r101;
-    let r118 = 1.524 * r104;
-    let r119 = 1.524 * r107;
-    let r127 = 0.0 - s6;
-    let r128 = c6 + (1.0 - c6);
-    let r140 = r96 * r127 + r101 * c6;
-    let r143 = r97 * r127 + r104 * c6;
-    let r146 = r98 * r127 + r107 * c6;
-    let r147 = (r74 * r95 + r79 * c5) * r128;
-    let r148 = (r75 * r95 + r80 * c5) * r128;
-    let r149 = (r76 * r95 + r83 * c5) * r128;
-    let r150 = 1.524 * r140;
-    let r151 = 1.524 * r143;
-    let r152 = 1.524 * r146;
-    let r154 = r56 + 1.524 * r39 - r85 + r85 - r118 + r118 - r151;
-    let r162 = r61 - r84 + r84 - r117 + r117 - r150 + (r150 + 0.15 * r147);
-    let r164 = r63 - r86 + r86 - r119 + r119 - r152 + (r152 + 0.15 * r149);
+    let r0 = s1 * s2;
+    let r1 = c1 * s2;
+    let r2 = s1 * c2;
+    let r3 = c1 * c2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c2 * c3;
+    let r7 = s2 * s3;
+    let r8 = c3 * r1;
+    let r9 = s3 * r3;
+    let r17 = s3 * r0 - c3 * r2;
+    let r19 = c2 * s3 + s2 * c3;
+    let r20 = s4 * r19;
+    let r22 = s3 * r1 - c3 * r3;
+    let r26 = c4 * r19;
+    let r29 = r4 + r5;
+    let r31 = c1 * s4 - c4 * r17;
+    let r33 = r6 - r7;
+    let r36 = r8 + r9;
+    let r38 = s1 * s4 + c4 * r22;
+    let r40 = s5 * r29;
+    let r41 = c5 * r31;
+    let r42 = s5 * r33;
+    let r43 = c5 * r26;
+    let r44 = s5 * r36;
+    let r45 = c5 * r38;
+    let r46 = c1 * c4 + s4 * r17;
+    let r48 = c5 * r29 + s5 * r31;
+    let r51 = c5 * r33 - s5 * r26;
+    let r53 = s1 * c4 - s4 * r22;
+    let r55 = c5 * r36 - s5 * r38;
+    let r69 = 0.432 * c2 + 0.432 * r6 - 0.432 * r7 - 0.15 * r42;
+    let r78 = 0.432 * r0 + 0.432 * r4 + 0.432 * r5 - 0.15 * r40;
+    let r87 = 0.432 * r1 + 0.432 * r8 + 0.432 * r9 - 0.15 * r44;
     [
-        r162,
-        r154 + (r151 + 0.15 * r148),
-        r164,
-        r96 * c6 + r101 * s6,
-        r97 * c6 + r104 * s6,
-        r98 * c6 + r107 * s6,
-        r140,
-        r143,
-        r146,
-        r147,
-        r148,
-        r149,
+        r78 + 0.15 * r41,
+        r69 - 0.15 * r43 + 0.66,
+        r87 - 0.15 * r45,
+        c6 * r46 + s6 * r48,
+        c6 * r20 + s6 * r51,
+        s6 * r55 - c6 * r53,
+        c6 * r48 - s6 * r46,
+        c6 * r51 - s6 * r20,
+        s6 * r53 + c6 * r55,
+        r41 - r40,
+        0.0 - (r42 + r43),
+        0.0 - (r44 + r45),
     ]
 }
 
@@ -873,110 +825,97 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.66 * r2;
-    let r5 = 0.66 - r3 + r3;
-    let r7 = c2 + (1.0 - c2);
-    let r9 = c1 * r7;
-    let r10 = r1 * r7;
-    let r11 = s1 * s2;
-    let r12 = r2 * c2;
-    let r13 = c1 * s2;
-    let r14 = s1 * c2;
-    let r15 = r2 * (0.0 - s2);
-    let r16 = c1 * c2;
-    let r26 = 0.0 - 0.66 * r11 + 1.092 * r11;
-    let r27 = r5 - 0.66 * r12 + 1.092 * r12;
-    let r28 = 0.0 - 0.66 * r13 + 1.092 * r13;
-    let r30 = c3 + (1.0 - c3);
-    let r31 = 0.0 - s3;
-    let r32 = r9 * r30;
-    let r33 = r10 * r30;
-    let r36 = r11 * c3 + r14 * s3;
-    let r39 = r12 * c3 + r15 * s3;
-    let r42 = r13 * c3 + r16 * s3;
-    let r45 = r11 * r31 + r14 * c3;
-    let r48 = r12 * r31 + r15 * c3;
-    let r51 = r13 * r31 + r16 * c3;
-    let r61 = r26 - 1.092 * r36 + 1.524 * r36;
-    let r62 = r27 - 1.092 * r39 + 1.524 * r39;
-    let r63 = r28 - 1.092 * r42 + 1.524 * r42;
-    let r65 = 0.0 - s4;
-    let r66 = c4 + (1.0 - c4);
-    let r69 = r32 * c4 + r45 * r65;
-    let r70 = r48 * r65;
-    let r73 = r33 * c4 + r51 * r65;
-    let r74 = r36 * r66;
-    let r75 = r39 * r66;
-    let r76 = r42 * r66;
-    let r79 = r32 * s4 + r45 * c4;
-    let r80 = r48 * c4;
-    let r83 = r33 * s4 + r51 * c4;
-    let r84 = 1.524 * r74;
-    let r85 = 1.524 * r75;
-    let r86 = 1.524 * r76;
-    let r90 = r61 - r84 + r84;
-    let r91 = r62 - r85 + r85;
-    let r92 = r63 - r86 + r86;
-    let r94 = c5 + (1.0 - c5);
-    let r95 = 0.0 - s5;
-    let r96 = r69 * r94;
-    let r97 = r70 * r94;
-    let r98 = r73 * r94;
-    let r101 = r74 * c5 + r79 * s5;
-    let r104 = r75 * c5 + r80 * s5;
-    let r107 = r76 * c5 + r83 * s5;
-    let r110 = r74 * r95 + r79 * c5;
-    let r113 = r75 * r95 + r80 * c5;
-    let r116 = r76 * r95 + r83 * c5;
-    let r117 = 1.524 * r101;
-    let r118 = 1.524 * r104;
-    let r119 = 1.524 * r107;
-    let r123 = r90 - r117 + r117;
-    let r124 = r91 - r118 + r118;
-    let r125 = r92 - r119 + r119;
-    let r127 = 0.0 - s6;
-    let r128 = c6 + (1.0 - c6);
-    let r131 = r96 * c6 + r101 * s6;
-    let r134 = r97 * c6 + r104 * s6;
-    let r137 = r98 * c6 + r107 * s6;
-    let r140 = r96 * r127 + r101 * c6;
-    let r143 = r97 * r127 + r104 * c6;
-    let r146 = r98 * r127 + r107 * c6;
-    let r147 = r110 * r128;
-    let r148 = r113 * r128;
-    let r149 = r116 * r128;
-    let r150 = 1.524 * r140;
-    let r151 = 1.524 * r143;
-    let r152 = 1.524 * r146;
-    let r162 = r123 - r150 + (r150 + 0.15 * r147);
-    let r163 = r124 - r151 + (r151 + 0.15 * r148);
-    let r164 = r125 - r152 + (r152 + 0.15 * r149);
-    let r167 = r163 - r5;
-    let r175 = r163 - r27;
-    let r183 = r162 - r61;
-    let r184 = r163 - r62;
-    let r185 = r164 - r63;
-    let r195 = r162 - r90;
-    let r196 = r163 - r91;
-    let r197 = r164 - r92;
-    let r207 = r162 - r123;
-    let r208 = r163 - r124;
-    let r209 = r164 - r125;
+    let r0 = s1 * s2;
+    let r1 = c1 * s2;
+    let r2 = s1 * c2;
+    let r3 = c1 * c2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c2 * c3;
+    let r7 = s2 * s3;
+    let r8 = c3 * r1;
+    let r9 = s3 * r3;
+    let r17 = s3 * r0 - c3 * r2;
+    let r19 = c2 * s3 + s2 * c3;
+    let r20 = s4 * r19;
+    let r22 = s3 * r1 - c3 * r3;
+    let r26 = c4 * r19;
+    let r29 = r4 + r5;
+    let r31 = c1 * s4 - c4 * r17;
+    let r33 = r6 - r7;
+    let r36 = r8 + r9;
+    let r38 = s1 * s4 + c4 * r22;
+    let r40 = s5 * r29;
+    let r41 = c5 * r31;
+    let r42 = s5 * r33;
+    let r43 = c5 * r26;
+    let r44 = s5 * r36;
+    let r45 = c5 * r38;
+    let r46 = c1 * c4 + s4 * r17;
+    let r48 = c5 * r29 + s5 * r31;
+    let r51 = c5 * r33 - s5 * r26;
+    let r53 = s1 * c4 - s4 * r22;
+    let r54 = c6 * r53;
+    let r55 = c5 * r36 - s5 * r38;
+    let r56 = s6 * r55;
+    let r64 = 0.432 * r6;
+    let r66 = 0.432 * r7;
+    let r68 = 0.15 * r42;
+    let r70 = 0.15 * r43;
+    let r71 = 0.432 * c2 + r64 - r66 - r68 - r70;
+    let r73 = 0.432 * r4;
+    let r75 = 0.432 * r5;
+    let r77 = 0.15 * r40;
+    let r79 = 0.15 * r41;
+    let r80 = 0.432 * r0 + r73 + r75 - r77 + r79;
+    let r82 = 0.432 * r8;
+    let r84 = 0.432 * r9;
+    let r86 = 0.15 * r44;
+    let r88 = 0.15 * r45;
+    let r89 = 0.432 * r1 + r82 + r84 - r86 - r88;
+    let r90 = r44 + r45;
+    let r91 = r42 + r43;
+    let r96 = c6 * r20 + s6 * r51;
+    let r97 = c6 * r46 + s6 * r48;
+    let r102 = s6 * r53 + c6 * r55;
+    let r120 = r64 - r66 - r68 - r70;
+    let r131 = r33 * r90;
+    let r132 = r36 * r91;
+    let r133 = r40 - r41;
+    let r134 = r36 * r133;
+    let r135 = r29 * r90;
+    let r136 = r29 * r91;
+    let r137 = r33 * r133;
+    let r142 = r46 * r91;
+    let r143 = r20 * r133;
+    let r147 = r20 * r90 + r53 * r91;
+    let r152 = s1 * (r79 + (r73 + r75 - r77)) + c1 * (r82 + r84 - r86 - r88);
+    let r157 = r53 * r133 + r46 * r90;
+    let r166 = s1 * r96;
+    let r168 = r54 - r56;
+    let r170 = c1 * r96;
+    let r193 = c1 * r168 - s1 * r97;
+    let r202 = s6 * r20 - c6 * r51;
+    let r204 = s6 * r46 - c6 * r48;
+    let r226 = 0.0 - s1 * r202;
+    let r231 = s1 * r204 - c1 * r102;
+    let r236 = 0.0 - c1 * r202;
+    let r244 = 0.0 - s1 * r91;
+    let r247 = s1 * r133 + c1 * r90;
+    let r249 = 0.0 - c1 * r91;
     [
-        [r164, 0.0 - r1 * r167, 0.0 - r10 * r175, r39 * r185 - r42 * r184, r70 * r197 - r73 * r196, r113 * r209 - r116 * r208],
-        [0.0, r1 * r162 - c1 * r164, r10 * (r162 - r26) - r9 * (r164 - r28), r42 * r183 - r36 * r185, r73 * r195 - r69 * r197, r116 * r207 - r110 * r209],
-        [0.0 - r162, c1 * r167, r9 * r175, r36 * r184 - r39 * r183, r69 * r196 - r70 * r195, r110 * r208 - r113 * r207],
-        [r137, 0.0 - r1 * r134, 0.0 - r10 * r134, r39 * r137 - r42 * r134, r70 * r137 - r73 * r134, r113 * r137 - r116 * r134],
-        [0.0, r1 * r131 - c1 * r137, r10 * r131 - r9 * r137, r42 * r131 - r36 * r137, r73 * r131 - r69 * r137, r116 * r131 - r110 * r137],
-        [0.0 - r131, c1 * r134, r9 * r134, r36 * r134 - r39 * r131, r69 * r134 - r70 * r131, r110 * r134 - r113 * r131],
-        [r146, 0.0 - r1 * r143, 0.0 - r10 * r143, r39 * r146 - r42 * r143, r70 * r146 - r73 * r143, r113 * r146 - r116 * r143],
-        [0.0, r1 * r140 - c1 * r146, r10 * r140 - r9 * r146, r42 * r140 - r36 * r146, r73 * r140 - r69 * r146, r116 * r140 - r110 * r146],
-        [0.0 - r140, c1 * r143, r9 * r143, r36 * r143 - r39 * r140, r69 * r143 - r70 * r140, r110 * r143 - r113 * r140],
-        [r149, 0.0 - r1 * r148, 0.0 - r10 * r148, r39 * r149 - r42 * r148, r70 * r149 - r73 * r148, r113 * r149 - r116 * r148],
-        [0.0, r1 * r147 - c1 * r149, r10 * r147 - r9 * r149, r42 * r147 - r36 * r149, r73 * r147 - r69 * r149, r116 * r147 - r110 * r149],
-        [0.0 - r147, c1 * r148, r9 * r148, r36 * r148 - r39 * r147, r69 * r148 - r70 * r147, r110 * r148 - r113 * r147],
+        [r89, s1 * r71, s1 * r120, 0.0 - 0.15 * (r131 - r132), 0.0 - 0.15 * r147, 0.0],
+        [0.0, 0.0 - (s1 * r80 + c1 * r89), 0.0 - r152, 0.0 - 0.15 * (r134 - r135), 0.15 * r157, 0.0],
+        [0.0 - r80, c1 * r71, c1 * r120, 0.0 - 0.15 * (r136 - r137), 0.0 - 0.15 * (r142 - r143), 0.0],
+        [r56 - r54, r166, r166, 0.0 - (r33 * r168 + r36 * r96), r53 * r96 - r20 * r168, r91 * r168 + r90 * r96],
+        [0.0, r193, r193, r36 * r97 + r29 * r168, r46 * r168 - r53 * r97, 0.0 - (r90 * r97 + r133 * r168)],
+        [0.0 - r97, r170, r170, r29 * r96 - r33 * r97, r46 * r96 - r20 * r97, r91 * r97 - r133 * r96],
+        [r102, r226, r226, r33 * r102 + r36 * r202, r20 * r102 - r53 * r202, 0.0 - (r91 * r102 + r90 * r202)],
+        [0.0, r231, r231, 0.0 - (r36 * r204 + r29 * r102), r53 * r204 - r46 * r102, r90 * r204 + r133 * r102],
+        [r204, r236, r236, r33 * r204 - r29 * r202, r20 * r204 - r46 * r202, r133 * r202 - r91 * r204],
+        [0.0 - r90, r244, r244, r132 - r131, 0.0 - r147, 0.0],
+        [0.0, r247, r247, r135 - r134, r157, 0.0],
+        [r133, r249, r249, r137 - r136, r143 - r142, 0.0],
     ]
 }
 

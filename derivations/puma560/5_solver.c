@@ -317,45 +317,27 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r2 = c1 + (1.0 - c1), r6 = c2 + (1.0 - c2), r7 = 0.0 - s2, r8 = c1 * c2, r9 = s1 * c2;
-    const double r10 = r2 * s2, r13 = c1 * r7, r14 = s1 * r7, r15 = r2 * c2, r22 = c3 + (1.0 - c3);
-    const double r23 = 0.0 - s3, r26 = r8 * c3 + r13 * s3, r29 = r9 * c3 + r14 * s3, r32 = r10 * c3 + r15 * s3;
-    const double r33 = (0.0 - s1) * r6 * r22, r34 = c1 * r6 * r22;
-    const double r57 = 0.4318 * r8 - 0.4318 * r26 + (0.4521 * r26 + -0.15005 * r33);
-    const double r58 = 0.4318 * r9 - 0.4318 * r29 + (0.4521 * r29 + -0.15005 * r34), r61 = 0.0 - s4;
-    const double r62 = c4 + (1.0 - c4), r65 = r26 * c4 + r33 * s4, r68 = r29 * c4 + r34 * s4, r69 = r32 * c4;
-    const double r72 = r26 * r61 + r33 * c4, r75 = r29 * r61 + r34 * c4, r76 = r32 * r61;
-    const double r77 = (r8 * r23 + r13 * c3) * r62, r78 = (r9 * r23 + r14 * c3) * r62;
-    const double r79 = (r10 * r23 + r15 * c3) * r62, r82 = 0.4521 * r65 + -0.15005 * r72;
-    const double r85 = 0.4521 * r68 + -0.15005 * r75, r88 = 0.4521 * r69 + -0.15005 * r76;
-    const double r91 = 0.4318 * r10 - 0.4318 * r32 + 0.4521 * r32 - r88, r105 = c5 + (1.0 - c5), r106 = 0.0 - s5;
-    const double r109 = r65 * c5 + r77 * s5, r112 = r68 * c5 + r78 * s5, r115 = r69 * c5 + r79 * s5;
-    const double r116 = r72 * r105, r117 = r75 * r105, r118 = r76 * r105, r121 = r65 * r106 + r77 * c5;
-    const double r124 = r68 * r106 + r78 * c5, r127 = r69 * r106 + r79 * c5;
-    const double r132 = 0.4521 * r109 + -0.15005 * r116 + 0.4318 * r121;
-    const double r137 = 0.4521 * r112 + -0.15005 * r117 + 0.4318 * r124;
-    const double r142 = 0.4521 * r115 + -0.15005 * r118 + 0.4318 * r127;
-    const double r146 = r57 - r82 + (r82 + 0.4318 * r77) - r132 + r132;
-    const double r147 = r58 - r85 + (r85 + 0.4318 * r78) - r137 + r137, r150 = 0.0 - s6, r151 = c6 + (1.0 - c6);
-    const double r154 = r109 * c6 + r116 * s6, r157 = r112 * c6 + r117 * s6, r160 = r115 * c6 + r118 * s6;
-    const double r163 = r109 * r150 + r116 * c6, r166 = r112 * r150 + r117 * c6, r169 = r115 * r150 + r118 * c6;
-    const double r170 = r121 * r151, r171 = r124 * r151, r172 = r127 * r151;
-    const double r177 = 0.4521 * r154 + -0.15005 * r163 + 0.4318 * r170;
-    const double r182 = 0.4521 * r157 + -0.15005 * r166 + 0.4318 * r171;
-    const double r187 = 0.4521 * r160 + -0.15005 * r169 + 0.4318 * r172;
-    const double r190 = r91 + (r88 + 0.4318 * r79) - r142 + r142 - r187;
-    reached[0] = r146 - r177 + r177;
-    reached[1] = r147 - r182 + r182;
-    reached[2] = r190 + r187;
-    reached[3] = r154;
-    reached[4] = r157;
-    reached[5] = r160;
-    reached[6] = r163;
-    reached[7] = r166;
-    reached[8] = r169;
-    reached[9] = r170;
-    reached[10] = r171;
-    reached[11] = r172;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2;
+    const double r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3, r16 = r4 - r5, r19 = r6 - r7;
+    const double r22 = r8 + r9, r23 = c4 * r22, r28 = s4 * r22, r29 = c4 * r16 - s1 * s4, r31 = r10 + r11;
+    const double r33 = c4 * r19 + c1 * s4, r35 = r12 + r13, r38 = r14 - r15, r46 = c5 * r29 - s5 * r31;
+    const double r48 = s4 * r16 + s1 * c4, r50 = c5 * r33 - s5 * r35, r52 = s4 * r19 - c1 * c4;
+    const double r54 = c5 * r23 - s5 * r38, r69 = 0.4318 * s2 + 0.0203 * r8 + 0.0203 * r9 - 0.4318 * r14;
+    const double r78 = 0.4318 * r1 + 0.0203 * r6 - 0.0203 * r7 - 0.15005 * c1;
+    const double r89 = 0.4318 * r0 + 0.0203 * r4 - 0.0203 * r5 + 0.15005 * s1;
+    reached[0] = r89 - 0.4318 * r10 - 0.4318 * r11;
+    reached[1] = r78 - 0.4318 * r12 - 0.4318 * r13;
+    reached[2] = r69 + 0.4318 * r15;
+    reached[3] = c6 * r46 - s6 * r48;
+    reached[4] = c6 * r50 - s6 * r52;
+    reached[5] = c6 * r54 - s6 * r28;
+    reached[6] = 0.0 - (s6 * r46 + c6 * r48);
+    reached[7] = 0.0 - (s6 * r50 + c6 * r52);
+    reached[8] = 0.0 - (s6 * r54 + c6 * r28);
+    reached[9] = 0.0 - (s5 * r29 + c5 * r31);
+    reached[10] = 0.0 - (s5 * r33 + c5 * r35);
+    reached[11] = 0.0 - (s5 * r23 + c5 * r38);
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -411,50 +393,38 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.0 - r1, r4 = 0.0 - c1, r6 = c2 + (1.0 - c2);
-    const double r7 = 0.0 - s2, r8 = c1 * c2, r9 = s1 * c2, r10 = r2 * s2, r11 = r1 * r6, r12 = c1 * r6;
-    const double r13 = c1 * r7, r14 = s1 * r7, r15 = r2 * c2, r16 = 0.0 - r11, r17 = 0.0 - r12;
-    const double r18 = 0.4318 * r8, r19 = 0.4318 * r9, r20 = 0.4318 * r10, r22 = c3 + (1.0 - c3), r23 = 0.0 - s3;
-    const double r26 = r8 * c3 + r13 * s3, r29 = r9 * c3 + r14 * s3, r32 = r10 * c3 + r15 * s3, r33 = r11 * r22;
-    const double r34 = r12 * r22, r37 = r8 * r23 + r13 * c3, r40 = r9 * r23 + r14 * c3;
-    const double r43 = r10 * r23 + r15 * c3, r57 = r18 - 0.4318 * r26 + (0.4521 * r26 + -0.15005 * r33);
-    const double r58 = r19 - 0.4318 * r29 + (0.4521 * r29 + -0.15005 * r34);
-    const double r59 = r20 - 0.4318 * r32 + 0.4521 * r32, r61 = 0.0 - s4, r62 = c4 + (1.0 - c4);
-    const double r65 = r26 * c4 + r33 * s4, r68 = r29 * c4 + r34 * s4, r69 = r32 * c4;
-    const double r72 = r26 * r61 + r33 * c4, r75 = r29 * r61 + r34 * c4, r76 = r32 * r61, r77 = r37 * r62;
-    const double r78 = r40 * r62, r79 = r43 * r62, r82 = 0.4521 * r65 + -0.15005 * r72;
-    const double r85 = 0.4521 * r68 + -0.15005 * r75, r88 = 0.4521 * r69 + -0.15005 * r76, r92 = 0.0 - r72;
-    const double r93 = 0.0 - r75, r94 = 0.0 - r76, r101 = r57 - r82 + (r82 + 0.4318 * r77);
-    const double r102 = r58 - r85 + (r85 + 0.4318 * r78), r103 = r59 - r88 + (r88 + 0.4318 * r79);
-    const double r105 = c5 + (1.0 - c5), r106 = 0.0 - s5, r109 = r65 * c5 + r77 * s5, r112 = r68 * c5 + r78 * s5;
-    const double r115 = r69 * c5 + r79 * s5, r116 = r72 * r105, r117 = r75 * r105, r118 = r76 * r105;
-    const double r121 = r65 * r106 + r77 * c5, r124 = r68 * r106 + r78 * c5, r127 = r69 * r106 + r79 * c5;
-    const double r132 = 0.4521 * r109 + -0.15005 * r116 + 0.4318 * r121;
-    const double r137 = 0.4521 * r112 + -0.15005 * r117 + 0.4318 * r124;
-    const double r142 = 0.4521 * r115 + -0.15005 * r118 + 0.4318 * r127, r146 = r101 - r132 + r132;
-    const double r147 = r102 - r137 + r137, r148 = r103 - r142 + r142, r150 = 0.0 - s6, r151 = c6 + (1.0 - c6);
-    const double r154 = r109 * c6 + r116 * s6, r157 = r112 * c6 + r117 * s6, r160 = r115 * c6 + r118 * s6;
-    const double r163 = r109 * r150 + r116 * c6, r166 = r112 * r150 + r117 * c6, r169 = r115 * r150 + r118 * c6;
-    const double r170 = r121 * r151, r171 = r124 * r151, r172 = r127 * r151;
-    const double r177 = 0.4521 * r154 + -0.15005 * r163 + 0.4318 * r170;
-    const double r182 = 0.4521 * r157 + -0.15005 * r166 + 0.4318 * r171;
-    const double r187 = 0.4521 * r160 + -0.15005 * r169 + 0.4318 * r172, r191 = r146 - r177 + r177;
-    const double r192 = r147 - r182 + r182, r193 = r148 - r187 + r187, r203 = r193 - r20, r210 = r191 - r57;
-    const double r211 = r192 - r58, r212 = r193 - r59, r222 = r191 - r101, r223 = r192 - r102;
-    const double r224 = r193 - r103, r234 = r191 - r146, r235 = r192 - r147, r236 = r193 - r148;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2;
+    const double r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3, r16 = r4 - r5, r19 = r6 - r7;
+    const double r22 = r8 + r9, r23 = c4 * r22, r28 = s4 * r22, r29 = c4 * r16 - s1 * s4, r31 = r10 + r11;
+    const double r33 = c4 * r19 + c1 * s4, r35 = r12 + r13, r38 = r14 - r15, r46 = c5 * r29 - s5 * r31;
+    const double r48 = s4 * r16 + s1 * c4, r50 = c5 * r33 - s5 * r35, r51 = c6 * r50, r52 = s4 * r19 - c1 * c4;
+    const double r53 = s6 * r52, r54 = c5 * r23 - s5 * r38, r64 = 0.0203 * r8, r66 = 0.0203 * r9;
+    const double r68 = 0.4318 * r14, r70 = 0.4318 * r15, r71 = 0.4318 * s2 + r64 + r66 - r68 + r70;
+    const double r73 = 0.0203 * r6, r75 = 0.0203 * r7, r77 = 0.15005 * c1, r79 = 0.4318 * r12;
+    const double r80 = 0.4318 * r1 + r73 - r75 - r77 - r79, r81 = 0.4318 * r13, r84 = 0.0203 * r4;
+    const double r86 = 0.0203 * r5, r88 = 0.15005 * s1, r90 = 0.4318 * r10, r92 = 0.4318 * r11;
+    const double r93 = 0.4318 * r0 + r84 - r86 + r88 - r90 - r92, r97 = c6 * r54 - s6 * r28, r98 = r51 - r53;
+    const double r99 = c6 * r46 - s6 * r48, r100 = s5 * r33 + c5 * r35, r101 = s5 * r23 + c5 * r38;
+    const double r102 = s5 * r29 + c5 * r31, r106 = s6 * r54 + c6 * r28, r107 = s6 * r50 + c6 * r52;
+    const double r108 = s6 * r46 + c6 * r48, r127 = r70 + (r64 + r66 - r68);
+    const double r146 = s1 * (r73 - r75 - r77 - r79 - r81) + c1 * (r88 + (r84 - r86) - r90 - r92);
+    const double r170 = 0.0 - c1 * r97, r174 = 0.0 - s1 * r97, r178 = s1 * r98 + c1 * r99, r182 = c1 * r106;
+    const double r183 = s1 * r106, r211 = 0.0 - (s1 * r107 + c1 * r108), r215 = c1 * r101, r216 = s1 * r101;
+    const double r236 = 0.0 - (s1 * r100 + c1 * r102);
     const Jacobian result = { {
-        {0.0 - r192, r4 * r193, r17 * r203, r40 * r212 - r43 * r211, r93 * r224 - r94 * r223, r124 * r236 - r127 * r235},
-        {r191, 0.0 - r3 * r193, 0.0 - r16 * r203, r43 * r210 - r37 * r212, r94 * r222 - r92 * r224, r127 * r234 - r121 * r236},
-        {0.0, r3 * r192 - r4 * r191, r16 * (r192 - r19) - r17 * (r191 - r18), r37 * r211 - r40 * r210, r92 * r223 - r93 * r222, r121 * r235 - r124 * r234},
-        {0.0 - r157, r4 * r160, r17 * r160, r40 * r160 - r43 * r157, r93 * r160 - r94 * r157, r124 * r160 - r127 * r157},
-        {r154, 0.0 - r3 * r160, 0.0 - r16 * r160, r43 * r154 - r37 * r160, r94 * r154 - r92 * r160, r127 * r154 - r121 * r160},
-        {0.0, r3 * r157 - r4 * r154, r16 * r157 - r17 * r154, r37 * r157 - r40 * r154, r92 * r157 - r93 * r154, r121 * r157 - r124 * r154},
-        {0.0 - r166, r4 * r169, r17 * r169, r40 * r169 - r43 * r166, r93 * r169 - r94 * r166, r124 * r169 - r127 * r166},
-        {r163, 0.0 - r3 * r169, 0.0 - r16 * r169, r43 * r163 - r37 * r169, r94 * r163 - r92 * r169, r127 * r163 - r121 * r169},
-        {0.0, r3 * r166 - r4 * r163, r16 * r166 - r17 * r163, r37 * r166 - r40 * r163, r92 * r166 - r93 * r163, r121 * r166 - r124 * r163},
-        {0.0 - r171, r4 * r172, r17 * r172, r40 * r172 - r43 * r171, r93 * r172 - r94 * r171, r124 * r172 - r127 * r171},
-        {r170, 0.0 - r3 * r172, 0.0 - r16 * r172, r43 * r170 - r37 * r172, r94 * r170 - r92 * r172, r127 * r170 - r121 * r172},
-        {0.0, r3 * r171 - r4 * r170, r16 * r171 - r17 * r170, r37 * r171 - r40 * r170, r92 * r171 - r93 * r170, r121 * r171 - r124 * r170},
+        {r81 - r80, 0.0 - c1 * r71, 0.0 - c1 * r127, 0.0, 0.0, 0.0},
+        {r93, 0.0 - s1 * r71, 0.0 - s1 * r127, 0.0, 0.0, 0.0},
+        {0.0, s1 * (r80 - r81) + c1 * r93, r146, 0.0, 0.0, 0.0},
+        {r53 - r51, r170, r170, r38 * r98 - r35 * r97, r52 * r97 - r28 * r98, r98 * r101 - r97 * r100},
+        {r99, r174, r174, r31 * r97 - r38 * r99, r28 * r99 - r48 * r97, r97 * r102 - r99 * r101},
+        {0.0, r178, r178, r35 * r99 - r31 * r98, r48 * r98 - r52 * r99, r99 * r100 - r98 * r102},
+        {r107, r182, r182, r35 * r106 - r38 * r107, r28 * r107 - r52 * r106, r100 * r106 - r101 * r107},
+        {0.0 - r108, r183, r183, r38 * r108 - r31 * r106, r48 * r106 - r28 * r108, r101 * r108 - r102 * r106},
+        {0.0, r211, r211, r31 * r107 - r35 * r108, r52 * r108 - r48 * r107, r102 * r107 - r100 * r108},
+        {r100, r215, r215, r35 * r101 - r38 * r100, r28 * r100 - r52 * r101, 0.0},
+        {0.0 - r102, r216, r216, r38 * r102 - r31 * r101, r48 * r101 - r28 * r102, 0.0},
+        {0.0, r236, r236, r31 * r100 - r35 * r102, r52 * r102 - r48 * r100, 0.0},
     } };
     return result;
 }
@@ -1187,16 +1157,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r118;
-    double r119;
+    double r34;
+    double r35;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r122 = 0.0 - (0.0 - (0.0 - shared->r118)), r125 = 0.0 - (0.0 - (0.0 - shared->r119));
-    const double r129 = sqrt(fmax(r125 * r125 + r122 * r122, 0.0)), c6 = r125 / r129, s6 = r122 / r129;
+    const double r38 = shared->r34 * shared->r34 + shared->r35 * shared->r35, r39 = sqrt(fmax(r38, 0.0));
+    const double c6 = shared->r34 / r39, s6 = shared->r35 / r39;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1211,40 +1181,32 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: Flange. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r12_ * known->c1 + (0.0 - (0.0 - p->r22_)) * known->s1;
-    const double r9 = p->r22_ * known->c1 + (0.0 - p->r12_) * known->s1;
-    const double r11 = p->r32_ + (p->r32_ - p->r32_) * known->c1, r13 = 0.0 - (0.0 - r9);
-    const double r22 = r6 * known->c2 + (0.0 - (0.0 - r11)) * known->s2;
-    const double r26 = r11 * known->c2 + (0.0 - (0.0 - (0.0 - r6))) * known->s2;
-    const double r27 = r13 + (r9 - r13) * known->c2, r29 = 0.0 - (0.0 - r27);
-    const double r38 = r22 * known->c3 + (0.0 - (0.0 - r26)) * known->s3;
-    const double r53 = (r29 + (r27 - r29) * known->c3) * known->c4 + (0.0 - r38) * known->s4;
-    const double r58 = 0.0 - p->r11_, r59 = 0.0 - p->r21_, r60 = 0.0 - p->r31_;
-    const double r67 = r58 * known->c1 + (0.0 - (0.0 - r59)) * known->s1;
-    const double r70 = r59 * known->c1 + (0.0 - r58) * known->s1, r72 = r60 + (r60 - r60) * known->c1;
-    const double r74 = 0.0 - (0.0 - r70), r83 = r67 * known->c2 + (0.0 - (0.0 - r72)) * known->s2;
-    const double r87 = r72 * known->c2 + (0.0 - (0.0 - (0.0 - r67))) * known->s2;
-    const double r88 = r74 + (r70 - r74) * known->c2, r90 = 0.0 - (0.0 - r88);
-    const double r99 = r83 * known->c3 + (0.0 - (0.0 - r87)) * known->s3;
-    const double r114 = (r90 + (r88 - r90) * known->c3) * known->c4 + (0.0 - r99) * known->s4;
-    const double r118 = 0.0 - (0.0 - r114), r119 = 0.0 - (0.0 - (0.0 - r53));
-    const Shared6 own = { r118, r119 };
+    const double r4 = p->r12_ * known->c1 + p->r22_ * known->s1;
+    const double r10 = known->c3 * (known->c2 * r4 + p->r32_ * known->s2);
+    const double r12 = known->s3 * (p->r32_ * known->c2 - known->s2 * r4);
+    const double r15 = known->c4 * (p->r22_ * known->c1 - p->r12_ * known->s1);
+    const double r21 = p->r11_ * known->c1 + p->r21_ * known->s1;
+    const double r27 = known->c3 * (known->c2 * r21 + p->r31_ * known->s2);
+    const double r29 = known->s3 * (p->r31_ * known->c2 - known->s2 * r21);
+    const double r32 = known->c4 * (p->r21_ * known->c1 - p->r11_ * known->s1);
+    const double r34 = r15 - known->s4 * (r10 + r12), r35 = r32 - known->s4 * (r27 + r29);
+    const Shared6 own = { r34, r35 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r59;
-    double r60;
+    double r19;
+    double r20;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r62 = 0.0 - (0.0 - shared->r60), r64 = 0.0 - (0.0 - shared->r59);
-    const double r68 = sqrt(fmax(r64 * r64 + r62 * r62, 0.0)), c5 = r64 / r68, s5 = r62 / r68;
+    const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20, r24 = sqrt(fmax(r23, 0.0));
+    const double c5 = shared->r19 / r24, s5 = 0.0 - shared->r20 / r24;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1256,26 +1218,20 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: WristPitch. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - (0.0 - p->r23_)) * known->s1;
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1;
-    const double r11 = p->r33_ + (p->r33_ - p->r33_) * known->c1, r13 = 0.0 - (0.0 - r9);
-    const double r22 = r6 * known->c2 + (0.0 - (0.0 - r11)) * known->s2;
-    const double r26 = r11 * known->c2 + (0.0 - (0.0 - (0.0 - r6))) * known->s2;
-    const double r27 = r13 + (r9 - r13) * known->c2, r29 = 0.0 - (0.0 - r27);
-    const double r38 = r22 * known->c3 + (0.0 - (0.0 - r26)) * known->s3;
-    const double r42 = r26 * known->c3 + (0.0 - (0.0 - (0.0 - r22))) * known->s3;
-    const double r47 = 0.0 - (0.0 - (r29 + (r27 - r29) * known->c3));
-    const double r58 = 0.0 - (0.0 - (r38 * known->c4 + r47 * known->s4)), r59 = 0.0 - (0.0 - r42);
-    const double r60 = 0.0 - r58;
-    const Shared5 own = { r59, r60 };
+    const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1, r9 = known->c2 * r4 + p->r33_ * known->s2;
+    const double r11 = p->r33_ * known->c2 - known->s2 * r4;
+    const double r16 = known->c4 * (known->c3 * r9 + known->s3 * r11);
+    const double r18 = known->s4 * (p->r23_ * known->c1 - p->r13_ * known->s1);
+    const double r19 = known->c3 * r11 - known->s3 * r9, r20 = r16 + r18;
+    const Shared5 own = { r19, r20 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r46;
-    double r49;
+    double r13;
+    double r14;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1283,16 +1239,15 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r50 = shared->r46 * shared->r46, r51 = shared->r49 * shared->r49, r52 = r50 + r51;
-    if (!is_away(r52, 4240000.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
+    if (!is_away(r17, 4240000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r50 - r51, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r15 - r16, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 20.591260281974 * known->f2);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r59 = (0.0 - (0.0 - shared->r46 * w4)) / r52;
-        const double r62 = (0.0 - shared->r49 * w4) / r52, r66 = sqrt(fmax(r62 * r62 + r59 * r59, 0.0));
-        const double c4 = r62 / r66, s4 = r59 / r66;
+        const double w4 = roots0.values[i0], r22 = w4 * shared->r13 / r17, r24 = w4 * shared->r14 / r17;
+        const double r28 = sqrt(fmax(r24 * r24 + r22 * r22, 0.0)), c4 = r24 / r28, s4 = r22 / r28;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1308,8 +1263,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r52 = shared->r46 * shared->r46 + shared->r49 * shared->r49;
-    if (!is_near(r52, 4.24e-5)) {
+    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
+    if (!is_near(r17, 4.24e-5)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1327,15 +1282,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: WristRoll. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - (0.0 - p->r23_)) * known->s1;
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1;
-    const double r11 = p->r33_ + (p->r33_ - p->r33_) * known->c1, r13 = 0.0 - (0.0 - r9);
-    const double r22 = r6 * known->c2 + (0.0 - (0.0 - r11)) * known->s2;
-    const double r26 = r11 * known->c2 + (0.0 - (0.0 - (0.0 - r6))) * known->s2;
-    const double r27 = r13 + (r9 - r13) * known->c2, r29 = 0.0 - (0.0 - r27);
-    const double r38 = r22 * known->c3 + (0.0 - (0.0 - r26)) * known->s3;
-    const double r46 = 0.0 - (0.0 - (r29 + (r27 - r29) * known->c3)), r49 = 0.0 - (0.0 - (0.0 - r38));
-    const Shared4 own = { r46, r49 };
+    const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1;
+    const double r10 = known->c3 * (known->c2 * r4 + p->r33_ * known->s2);
+    const double r12 = known->s3 * (p->r33_ * known->c2 - known->s2 * r4);
+    const double r13 = p->r23_ * known->c1 - p->r13_ * known->s1, r14 = r10 + r12;
+    const Shared4 own = { r13, r14 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1343,12 +1294,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r5;
-    double r26;
-    double r27;
-    double r28;
-    double r34;
-    double r35;
+    double r4;
+    double r8;
+    double r9;
+    double r10;
+    double r14;
+    double r15;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1356,13 +1307,13 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r38 = shared->r5 * shared->r5 + shared->r26 * shared->r26;
-    if (!is_away(r38, 47848.22740000001)) {
+    const double r18 = shared->r4 * shared->r4 + shared->r8 * shared->r8;
+    if (!is_away(r18, 47848.22740000001)) {
         return;
     }
-    const double f2 = 1.0, r41 = shared->r26 * shared->r27 - shared->r5 * shared->r28, r43 = (0.0 - r41) / r38;
-    const double r47 = 0.0 - shared->r5 * shared->r27 - shared->r26 * shared->r28, r49 = (0.0 - r47) / r38;
-    const double r53 = sqrt(fmax(r49 * r49 + r43 * r43, 0.0)), c2 = r49 / r53, s2 = r43 / r53;
+    const double f2 = 1.0, r22 = (p->pz * shared->r8 - shared->r4 * shared->r9) / r18;
+    const double r26 = shared->r8 * shared->r9 - (0.0 - p->pz * shared->r4), r27 = r26 / r18;
+    const double r31 = sqrt(fmax(r27 * r27 + r22 * r22, 0.0)), c2 = r27 / r31, s2 = r22 / r31;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1378,8 +1329,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r38 = shared->r5 * shared->r5 + shared->r26 * shared->r26;
-    if (!(is_near(r38, 4.784822740000001e-7) && is_near(shared->r28, 0.01 * shared->r35) && is_near(shared->r27, 0.01 * shared->r34))) {
+    const double r18 = shared->r4 * shared->r4 + shared->r8 * shared->r8;
+    if (!(is_near(r18, 4.784822740000001e-7) && is_near(shared->r10, 0.01 * shared->r15) && is_near(p->pz, 0.01 * shared->r14))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1399,12 +1350,11 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Shoulder. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = 0.4318 * known->c3 + 0.0203 * known->s3;
-    const double r6 = 0.0203 * known->c3 + -0.4318 * known->s3 + 0.4318;
-    const double r18 = p->px * known->c1 + (0.0 - (0.0 - p->py)) * known->s1, r26 = 0.0 - (0.0 - (0.0 - r6));
-    const double r27 = 0.0 - (0.0 - p->pz), r28 = 0.0 - (0.0 - (0.0 - r18)), r29 = p->magnitude + 2.0679;
-    const double r34 = fabs(0.0 - r29), r35 = fabs(0.0 - (r29 + r29));
-    const Shared3 own = { r5, r26, r27, r28, r34, r35 };
+    const double r4 = 0.4318 * known->c3 + 0.0203 * known->s3;
+    const double r8 = 0.0203 * known->c3 - 0.4318 * known->s3 + 0.4318;
+    const double r9 = p->px * known->c1 + p->py * known->s1, r10 = 0.0 - r9, r14 = fabs(p->magnitude + 2.0679);
+    const double r15 = fabs(2.0 * p->magnitude + 4.1358);
+    const Shared3 own = { r4, r8, r9, r10, r14, r15 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1412,21 +1362,21 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r10;
+    double r5;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r12 = shared->r10 * shared->r10 - 0.00030733876596640005;
-    const double choice0_0[3] = {r12 - 0.1390562595901504, 0.0, 1.0};
+    const double r7 = shared->r5 * shared->r5 - 0.00030733876596640005;
+    const double choice0_0[3] = {r7 - 0.1390562595901504, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r17 = 0.0 - (-0.37290248 * shared->r10 - 0.01753108 * w3);
-        const double r18 = r17 / 0.13936359835611678, r22 = 0.0 - (-0.37290248 * w3 + 0.01753108 * shared->r10);
-        const double r23 = r22 / 0.13936359835611678, r27 = sqrt(fmax(r23 * r23 + r18 * r18, 0.0));
-        const double c3 = r23 / r27, s3 = r18 / r27;
+        const double w3 = roots0.values[i0], r12 = 0.01753108 * w3 - (0.0 - 0.37290248 * shared->r5);
+        const double r13 = r12 / 0.13936359835611678;
+        const double r17 = (0.37290248 * w3 - 0.01753108 * shared->r5) / 0.13936359835611678;
+        const double r21 = sqrt(fmax(r17 * r17 + r13 * r13, 0.0)), c3 = r17 / r21, s3 = r13 / r21;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1439,17 +1389,15 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Elbow. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r4 = p->px * p->px + p->py * p->py + p->pz * p->pz, r10 = 0.3958295725 - (r4 + r4 - r4);
-    const Shared2 own = { r10 };
+    const double r4 = p->pz * p->pz + (p->px * p->px + p->py * p->py), r5 = 0.3958295725 - r4;
+    const Shared2 own = { r5 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r2;
-    double r5;
-    double r8;
+    double r1;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
@@ -1457,17 +1405,17 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r9 = shared->r2 * shared->r2, r10 = shared->r5 * shared->r5, r11 = r9 + r10;
-    const double r12 = shared->r8 * shared->r8, r13 = r12 + r12;
-    if (!is_away(r11, 10000.0 * r13)) {
+    const double r2 = p->py * p->py, r3 = p->px * p->px, r4 = r2 + r3, r5 = shared->r1 * shared->r1;
+    const double r6 = r5 + r5;
+    if (!is_away(r4, 10000.0 * r6)) {
         return;
     }
-    const double choice0_0[3] = {0.022515002499999996 - r9 - r10, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r13, 0.0)));
+    const double choice0_0[3] = {0.022515002499999996 - r2 - r3, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r6, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r21 = 0.0 - (0.15005 * shared->r5 - shared->r2 * w1);
-        const double r22 = r21 / r11, r26 = 0.0 - (shared->r5 * w1 + 0.15005 * shared->r2), r27 = r26 / r11;
-        const double r31 = sqrt(fmax(r27 * r27 + r22 * r22, 0.0)), c1 = r27 / r31, s1 = r22 / r31;
+        const double w1 = roots0.values[i0], r15 = (p->py * w1 - (0.0 - 0.15005 * p->px)) / r4;
+        const double r19 = (p->px * w1 - 0.15005 * p->py) / r4, r23 = sqrt(fmax(r19 * r19 + r15 * r15, 0.0));
+        const double c1 = r19 / r23, s1 = r15 / r23;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1480,8 +1428,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Waist. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r2 = 0.0 - (0.0 - p->py), r5 = 0.0 - (0.0 - (0.0 - p->px)), r8 = fabs(p->magnitude + 2.0679);
-    const Shared1 own = { r2, r5, r8 };
+    const double r1 = fabs(p->magnitude + 2.0679);
+    const Shared1 own = { r1 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

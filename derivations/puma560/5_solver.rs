@@ -440,42 +440,34 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Waist.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r2 = 0.0 - (0.0 - p.py);
-    let r5 = 0.0 - (0.0 - (0.0 - p.px));
-    let r8 = f64::abs(p.magnitude + 2.0679);
-    let shared = &Shared1 { r2, r5, r8 };
+    let r1 = f64::abs(p.magnitude + 2.0679);
+    let shared = &Shared1 { r1 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r2: f64,
-    r5: f64,
-    r8: f64,
+    r1: f64,
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r9 = shared.r2 * shared.r2;
-    let r10 = shared.r5 * shared.r5;
-    let r11 = r9 + r10;
-    let r12 = shared.r8 * shared.r8;
-    let r13 = r12 + r12;
-    if !is_away(r11, 10000.0 * r13) {
+    let r2 = p.py * p.py;
+    let r3 = p.px * p.px;
+    let r4 = r2 + r3;
+    let r5 = shared.r1 * shared.r1;
+    let r6 = r5 + r5;
+    if !is_away(r4, 10000.0 * r6) {
         return;
     }
-    let roots0 = real_roots(&[
-        0.022515002499999996 - r9 - r10,
-        0.0,
-        1.0,
-    ], f64::max(r13, 0.0).sqrt());
+    let roots0 = real_roots(&[0.022515002499999996 - r2 - r3, 0.0, 1.0], f64::max(r6, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r22 = (0.0 - (0.15005 * shared.r5 - shared.r2 * w1)) / r11;
-        let r27 = (0.0 - (shared.r5 * w1 + 0.15005 * shared.r2)) / r11;
-        let r31 = f64::max(r27 * r27 + r22 * r22, 0.0).sqrt();
-        let c1 = r27 / r31;
-        let s1 = r22 / r31;
+        let r15 = (p.py * w1 - (0.0 - 0.15005 * p.px)) / r4;
+        let r19 = (p.px * w1 - 0.15005 * p.py) / r4;
+        let r23 = f64::max(r19 * r19 + r15 * r15, 0.0).sqrt();
+        let c1 = r19 / r23;
+        let s1 = r15 / r23;
         let next = Known { branch: i0, last: 2, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -483,29 +475,27 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Elbow.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.px * p.px + p.py * p.py + p.pz * p.pz;
-    let r10 = 0.3958295725 - (r4 + r4 - r4);
-    let shared = &Shared2 { r10 };
+    let r5 = 0.3958295725 - (p.pz * p.pz + (p.px * p.px + p.py * p.py));
+    let shared = &Shared2 { r5 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r10: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r12 = shared.r10 * shared.r10 - 0.00030733876596640005;
-    let roots0 = real_roots(&[r12 - 0.1390562595901504, 0.0, 1.0], 1.4142135623730951);
+    let r7 = shared.r5 * shared.r5 - 0.00030733876596640005;
+    let roots0 = real_roots(&[r7 - 0.1390562595901504, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r17 = 0.0 - (-0.37290248 * shared.r10 - 0.01753108 * w3);
-        let r18 = r17 / 0.13936359835611678;
-        let r22 = 0.0 - (-0.37290248 * w3 + 0.01753108 * shared.r10);
-        let r23 = r22 / 0.13936359835611678;
-        let r27 = f64::max(r23 * r23 + r18 * r18, 0.0).sqrt();
-        let c3 = r23 / r27;
-        let s3 = r18 / r27;
+        let r12 = 0.01753108 * w3 - (0.0 - 0.37290248 * shared.r5);
+        let r13 = r12 / 0.13936359835611678;
+        let r17 = (0.37290248 * w3 - 0.01753108 * shared.r5) / 0.13936359835611678;
+        let r21 = f64::max(r17 * r17 + r13 * r13, 0.0).sqrt();
+        let c3 = r17 / r21;
+        let s3 = r13 / r21;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -513,45 +503,41 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Shoulder.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = 0.4318 * known.c3 + 0.0203 * known.s3;
-    let r6 = 0.0203 * known.c3 + -0.4318 * known.s3 + 0.4318;
-    let r18 = p.px * known.c1 + (0.0 - (0.0 - p.py)) * known.s1;
-    let r26 = 0.0 - (0.0 - (0.0 - r6));
-    let r27 = 0.0 - (0.0 - p.pz);
-    let r28 = 0.0 - (0.0 - (0.0 - r18));
-    let r29 = p.magnitude + 2.0679;
-    let r34 = f64::abs(0.0 - r29);
-    let r35 = f64::abs(0.0 - (r29 + r29));
-    let shared = &Shared3 { r5, r26, r27, r28, r34, r35 };
+    let r4 = 0.4318 * known.c3 + 0.0203 * known.s3;
+    let r8 = 0.0203 * known.c3 - 0.4318 * known.s3 + 0.4318;
+    let r9 = p.px * known.c1 + p.py * known.s1;
+    let r10 = 0.0 - r9;
+    let r14 = f64::abs(p.magnitude + 2.0679);
+    let r15 = f64::abs(2.0 * p.magnitude + 4.1358);
+    let shared = &Shared3 { r4, r8, r9, r10, r14, r15 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r5: f64,
-    r26: f64,
-    r27: f64,
-    r28: f64,
-    r34: f64,
-    r35: f64,
+    r4: f64,
+    r8: f64,
+    r9: f64,
+    r10: f64,
+    r14: f64,
+    r15: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r38 = shared.r5 * shared.r5 + shared.r26 * shared.r26;
-    if !is_away(r38, 47848.22740000001) {
+    let r18 = shared.r4 * shared.r4 + shared.r8 * shared.r8;
+    if !is_away(r18, 47848.22740000001) {
         return;
     }
     let f2 = 1.0;
-    let r41 = shared.r26 * shared.r27 - shared.r5 * shared.r28;
-    let r43 = (0.0 - r41) / r38;
-    let r47 = 0.0 - shared.r5 * shared.r27 - shared.r26 * shared.r28;
-    let r49 = (0.0 - r47) / r38;
-    let r53 = f64::max(r49 * r49 + r43 * r43, 0.0).sqrt();
-    let c2 = r49 / r53;
-    let s2 = r43 / r53;
+    let r22 = (p.pz * shared.r8 - shared.r4 * shared.r9) / r18;
+    let r26 = shared.r8 * shared.r9 - (0.0 - p.pz * shared.r4);
+    let r27 = r26 / r18;
+    let r31 = f64::max(r27 * r27 + r22 * r22, 0.0).sqrt();
+    let c2 = r27 / r31;
+    let s2 = r22 / r31;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -560,8 +546,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r38 = shared.r5 * shared.r5 + shared.r26 * shared.r26;
-    if !(is_near(r38, 4.784822740000001e-7) && is_near(shared.r28, 0.01 * shared.r35) && is_near(shared.r27, 0.01 * shared.r34)) {
+    let r18 = shared.r4 * shared.r4 + shared.r8 * shared.r8;
+    if !(is_near(r18, 4.784822740000001e-7) && is_near(shared.r10, 0.01 * shared.r15) && is_near(p.pz, 0.01 * shared.r14)) {
         return;
     }
     let f2 = 1000000.0;
@@ -573,44 +559,38 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: WristRoll.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - (0.0 - p.r23_)) * known.s1;
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r11 = p.r33_ + (p.r33_ - p.r33_) * known.c1;
-    let r13 = 0.0 - (0.0 - r9);
-    let r22 = r6 * known.c2 + (0.0 - (0.0 - r11)) * known.s2;
-    let r26 = r11 * known.c2 + (0.0 - (0.0 - (0.0 - r6))) * known.s2;
-    let r27 = r13 + (r9 - r13) * known.c2;
-    let r29 = 0.0 - (0.0 - r27);
-    let r38 = r22 * known.c3 + (0.0 - (0.0 - r26)) * known.s3;
-    let r46 = 0.0 - (0.0 - (r29 + (r27 - r29) * known.c3));
-    let r49 = 0.0 - (0.0 - (0.0 - r38));
-    let shared = &Shared4 { r46, r49 };
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let r10 = known.c3 * (known.c2 * r4 + p.r33_ * known.s2);
+    let r12 = known.s3 * (p.r33_ * known.c2 - known.s2 * r4);
+    let r13 = p.r23_ * known.c1 - p.r13_ * known.s1;
+    let r14 = r10 + r12;
+    let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r46: f64,
-    r49: f64,
+    r13: f64,
+    r14: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r50 = shared.r46 * shared.r46;
-    let r51 = shared.r49 * shared.r49;
-    let r52 = r50 + r51;
-    if !is_away(r52, 4240000.0) {
+    let r15 = shared.r13 * shared.r13;
+    let r16 = shared.r14 * shared.r14;
+    let r17 = r15 + r16;
+    if !is_away(r17, 4240000.0) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r50 - r51, 0.0, 1.0], 20.591260281974 * known.f2);
+    let roots0 = real_roots(&[0.0 - r15 - r16, 0.0, 1.0], 20.591260281974 * known.f2);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r59 = (0.0 - (0.0 - shared.r46 * w4)) / r52;
-        let r62 = (0.0 - shared.r49 * w4) / r52;
-        let r66 = f64::max(r62 * r62 + r59 * r59, 0.0).sqrt();
-        let c4 = r62 / r66;
-        let s4 = r59 / r66;
+        let r22 = w4 * shared.r13 / r17;
+        let r24 = w4 * shared.r14 / r17;
+        let r28 = f64::max(r24 * r24 + r22 * r22, 0.0).sqrt();
+        let c4 = r24 / r28;
+        let s4 = r22 / r28;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -620,8 +600,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: WristRoll.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r52 = shared.r46 * shared.r46 + shared.r49 * shared.r49;
-    if !is_near(r52, 4.24e-5) {
+    let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
+    if !is_near(r17, 4.24e-5) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -632,84 +612,60 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: WristPitch.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - (0.0 - p.r23_)) * known.s1;
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r11 = p.r33_ + (p.r33_ - p.r33_) * known.c1;
-    let r13 = 0.0 - (0.0 - r9);
-    let r22 = r6 * known.c2 + (0.0 - (0.0 - r11)) * known.s2;
-    let r26 = r11 * known.c2 + (0.0 - (0.0 - (0.0 - r6))) * known.s2;
-    let r27 = r13 + (r9 - r13) * known.c2;
-    let r29 = 0.0 - (0.0 - r27);
-    let r38 = r22 * known.c3 + (0.0 - (0.0 - r26)) * known.s3;
-    let r42 = r26 * known.c3 + (0.0 - (0.0 - (0.0 - r22))) * known.s3;
-    let r50 = (0.0 - (0.0 - (r29 + (r27 - r29) * known.c3))) * known.s4;
-    let r59 = 0.0 - (0.0 - r42);
-    let r60 = 0.0 - (0.0 - (0.0 - (r38 * known.c4 + r50)));
-    let shared = &Shared5 { r59, r60 };
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let r9 = known.c2 * r4 + p.r33_ * known.s2;
+    let r11 = p.r33_ * known.c2 - known.s2 * r4;
+    let r18 = known.s4 * (p.r23_ * known.c1 - p.r13_ * known.s1);
+    let r19 = known.c3 * r11 - known.s3 * r9;
+    let r20 = known.c4 * (known.c3 * r9 + known.s3 * r11) + r18;
+    let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r59: f64,
-    r60: f64,
+    r19: f64,
+    r20: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r62 = 0.0 - (0.0 - shared.r60);
-    let r64 = 0.0 - (0.0 - shared.r59);
-    let r68 = f64::max(r64 * r64 + r62 * r62, 0.0).sqrt();
-    let c5 = r64 / r68;
-    let s5 = r62 / r68;
+    let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
+    let r24 = f64::max(r23, 0.0).sqrt();
+    let c5 = shared.r19 / r24;
+    let s5 = 0.0 - shared.r20 / r24;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: Flange.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r12_ * known.c1 + (0.0 - (0.0 - p.r22_)) * known.s1;
-    let r9 = p.r22_ * known.c1 + (0.0 - p.r12_) * known.s1;
-    let r11 = p.r32_ + (p.r32_ - p.r32_) * known.c1;
-    let r13 = 0.0 - (0.0 - r9);
-    let r22 = r6 * known.c2 + (0.0 - (0.0 - r11)) * known.s2;
-    let r26 = r11 * known.c2 + (0.0 - (0.0 - (0.0 - r6))) * known.s2;
-    let r27 = r13 + (r9 - r13) * known.c2;
-    let r29 = 0.0 - (0.0 - r27);
-    let r38 = r22 * known.c3 + (0.0 - (0.0 - r26)) * known.s3;
-    let r53 = (r29 + (r27 - r29) * known.c3) * known.c4 + (0.0 - r38) * known.s4;
-    let r58 = 0.0 - p.r11_;
-    let r59 = 0.0 - p.r21_;
-    let r60 = 0.0 - p.r31_;
-    let r67 = r58 * known.c1 + (0.0 - (0.0 - r59)) * known.s1;
-    let r70 = r59 * known.c1 + (0.0 - r58) * known.s1;
-    let r72 = r60 + (r60 - r60) * known.c1;
-    let r74 = 0.0 - (0.0 - r70);
-    let r83 = r67 * known.c2 + (0.0 - (0.0 - r72)) * known.s2;
-    let r87 = r72 * known.c2 + (0.0 - (0.0 - (0.0 - r67))) * known.s2;
-    let r88 = r74 + (r70 - r74) * known.c2;
-    let r90 = 0.0 - (0.0 - r88);
-    let r99 = r83 * known.c3 + (0.0 - (0.0 - r87)) * known.s3;
-    let r114 = (r90 + (r88 - r90) * known.c3) * known.c4 + (0.0 - r99) * known.s4;
-    let r118 = 0.0 - (0.0 - r114);
-    let r119 = 0.0 - (0.0 - (0.0 - r53));
-    let shared = &Shared6 { r118, r119 };
+    let r4 = p.r12_ * known.c1 + p.r22_ * known.s1;
+    let r10 = known.c3 * (known.c2 * r4 + p.r32_ * known.s2);
+    let r12 = known.s3 * (p.r32_ * known.c2 - known.s2 * r4);
+    let r15 = known.c4 * (p.r22_ * known.c1 - p.r12_ * known.s1);
+    let r21 = p.r11_ * known.c1 + p.r21_ * known.s1;
+    let r27 = known.c3 * (known.c2 * r21 + p.r31_ * known.s2);
+    let r29 = known.s3 * (p.r31_ * known.c2 - known.s2 * r21);
+    let r32 = known.c4 * (p.r21_ * known.c1 - p.r11_ * known.s1);
+    let r34 = r15 - known.s4 * (r10 + r12);
+    let r35 = r32 - known.s4 * (r27 + r29);
+    let shared = &Shared6 { r34, r35 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r118: f64,
-    r119: f64,
+    r34: f64,
+    r35: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r122 = 0.0 - (0.0 - (0.0 - shared.r118));
-    let r125 = 0.0 - (0.0 - (0.0 - shared.r119));
-    let r129 = f64::max(r125 * r125 + r122 * r122, 0.0).sqrt();
-    let c6 = r125 / r129;
-    let s6 = r122 / r129;
+    let r38 = shared.r34 * shared.r34 + shared.r35 * shared.r35;
+    let r39 = f64::max(r38, 0.0).sqrt();
+    let c6 = shared.r34 / r39;
+    let s6 = shared.r35 / r39;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -738,83 +694,53 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r2 = c1 + (1.0 - c1);
-    let r6 = c2 + (1.0 - c2);
-    let r7 = 0.0 - s2;
-    let r8 = c1 * c2;
-    let r9 = s1 * c2;
-    let r10 = r2 * s2;
-    let r13 = c1 * r7;
-    let r14 = s1 * r7;
-    let r15 = r2 * c2;
-    let r22 = c3 + (1.0 - c3);
-    let r23 = 0.0 - s3;
-    let r26 = r8 * c3 + r13 * s3;
-    let r29 = r9 * c3 + r14 * s3;
-    let r32 = r10 * c3 + r15 * s3;
-    let r33 = (0.0 - s1) * r6 * r22;
-    let r34 = c1 * r6 * r22;
-    let r57 = 0.4318 * r8 - 0.4318 * r26 + (0.4521 * r26 + -0.15005 * r33);
-    let r58 = 0.4318 * r9 - 0.4318 * r29 + (0.4521 * r29 + -0.15005 * r34);
-    let r61 = 0.0 - s4;
-    let r62 = c4 + (1.0 - c4);
-    let r65 = r26 * c4 + r33 * s4;
-    let r68 = r29 * c4 + r34 * s4;
-    let r69 = r32 * c4;
-    let r72 = r26 * r61 + r33 * c4;
-    let r75 = r29 * r61 + r34 * c4;
-    let r76 = r32 * r61;
-    let r77 = (r8 * r23 + r13 * c3) * r62;
-    let r78 = (r9 * r23 + r14 * c3) * r62;
-    let r79 = (r10 * r23 + r15 * c3) * r62;
-    let r82 = 0.4521 * r65 + -0.15005 * r72;
-    let r85 = 0.4521 * r68 + -0.15005 * r75;
-    let r88 = 0.4521 * r69 + -0.15005 * r76;
-    let r91 = 0.4318 * r10 - 0.4318 * r32 + 0.4521 * r32 - r88;
-    let r105 = c5 + (1.0 - c5);
-    let r106 = 0.0 - s5;
-    let r109 = r65 * c5 + r77 * s5;
-    let r112 = r68 * c5 + r78 * s5;
-    let r115 = r69 * c5 + r79 * s5;
-    let r116 = r72 * r105;
-    let r117 = r75 * r105;
-    let r118 = r76 * r105;
-    let r121 = r65 * r106 + r77 * c5;
-    let r124 = r68 * r106 + r78 * c5;
-    let r127 = r69 * r106 + r79 * c5;
-    let r132 = 0.4521 * r109 + -0.15005 * r116 + 0.4318 * r121;
-    let r137 = 0.4521 * r112 + -0.15005 * r117 + 0.4318 * r124;
-    let r142 = 0.4521 * r115 + -0.15005 * r118 + 0.4318 * r127;
-    let r146 = r57 - r82 + (r82 + 0.4318 * r77) - r132 + r132;
-    let r147 = r58 - r85 + (r85 + 0.4318 * r78) - r137 + r137;
-    let r150 = 0.0 - s6;
-    let r151 = c6 + (1.0 - c6);
-    let r154 = r109 * c6 + r116 * s6;
-    let r157 = r112 * c6 + r117 * s6;
-    let r160 = r115 * c6 + r118 * s6;
-    let r163 = r109 * r150 + r116 * c6;
-    let r166 = r112 * r150 + r117 * c6;
-    let r169 = r115 * r150 + r118 * c6;
-    let r170 = r121 * r151;
-    let r171 = r124 * r151;
-    let r172 = r127 * r151;
-    let r177 = 0.4521 * r154 + -0.15005 * r163 + 0.4318 * r170;
-    let r182 = 0.4521 * r157 + -0.15005 * r166 + 0.4318 * r171;
-    let r187 = 0.4521 * r160 + -0.15005 * r169 + 0.4318 * r172;
-    let r190 = r91 + (r88 + 0.4318 * r79) - r142 + r142 - r187;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r10 = s3 * r0;
+    let r11 = c3 * r2;
+    let r12 = s3 * r1;
+    let r13 = c3 * r3;
+    let r14 = s2 * s3;
+    let r15 = c2 * c3;
+    let r16 = r4 - r5;
+    let r19 = r6 - r7;
+    let r22 = r8 + r9;
+    let r23 = c4 * r22;
+    let r28 = s4 * r22;
+    let r29 = c4 * r16 - s1 * s4;
+    let r31 = r10 + r11;
+    let r33 = c4 * r19 + c1 * s4;
+    let r35 = r12 + r13;
+    let r38 = r14 - r15;
+    let r46 = c5 * r29 - s5 * r31;
+    let r48 = s4 * r16 + s1 * c4;
+    let r50 = c5 * r33 - s5 * r35;
+    let r52 = s4 * r19 - c1 * c4;
+    let r54 = c5 * r23 - s5 * r38;
+    let r69 = 0.4318 * s2 + 0.0203 * r8 + 0.0203 * r9 - 0.4318 * r14;
+    let r78 = 0.4318 * r1 + 0.0203 * r6 - 0.0203 * r7 - 0.15005 * c1;
+    let r89 = 0.4318 * r0 + 0.0203 * r4 - 0.0203 * r5 + 0.15005 * s1;
     [
-        r146 - r177 + r177,
-        r147 - r182 + r182,
-        r190 + r187,
-        r154,
-        r157,
-        r160,
-        r163,
-        r166,
-        r169,
-        r170,
-        r171,
-        r172,
+        r89 - 0.4318 * r10 - 0.4318 * r11,
+        r78 - 0.4318 * r12 - 0.4318 * r13,
+        r69 + 0.4318 * r15,
+        c6 * r46 - s6 * r48,
+        c6 * r50 - s6 * r52,
+        c6 * r54 - s6 * r28,
+        0.0 - (s6 * r46 + c6 * r48),
+        0.0 - (s6 * r50 + c6 * r52),
+        0.0 - (s6 * r54 + c6 * r28),
+        0.0 - (s5 * r29 + c5 * r31),
+        0.0 - (s5 * r33 + c5 * r35),
+        0.0 - (s5 * r23 + c5 * r38),
     ]
 }
 
@@ -872,115 +798,89 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.0 - r1;
-    let r4 = 0.0 - c1;
-    let r6 = c2 + (1.0 - c2);
-    let r7 = 0.0 - s2;
-    let r8 = c1 * c2;
-    let r9 = s1 * c2;
-    let r10 = r2 * s2;
-    let r11 = r1 * r6;
-    let r12 = c1 * r6;
-    let r13 = c1 * r7;
-    let r14 = s1 * r7;
-    let r15 = r2 * c2;
-    let r16 = 0.0 - r11;
-    let r17 = 0.0 - r12;
-    let r18 = 0.4318 * r8;
-    let r19 = 0.4318 * r9;
-    let r20 = 0.4318 * r10;
-    let r22 = c3 + (1.0 - c3);
-    let r23 = 0.0 - s3;
-    let r26 = r8 * c3 + r13 * s3;
-    let r29 = r9 * c3 + r14 * s3;
-    let r32 = r10 * c3 + r15 * s3;
-    let r33 = r11 * r22;
-    let r34 = r12 * r22;
-    let r37 = r8 * r23 + r13 * c3;
-    let r40 = r9 * r23 + r14 * c3;
-    let r43 = r10 * r23 + r15 * c3;
-    let r57 = r18 - 0.4318 * r26 + (0.4521 * r26 + -0.15005 * r33);
-    let r58 = r19 - 0.4318 * r29 + (0.4521 * r29 + -0.15005 * r34);
-    let r59 = r20 - 0.4318 * r32 + 0.4521 * r32;
-    let r61 = 0.0 - s4;
-    let r62 = c4 + (1.0 - c4);
-    let r65 = r26 * c4 + r33 * s4;
-    let r68 = r29 * c4 + r34 * s4;
-    let r69 = r32 * c4;
-    let r72 = r26 * r61 + r33 * c4;
-    let r75 = r29 * r61 + r34 * c4;
-    let r76 = r32 * r61;
-    let r77 = r37 * r62;
-    let r78 = r40 * r62;
-    let r79 = r43 * r62;
-    let r82 = 0.4521 * r65 + -0.15005 * r72;
-    let r85 = 0.4521 * r68 + -0.15005 * r75;
-    let r88 = 0.4521 * r69 + -0.15005 * r76;
-    let r92 = 0.0 - r72;
-    let r93 = 0.0 - r75;
-    let r94 = 0.0 - r76;
-    let r101 = r57 - r82 + (r82 + 0.4318 * r77);
-    let r102 = r58 - r85 + (r85 + 0.4318 * r78);
-    let r103 = r59 - r88 + (r88 + 0.4318 * r79);
-    let r105 = c5 + (1.0 - c5);
-    let r106 = 0.0 - s5;
-    let r109 = r65 * c5 + r77 * s5;
-    let r112 = r68 * c5 + r78 * s5;
-    let r115 = r69 * c5 + r79 * s5;
-    let r116 = r72 * r105;
-    let r117 = r75 * r105;
-    let r118 = r76 * r105;
-    let r121 = r65 * r106 + r77 * c5;
-    let r124 = r68 * r106 + r78 * c5;
-    let r127 = r69 * r106 + r79 * c5;
-    let r132 = 0.4521 * r109 + -0.15005 * r116 + 0.4318 * r121;
-    let r137 = 0.4521 * r112 + -0.15005 * r117 + 0.4318 * r124;
-    let r142 = 0.4521 * r115 + -0.15005 * r118 + 0.4318 * r127;
-    let r146 = r101 - r132 + r132;
-    let r147 = r102 - r137 + r137;
-    let r148 = r103 - r142 + r142;
-    let r150 = 0.0 - s6;
-    let r151 = c6 + (1.0 - c6);
-    let r154 = r109 * c6 + r116 * s6;
-    let r157 = r112 * c6 + r117 * s6;
-    let r160 = r115 * c6 + r118 * s6;
-    let r163 = r109 * r150 + r116 * c6;
-    let r166 = r112 * r150 + r117 * c6;
-    let r169 = r115 * r150 + r118 * c6;
-    let r170 = r121 * r151;
-    let r171 = r124 * r151;
-    let r172 = r127 * r151;
-    let r177 = 0.4521 * r154 + -0.15005 * r163 + 0.4318 * r170;
-    let r182 = 0.4521 * r157 + -0.15005 * r166 + 0.4318 * r171;
-    let r187 = 0.4521 * r160 + -0.15005 * r169 + 0.4318 * r172;
-    let r191 = r146 - r177 + r177;
-    let r192 = r147 - r182 + r182;
-    let r193 = r148 - r187 + r187;
-    let r203 = r193 - r20;
-    let r210 = r191 - r57;
-    let r211 = r192 - r58;
-    let r212 = r193 - r59;
-    let r222 = r191 - r101;
-    let r223 = r192 - r102;
-    let r224 = r193 - r103;
-    let r234 = r191 - r146;
-    let r235 = r192 - r147;
-    let r236 = r193 - r148;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r10 = s3 * r0;
+    let r11 = c3 * r2;
+    let r12 = s3 * r1;
+    let r13 = c3 * r3;
+    let r14 = s2 * s3;
+    let r15 = c2 * c3;
+    let r16 = r4 - r5;
+    let r19 = r6 - r7;
+    let r22 = r8 + r9;
+    let r23 = c4 * r22;
+    let r28 = s4 * r22;
+    let r29 = c4 * r16 - s1 * s4;
+    let r31 = r10 + r11;
+    let r33 = c4 * r19 + c1 * s4;
+    let r35 = r12 + r13;
+    let r38 = r14 - r15;
+    let r46 = c5 * r29 - s5 * r31;
+    let r48 = s4 * r16 + s1 * c4;
+    let r50 = c5 * r33 - s5 * r35;
+    let r51 = c6 * r50;
+    let r52 = s4 * r19 - c1 * c4;
+    let r53 = s6 * r52;
+    let r54 = c5 * r23 - s5 * r38;
+    let r64 = 0.0203 * r8;
+    let r66 = 0.0203 * r9;
+    let r68 = 0.4318 * r14;
+    let r70 = 0.4318 * r15;
+    let r71 = 0.4318 * s2 + r64 + r66 - r68 + r70;
+    let r73 = 0.0203 * r6;
+    let r75 = 0.0203 * r7;
+    let r77 = 0.15005 * c1;
+    let r79 = 0.4318 * r12;
+    let r80 = 0.4318 * r1 + r73 - r75 - r77 - r79;
+    let r81 = 0.4318 * r13;
+    let r84 = 0.0203 * r4;
+    let r86 = 0.0203 * r5;
+    let r88 = 0.15005 * s1;
+    let r90 = 0.4318 * r10;
+    let r92 = 0.4318 * r11;
+    let r93 = 0.4318 * r0 + r84 - r86 + r88 - r90 - r92;
+    let r97 = c6 * r54 - s6 * r28;
+    let r98 = r51 - r53;
+    let r99 = c6 * r46 - s6 * r48;
+    let r100 = s5 * r33 + c5 * r35;
+    let r101 = s5 * r23 + c5 * r38;
+    let r102 = s5 * r29 + c5 * r31;
+    let r106 = s6 * r54 + c6 * r28;
+    let r107 = s6 * r50 + c6 * r52;
+    let r108 = s6 * r46 + c6 * r48;
+    let r127 = r70 + (r64 + r66 - r68);
+    let r146 = s1 * (r73 - r75 - r77 - r79 - r81) + c1 * (r88 + (r84 - r86) - r90 - r92);
+    let r170 = 0.0 - c1 * r97;
+    let r174 = 0.0 - s1 * r97;
+    let r178 = s1 * r98 + c1 * r99;
+    let r182 = c1 * r106;
+    let r183 = s1 * r106;
+    let r211 = 0.0 - (s1 * r107 + c1 * r108);
+    let r215 = c1 * r101;
+    let r216 = s1 * r101;
+    let r236 = 0.0 - (s1 * r100 + c1 * r102);
     [
-        [0.0 - r192, r4 * r193, r17 * r203, r40 * r212 - r43 * r211, r93 * r224 - r94 * r223, r124 * r236 - r127 * r235],
-        [r191, 0.0 - r3 * r193, 0.0 - r16 * r203, r43 * r210 - r37 * r212, r94 * r222 - r92 * r224, r127 * r234 - r121 * r236],
-        [0.0, r3 * r192 - r4 * r191, r16 * (r192 - r19) - r17 * (r191 - r18), r37 * r211 - r40 * r210, r92 * r223 - r93 * r222, r121 * r235 - r124 * r234],
-        [0.0 - r157, r4 * r160, r17 * r160, r40 * r160 - r43 * r157, r93 * r160 - r94 * r157, r124 * r160 - r127 * r157],
-        [r154, 0.0 - r3 * r160, 0.0 - r16 * r160, r43 * r154 - r37 * r160, r94 * r154 - r92 * r160, r127 * r154 - r121 * r160],
-        [0.0, r3 * r157 - r4 * r154, r16 * r157 - r17 * r154, r37 * r157 - r40 * r154, r92 * r157 - r93 * r154, r121 * r157 - r124 * r154],
-        [0.0 - r166, r4 * r169, r17 * r169, r40 * r169 - r43 * r166, r93 * r169 - r94 * r166, r124 * r169 - r127 * r166],
-        [r163, 0.0 - r3 * r169, 0.0 - r16 * r169, r43 * r163 - r37 * r169, r94 * r163 - r92 * r169, r127 * r163 - r121 * r169],
-        [0.0, r3 * r166 - r4 * r163, r16 * r166 - r17 * r163, r37 * r166 - r40 * r163, r92 * r166 - r93 * r163, r121 * r166 - r124 * r163],
-        [0.0 - r171, r4 * r172, r17 * r172, r40 * r172 - r43 * r171, r93 * r172 - r94 * r171, r124 * r172 - r127 * r171],
-        [r170, 0.0 - r3 * r172, 0.0 - r16 * r172, r43 * r170 - r37 * r172, r94 * r170 - r92 * r172, r127 * r170 - r121 * r172],
-        [0.0, r3 * r171 - r4 * r170, r16 * r171 - r17 * r170, r37 * r171 - r40 * r170, r92 * r171 - r93 * r170, r121 * r171 - r124 * r170],
+        [r81 - r80, 0.0 - c1 * r71, 0.0 - c1 * r127, 0.0, 0.0, 0.0],
+        [r93, 0.0 - s1 * r71, 0.0 - s1 * r127, 0.0, 0.0, 0.0],
+        [0.0, s1 * (r80 - r81) + c1 * r93, r146, 0.0, 0.0, 0.0],
+        [r53 - r51, r170, r170, r38 * r98 - r35 * r97, r52 * r97 - r28 * r98, r98 * r101 - r97 * r100],
+        [r99, r174, r174, r31 * r97 - r38 * r99, r28 * r99 - r48 * r97, r97 * r102 - r99 * r101],
+        [0.0, r178, r178, r35 * r99 - r31 * r98, r48 * r98 - r52 * r99, r99 * r100 - r98 * r102],
+        [r107, r182, r182, r35 * r106 - r38 * r107, r28 * r107 - r52 * r106, r100 * r106 - r101 * r107],
+        [0.0 - r108, r183, r183, r38 * r108 - r31 * r106, r48 * r106 - r28 * r108, r101 * r108 - r102 * r106],
+        [0.0, r211, r211, r31 * r107 - r35 * r108, r52 * r108 - r48 * r107, r102 * r107 - r100 * r108],
+        [r100, r215, r215, r35 * r101 - r38 * r100, r28 * r100 - r52 * r101, 0.0],
+        [0.0 - r102, r216, r216, r38 * r102 - r31 * r101, r48 * r101 - r28 * r102, 0.0],
+        [0.0, r236, r236, r31 * r100 - r35 * r102, r52 * r102 - r48 * r100, 0.0],
     ]
 }
 

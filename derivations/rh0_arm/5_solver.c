@@ -287,20 +287,12 @@ static Parameters parameters(const double *target)
 static void tip(const double *q, double *reached)
 {
     const double c14 = cos(q[0]), s14 = sin(q[0]), c15 = cos(q[1]), s15 = sin(q[1]), c16 = cos(q[2]);
-    const double s16 = sin(q[2]), r1 = c14 + (1.0 - c14), r3 = -0.2 * r1, r4 = 0.3 * c14, r5 = 0.3 * s14;
-    const double r14 = c15 + (1.0 - c15), r15 = r1 * c15, r16 = c14 * s15, r17 = s14 * s15;
-    const double r18 = r1 * (0.0 - s15), r19 = c14 * c15, r20 = s14 * c15, r23 = -0.2 * r15, r26 = -0.2 * r16;
-    const double r29 = -0.2 * r17, r41 = -0.2 - r3 + r3 - (r23 + 0.3 * r18) + (r23 + 0.08 * r18);
-    const double r42 = 0.3 - r4 + r4 - (r26 + 0.3 * r19) + (r26 + 0.08 * r19);
-    const double r43 = 0.0 - r5 + r5 - (r29 + 0.3 * r20) + (r29 + 0.08 * r20), r45 = c16 + (1.0 - c16);
-    const double r50 = r18 * c16, r53 = r19 * c16 + (0.0 - s14) * r14 * s16, r56 = r20 * c16 + c14 * r14 * s16;
-    const double r64 = -0.2 * (r15 * r45), r67 = -0.2 * (r16 * r45), r70 = -0.2 * (r17 * r45);
-    const double r82 = r41 - (r64 + 0.08 * r50) + (r64 + -0.16 * r50);
-    const double r83 = r42 - (r67 + 0.08 * r53) + (r67 + -0.16 * r53);
-    const double r84 = r43 - (r70 + 0.08 * r56) + (r70 + -0.16 * r56);
-    reached[0] = r82;
-    reached[1] = r83;
-    reached[2] = r84;
+    const double s16 = sin(q[2]), r0 = c14 * c15, r1 = s14 * c15;
+    const double r11 = 0.22 * r1 + 0.24 * (c16 * r1) + 0.24 * (c14 * s16);
+    const double r16 = 0.22 * r0 + 0.24 * (c16 * r0) - 0.24 * (s14 * s16);
+    reached[0] = 0.22 * s15 + 0.24 * (s15 * c16) - 0.2;
+    reached[1] = 0.3 - r16;
+    reached[2] = 0.0 - r11;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -337,23 +329,14 @@ static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
     const double c14 = cos(q[0]), s14 = sin(q[0]), c15 = cos(q[1]), s15 = sin(q[1]), c16 = cos(q[2]);
-    const double s16 = sin(q[2]), r1 = c14 + (1.0 - c14), r2 = 0.0 - s14, r3 = -0.2 * r1, r4 = 0.3 * c14;
-    const double r5 = 0.3 * s14, r9 = -0.2 - r3 + r3, r10 = 0.3 - r4 + r4, r11 = 0.0 - r5 + r5;
-    const double r14 = c15 + (1.0 - c15), r15 = r1 * c15, r16 = c14 * s15, r17 = s14 * s15;
-    const double r18 = r1 * (0.0 - s15), r19 = c14 * c15, r20 = s14 * c15, r23 = -0.2 * r15, r26 = -0.2 * r16;
-    const double r29 = -0.2 * r17, r41 = r9 - (r23 + 0.3 * r18) + (r23 + 0.08 * r18);
-    const double r42 = r10 - (r26 + 0.3 * r19) + (r26 + 0.08 * r19);
-    const double r43 = r11 - (r29 + 0.3 * r20) + (r29 + 0.08 * r20), r45 = c16 + (1.0 - c16), r50 = r18 * c16;
-    const double r53 = r19 * c16 + r2 * r14 * s16, r56 = r20 * c16 + c14 * r14 * s16, r64 = -0.2 * (r15 * r45);
-    const double r67 = -0.2 * (r16 * r45), r70 = -0.2 * (r17 * r45);
-    const double r82 = r41 - (r64 + 0.08 * r50) + (r64 + -0.16 * r50);
-    const double r83 = r42 - (r67 + 0.08 * r53) + (r67 + -0.16 * r53);
-    const double r84 = r43 - (r70 + 0.08 * r56) + (r70 + -0.16 * r56), r88 = r82 - r9, r97 = r82 - r41;
-    const double r98 = r83 - r42, r99 = r84 - r43;
+    const double s16 = sin(q[2]), r0 = c14 * c15, r1 = s14 * c15, r2 = s15 * c16, r3 = c16 * r0, r4 = s14 * s16;
+    const double r5 = c16 * r1, r6 = c14 * s16, r11 = 0.22 * r1 + 0.24 * r5 + 0.24 * r6;
+    const double r14 = 0.22 * r0 + 0.24 * r3, r15 = 0.24 * r4, r19 = 0.22 * s15 + 0.24 * r2, r26 = c14 * s15;
+    const double r27 = s14 * s15, r32 = r5 + r6, r34 = r3 - r4;
     const Jacobian result = { {
-        {0.0, r2 * (r84 - r11) - c14 * (r83 - r10), r16 * r99 - r17 * r98},
-        {0.0 - r84, c14 * r88, r17 * r97 - r15 * r99},
-        {r83 - 0.3, 0.0 - r2 * r88, r15 * r98 - r16 * r97},
+        {0.0, s14 * r11 + c14 * (r14 - r15), 0.0 - 0.24 * (r26 * r32 - r27 * r34)},
+        {r11, c14 * r19, 0.24 * (r27 * r2 + c15 * r32)},
+        {r15 - r14, s14 * r19, 0.0 - 0.24 * (c15 * r34 + r26 * r2)},
     } };
     return result;
 }
@@ -1061,11 +1044,11 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r24;
-    double r25;
-    double r26;
-    double r38;
-    double r39;
+    double r4;
+    double r5;
+    double r6;
+    double r10;
+    double r11;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1073,13 +1056,12 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r40 = shared->r24 * shared->r24;
-    if (!is_away(r40, 29444.000000000004)) {
+    const double r12 = shared->r4 * shared->r4;
+    if (!is_away(r12, 29444.000000000004)) {
         return;
     }
-    const double r43 = (0.0 - shared->r24 * shared->r25) / r40;
-    const double r47 = (0.0 - (-0.0 - shared->r24 * shared->r26)) / r40;
-    const double r51 = sqrt(fmax(r47 * r47 + r43 * r43, 0.0)), c15 = r47 / r51, s15 = r43 / r51;
+    const double r14 = shared->r4 * shared->r5 / r12, r16 = shared->r4 * shared->r6 / r12;
+    const double r20 = sqrt(fmax(r16 * r16 + r14 * r14, 0.0)), c15 = 0.0 - r16 / r20, s15 = r14 / r20;
     const double q[JOINTS] = {
         angle(known->c14, known->s14),
         angle(c15, s15),
@@ -1094,7 +1076,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    if (!(is_near(shared->r24 * shared->r24, 2.9444000000000003e-7) && is_near(shared->r26, 0.01 * shared->r39) && is_near(shared->r25, 0.01 * shared->r38))) {
+    if (!(is_near(shared->r4 * shared->r4, 2.9444000000000003e-7) && is_near(shared->r6, 0.01 * shared->r11) && is_near(shared->r5, 0.01 * shared->r10))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1112,11 +1094,10 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Shoulder. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r16 = (p->py - 0.3) * known->c14 + (0.0 - (0.0 - p->pz)) * known->s14;
-    const double r24 = 0.0 - (0.0 - (-0.24 * known->c16 + 0.08 - 0.3)), r25 = 0.0 - (-0.2 - p->px);
-    const double r26 = 0.0 - (0.3 - (r16 + 0.3)), r35 = p->magnitude + 0.3 + p->magnitude + 0.3 + 0.3;
-    const double r38 = fabs(0.0 - (p->magnitude + 0.2)), r39 = fabs(0.0 - r35);
-    const Shared3 own = { r24, r25, r26, r38, r39 };
+    const double r4 = 0.24 * known->c16 + 0.22, r5 = p->px + 0.2;
+    const double r6 = known->c14 * (p->py - 0.3) + p->pz * known->s14, r10 = fabs(p->magnitude + 0.2);
+    const double r11 = fabs(2.0 * p->magnitude + 0.9);
+    const Shared3 own = { r4, r5, r6, r10, r11 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1124,11 +1105,10 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
+    double r0;
     double r1;
-    double r6;
-    double r10;
-    double r15;
-    double r16;
+    double r2;
+    double r4;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1136,17 +1116,17 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r17 = shared->r6 * shared->r6, r18 = shared->r10 * shared->r10, r19 = r17 + r18;
-    const double r22 = shared->r15 * shared->r15 + shared->r16 * shared->r16;
-    if (!is_away(r19, 10000.0 * r22)) {
+    const double r5 = p->pz * p->pz, r6 = shared->r0 * shared->r0, r7 = r5 + r6;
+    const double r10 = p->magnitude * p->magnitude + shared->r4 * shared->r4;
+    if (!is_away(r7, 10000.0 * r10)) {
         return;
     }
-    const double choice0_0[3] = {shared->r1 * shared->r1 - r17 - r18, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r22, 0.0)));
+    const double choice0_0[3] = {shared->r1 * shared->r1 - r5 - r6, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w14 = roots0.values[i0], r31 = 0.0 - (shared->r10 * shared->r1 - shared->r6 * w14);
-        const double r32 = r31 / r19, r36 = 0.0 - (shared->r10 * w14 + shared->r6 * shared->r1), r37 = r36 / r19;
-        const double r41 = sqrt(fmax(r37 * r37 + r32 * r32, 0.0)), c14 = r37 / r41, s14 = r32 / r41;
+        const double w14 = roots0.values[i0], r19 = (shared->r0 * shared->r1 - p->pz * w14) / r7;
+        const double r23 = (w14 * shared->r0 + p->pz * shared->r1) / r7;
+        const double r27 = sqrt(fmax(r23 * r23 + r19 * r19, 0.0)), c14 = 0.0 - r23 / r27, s14 = r19 / r27;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1162,9 +1142,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r19 = shared->r6 * shared->r6 + shared->r10 * shared->r10;
-    const double r22 = shared->r15 * shared->r15 + shared->r16 * shared->r16;
-    if (!(is_near(r19, 1.0000000000000001e-7 * r22) && is_near(shared->r1, 0.0024))) {
+    const double r10 = p->magnitude * p->magnitude + shared->r4 * shared->r4;
+    if (!(is_near(p->pz * p->pz + shared->r0 * shared->r0, 1.0000000000000001e-7 * r10) && is_near(shared->r2, 0.0024))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1182,9 +1161,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Clavicle. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = -0.24 * known->s16, r6 = 0.0 - p->pz, r10 = 0.0 - (0.0 - (p->py - 0.3));
-    const double r15 = fabs(p->magnitude), r16 = fabs(p->magnitude + 0.3);
-    const Shared2 own = { r1, r6, r10, r15, r16 };
+    const double r0 = p->py - 0.3, r1 = 0.24 * known->s16, r2 = 0.0 - r1, r4 = fabs(p->magnitude + 0.3);
+    const Shared2 own = { r0, r1, r2, r4 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -1192,20 +1170,20 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r18;
+    double r9;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r20 = shared->r18 * shared->r18 - 0.011151359999999999;
-    const double choice0_0[3] = {r20, 0.0, 1.0};
+    const double r11 = shared->r9 * shared->r9 - 0.011151359999999999;
+    const double choice0_0[3] = {r11, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w16 = roots0.values[i0], r24 = (0.0 - (0.0 - 0.1056 * w16)) / 0.011151359999999999;
-        const double r27 = (0.0 - 0.1056 * shared->r18) / 0.011151359999999999;
-        const double r31 = sqrt(fmax(r27 * r27 + r24 * r24, 0.0)), c16 = r27 / r31, s16 = r24 / r31;
+        const double w16 = roots0.values[i0], r13 = 0.1056 * w16 / 0.011151359999999999;
+        const double r15 = 0.1056 * shared->r9 / 0.011151359999999999;
+        const double r19 = sqrt(fmax(r15 * r15 + r13 * r13, 0.0)), c16 = r15 / r19, s16 = r13 / r19;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1218,10 +1196,9 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Elbow. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r4 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r16 = r4 + r4 - r4 + (-0.2 * (-0.2 - p->px) + 0.3 * (0.3 - p->py));
-    const double r18 = 0.106 - (r16 - (-0.2 * p->px + 0.3 * p->py));
-    const Shared1 own = { r18 };
+    const double r4 = p->pz * p->pz + (p->px * p->px + p->py * p->py);
+    const double r9 = r4 + 0.4 * p->px - 0.6 * p->py + 0.024;
+    const Shared1 own = { r9 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

@@ -348,28 +348,30 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Elbow.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r4 = p.px * p.px + p.py * p.py + p.pz * p.pz;
-    let r16 = r4 + r4 - r4 + (-0.2 * (-0.2 - p.px) + 0.3 * (0.3 - p.py));
-    let r18 = 0.106 - (r16 - (-0.2 * p.px + 0.3 * p.py));
-    let shared = &Shared1 { r18 };
+    let r6 = p.pz * p.pz + (p.px * p.px + p.py * p.py) + 0.4 * p.px;
+    let r9 = r6 - 0.6 * p.py + 0.024;
+    let shared = &Shared1 { r9 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r18: f64,
+    r9: f64,
 }
 
 /// Chart 1 of block 1: generic.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r20 = shared.r18 * shared.r18 - 0.011151359999999999;
-    let roots0 = real_roots(&[r20, 0.0, 1.0], 1.4142135623730951);
+    let roots0 = real_roots(&[
+        shared.r9 * shared.r9 - 0.011151359999999999,
+        0.0,
+        1.0,
+    ], 1.4142135623730951);
     for (i0, &w16) in roots0.as_slice().iter().enumerate() {
-        let r24 = (0.0 - (0.0 - 0.1056 * w16)) / 0.011151359999999999;
-        let r27 = (0.0 - 0.1056 * shared.r18) / 0.011151359999999999;
-        let r31 = f64::max(r27 * r27 + r24 * r24, 0.0).sqrt();
-        let c16 = r27 / r31;
-        let s16 = r24 / r31;
+        let r13 = 0.1056 * w16 / 0.011151359999999999;
+        let r15 = 0.1056 * shared.r9 / 0.011151359999999999;
+        let r19 = f64::max(r15 * r15 + r13 * r13, 0.0).sqrt();
+        let c16 = r15 / r19;
+        let s16 = r13 / r19;
         let next = Known { branch: i0, last: 2, c16, s16, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -377,48 +379,44 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Clavicle.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = -0.24 * known.s16;
-    let r6 = 0.0 - p.pz;
-    let r10 = 0.0 - (0.0 - (p.py - 0.3));
-    let r15 = f64::abs(p.magnitude);
-    let r16 = f64::abs(p.magnitude + 0.3);
-    let shared = &Shared2 { r1, r6, r10, r15, r16 };
+    let r0 = p.py - 0.3;
+    let r1 = 0.24 * known.s16;
+    let r2 = 0.0 - r1;
+    let r4 = f64::abs(p.magnitude + 0.3);
+    let shared = &Shared2 { r0, r1, r2, r4 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
+    r0: f64,
     r1: f64,
-    r6: f64,
-    r10: f64,
-    r15: f64,
-    r16: f64,
+    r2: f64,
+    r4: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r17 = shared.r6 * shared.r6;
-    let r18 = shared.r10 * shared.r10;
-    let r19 = r17 + r18;
-    let r22 = shared.r15 * shared.r15 + shared.r16 * shared.r16;
-    if !is_away(r19, 10000.0 * r22) {
+    let r5 = p.pz * p.pz;
+    let r6 = shared.r0 * shared.r0;
+    let r7 = r5 + r6;
+    let r10 = p.magnitude * p.magnitude + shared.r4 * shared.r4;
+    if !is_away(r7, 10000.0 * r10) {
         return;
     }
     let roots0 = real_roots(&[
-        shared.r1 * shared.r1 - r17 - r18,
+        shared.r1 * shared.r1 - r5 - r6,
         0.0,
         1.0,
-    ], f64::max(r22, 0.0).sqrt());
+    ], f64::max(r10, 0.0).sqrt());
     for (i0, &w14) in roots0.as_slice().iter().enumerate() {
-        let r31 = 0.0 - (shared.r10 * shared.r1 - shared.r6 * w14);
-        let r32 = r31 / r19;
-        let r36 = 0.0 - (shared.r10 * w14 + shared.r6 * shared.r1);
-        let r37 = r36 / r19;
-        let r41 = f64::max(r37 * r37 + r32 * r32, 0.0).sqrt();
-        let c14 = r37 / r41;
-        let s14 = r32 / r41;
+        let r19 = (shared.r0 * shared.r1 - p.pz * w14) / r7;
+        let r23 = (w14 * shared.r0 + p.pz * shared.r1) / r7;
+        let r27 = f64::max(r23 * r23 + r19 * r19, 0.0).sqrt();
+        let c14 = 0.0 - r23 / r27;
+        let s14 = r19 / r27;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c14, s14, ..*known };
         block_3(p, &next, answers);
     }
@@ -428,9 +426,8 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: Clavicle.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r19 = shared.r6 * shared.r6 + shared.r10 * shared.r10;
-    let r22 = shared.r15 * shared.r15 + shared.r16 * shared.r16;
-    if !(is_near(r19, 1.0000000000000001e-7 * r22) && is_near(shared.r1, 0.0024)) {
+    let r10 = p.magnitude * p.magnitude + shared.r4 * shared.r4;
+    if !(is_near(p.pz * p.pz + shared.r0 * shared.r0, 1.0000000000000001e-7 * r10) && is_near(shared.r2, 0.0024)) {
         return;
     }
     for [c14, s14] in SAMPLES_1 {
@@ -441,39 +438,37 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Shoulder.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r16 = (p.py - 0.3) * known.c14 + (0.0 - (0.0 - p.pz)) * known.s14;
-    let r24 = 0.0 - (0.0 - (-0.24 * known.c16 + 0.08 - 0.3));
-    let r25 = 0.0 - (-0.2 - p.px);
-    let r26 = 0.0 - (0.3 - (r16 + 0.3));
-    let r37 = 0.0 - (p.magnitude + 0.3 + p.magnitude + 0.3 + 0.3);
-    let r38 = f64::abs(0.0 - (p.magnitude + 0.2));
-    let r39 = f64::abs(r37);
-    let shared = &Shared3 { r24, r25, r26, r38, r39 };
+    let r4 = 0.24 * known.c16 + 0.22;
+    let r5 = p.px + 0.2;
+    let r6 = known.c14 * (p.py - 0.3) + p.pz * known.s14;
+    let r10 = f64::abs(p.magnitude + 0.2);
+    let r11 = f64::abs(2.0 * p.magnitude + 0.9);
+    let shared = &Shared3 { r4, r5, r6, r10, r11 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r24: f64,
-    r25: f64,
-    r26: f64,
-    r38: f64,
-    r39: f64,
+    r4: f64,
+    r5: f64,
+    r6: f64,
+    r10: f64,
+    r11: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r40 = shared.r24 * shared.r24;
-    if !is_away(r40, 29444.000000000004) {
+    let r12 = shared.r4 * shared.r4;
+    if !is_away(r12, 29444.000000000004) {
         return;
     }
-    let r43 = (0.0 - shared.r24 * shared.r25) / r40;
-    let r47 = (0.0 - (-0.0 - shared.r24 * shared.r26)) / r40;
-    let r51 = f64::max(r47 * r47 + r43 * r43, 0.0).sqrt();
-    let c15 = r47 / r51;
-    let s15 = r43 / r51;
+    let r14 = shared.r4 * shared.r5 / r12;
+    let r16 = shared.r4 * shared.r6 / r12;
+    let r20 = f64::max(r16 * r16 + r14 * r14, 0.0).sqrt();
+    let c15 = 0.0 - r16 / r20;
+    let s15 = r14 / r20;
     let q = [angle(known.c14, known.s14), angle(c15, s15), angle(known.c16, known.s16)];
     answers.finish(p, 2 * known.branch, 2 * known.last, q, known.free);
 }
@@ -482,7 +477,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    if !(is_near(shared.r24 * shared.r24, 2.9444000000000003e-7) && is_near(shared.r26, 0.01 * shared.r39) && is_near(shared.r25, 0.01 * shared.r38)) {
+    if !(is_near(shared.r4 * shared.r4, 2.9444000000000003e-7) && is_near(shared.r6, 0.01 * shared.r11) && is_near(shared.r5, 0.01 * shared.r10)) {
         return;
     }
     for [c15, s15] in SAMPLES_1 {
@@ -502,37 +497,14 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s15 = q[1].sin();
     let c16 = q[2].cos();
     let s16 = q[2].sin();
-    let r1 = c14 + (1.0 - c14);
-    let r3 = -0.2 * r1;
-    let r4 = 0.3 * c14;
-    let r5 = 0.3 * s14;
-    let r14 = c15 + (1.0 - c15);
-    let r15 = r1 * c15;
-    let r16 = c14 * s15;
-    let r17 = s14 * s15;
-    let r18 = r1 * (0.0 - s15);
-    let r19 = c14 * c15;
-    let r20 = s14 * c15;
-    let r23 = -0.2 * r15;
-    let r26 = -0.2 * r16;
-    let r29 = -0.2 * r17;
-    let r41 = -0.2 - r3 + r3 - (r23 + 0.3 * r18) + (r23 + 0.08 * r18);
-    let r42 = 0.3 - r4 + r4 - (r26 + 0.3 * r19) + (r26 + 0.08 * r19);
-    let r43 = 0.0 - r5 + r5 - (r29 + 0.3 * r20) + (r29 + 0.08 * r20);
-    let r45 = c16 + (1.0 - c16);
-    let r50 = r18 * c16;
-    let r53 = r19 * c16 + (0.0 - s14) * r14 * s16;
-    let r56 = r20 * c16 + c14 * r14 * s16;
-    let r64 = -0.2 * (r15 * r45);
-    let r67 = -0.2 * (r16 * r45);
-    let r70 = -0.2 * (r17 * r45);
-    let r82 = r41 - (r64 + 0.08 * r50) + (r64 + -0.16 * r50);
-    let r83 = r42 - (r67 + 0.08 * r53) + (r67 + -0.16 * r53);
-    let r84 = r43 - (r70 + 0.08 * r56) + (r70 + -0.16 * r56);
+    let r0 = c14 * c15;
+    let r1 = s14 * c15;
+    let r11 = 0.22 * r1 + 0.24 * (c16 * r1) + 0.24 * (c14 * s16);
+    let r16 = 0.22 * r0 + 0.24 * (c16 * r0) - 0.24 * (s14 * s16);
     [
-        r82,
-        r83,
-        r84,
+        0.22 * s15 + 0.24 * (s15 * c16) - 0.2,
+        0.3 - r16,
+        0.0 - r11,
     ]
 }
 
@@ -566,45 +538,25 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s15 = q[1].sin();
     let c16 = q[2].cos();
     let s16 = q[2].sin();
-    let r1 = c14 + (1.0 - c14);
-    let r2 = 0.0 - s14;
-    let r3 = -0.2 * r1;
-    let r4 = 0.3 * c14;
-    let r5 = 0.3 * s14;
-    let r9 = -0.2 - r3 + r3;
-    let r10 = 0.3 - r4 + r4;
-    let r11 = 0.0 - r5 + r5;
-    let r14 = c15 + (1.0 - c15);
-    let r15 = r1 * c15;
-    let r16 = c14 * s15;
-    let r17 = s14 * s15;
-    let r18 = r1 * (0.0 - s15);
-    let r19 = c14 * c15;
-    let r20 = s14 * c15;
-    let r23 = -0.2 * r15;
-    let r26 = -0.2 * r16;
-    let r29 = -0.2 * r17;
-    let r41 = r9 - (r23 + 0.3 * r18) + (r23 + 0.08 * r18);
-    let r42 = r10 - (r26 + 0.3 * r19) + (r26 + 0.08 * r19);
-    let r43 = r11 - (r29 + 0.3 * r20) + (r29 + 0.08 * r20);
-    let r45 = c16 + (1.0 - c16);
-    let r50 = r18 * c16;
-    let r53 = r19 * c16 + r2 * r14 * s16;
-    let r56 = r20 * c16 + c14 * r14 * s16;
-    let r64 = -0.2 * (r15 * r45);
-    let r67 = -0.2 * (r16 * r45);
-    let r70 = -0.2 * (r17 * r45);
-    let r82 = r41 - (r64 + 0.08 * r50) + (r64 + -0.16 * r50);
-    let r83 = r42 - (r67 + 0.08 * r53) + (r67 + -0.16 * r53);
-    let r84 = r43 - (r70 + 0.08 * r56) + (r70 + -0.16 * r56);
-    let r88 = r82 - r9;
-    let r97 = r82 - r41;
-    let r98 = r83 - r42;
-    let r99 = r84 - r43;
+    let r0 = c14 * c15;
+    let r1 = s14 * c15;
+    let r2 = s15 * c16;
+    let r3 = c16 * r0;
+    let r4 = s14 * s16;
+    let r5 = c16 * r1;
+    let r6 = c14 * s16;
+    let r11 = 0.22 * r1 + 0.24 * r5 + 0.24 * r6;
+    let r14 = 0.22 * r0 + 0.24 * r3;
+    let r15 = 0.24 * r4;
+    let r19 = 0.22 * s15 + 0.24 * r2;
+    let r26 = c14 * s15;
+    let r27 = s14 * s15;
+    let r32 = r5 + r6;
+    let r34 = r3 - r4;
     [
-        [0.0, r2 * (r84 - r11) - c14 * (r83 - r10), r16 * r99 - r17 * r98],
-        [0.0 - r84, c14 * r88, r17 * r97 - r15 * r99],
-        [r83 - 0.3, 0.0 - r2 * r88, r15 * r98 - r16 * r97],
+        [0.0, s14 * r11 + c14 * (r14 - r15), 0.0 - 0.24 * (r26 * r32 - r27 * r34)],
+        [r11, c14 * r19, 0.24 * (r27 * r2 + c15 * r32)],
+        [r15 - r14, s14 * r19, 0.0 - 0.24 * (c15 * r34 + r26 * r2)],
     ]
 }
 

@@ -284,43 +284,31 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = -0.112 * c1, r4 = -0.112 * s1, r10 = c2 + (1.0 - c2);
-    const double r11 = 0.0 - s2, r12 = c1 * r10, r13 = s1 * r10, r14 = r1 * c2, r15 = c1 * c2, r16 = r2 * s2;
-    const double r17 = r1 * r11, r18 = c1 * r11, r19 = r2 * c2, r20 = -0.112 * r12, r21 = -0.112 * r13;
-    const double r32 = c3 + (1.0 - c3), r33 = 0.0 - s3, r34 = r12 * r32, r35 = r13 * r32;
-    const double r38 = r14 * c3 + r17 * s3, r41 = r15 * c3 + r18 * s3, r44 = r16 * c3 + r19 * s3;
-    const double r47 = r14 * r33 + r17 * c3, r50 = r15 * r33 + r18 * c3, r53 = r16 * r33 + r19 * c3;
-    const double r54 = -0.112 * r34, r57 = -0.112 * r35;
-    const double r61 = -0.112 - r3 + r3 - r20 + (r20 + 0.28 * r14) - (r54 + 0.28 * r38);
-    const double r62 = 0.0 - r4 + r4 - r21 + (r21 + 0.28 * r15) - (r57 + 0.28 * r41), r73 = c4 + (1.0 - c4);
-    const double r74 = 0.0 - s4, r75 = r34 * r73, r76 = r35 * r73, r79 = r38 * c4 + r47 * s4;
-    const double r82 = r41 * c4 + r50 * s4, r85 = r44 * c4 + r53 * s4, r97 = -0.112 * r75 + 0.56 * r79;
-    const double r100 = -0.112 * r76 + 0.56 * r82, r101 = 0.56 * r85;
-    const double r107 = 0.28 * r16 - 0.28 * r44 + 0.56 * r44 - r101 + r101, r109 = 0.0 - s5;
-    const double r110 = c5 + (1.0 - c5), r113 = r75 * c5 + r79 * s5, r116 = r76 * c5 + r82 * s5, r117 = r85 * s5;
-    const double r120 = r75 * r109 + r79 * c5, r123 = r76 * r109 + r82 * c5, r124 = r85 * c5;
-    const double r125 = (r38 * r74 + r47 * c4) * r110, r126 = (r41 * r74 + r50 * c4) * r110;
-    const double r127 = (r44 * r74 + r53 * c4) * r110, r130 = -0.112 * r113 + 0.56 * r120;
-    const double r133 = -0.112 * r116 + 0.56 * r123, r136 = -0.112 * r117 + 0.56 * r124;
-    const double r138 = r62 + (r57 + 0.56 * r41) - r100 + r100 - r133;
-    const double r140 = r61 + (r54 + 0.56 * r38) - r97 + r97 - r130 + r130, r144 = 0.0 - s6;
-    const double r145 = c6 + (1.0 - c6), r148 = r113 * c6 + r125 * r144, r151 = r116 * c6 + r126 * r144;
-    const double r154 = r117 * c6 + r127 * r144, r155 = r120 * r145, r156 = r123 * r145, r157 = r124 * r145;
-    const double r178 = r107 - r136 + r136 - (-0.112 * r154 + 0.56 * r157);
-    const double r182 = r140 - (-0.112 * r148 + 0.56 * r155) + 0.5865 * r155;
-    const double r183 = r138 + r133 - (-0.112 * r151 + 0.56 * r156) + 0.5865 * r156;
-    reached[0] = r182;
-    reached[1] = r183;
-    reached[2] = r178 + 0.5865 * r157;
-    reached[3] = r148;
-    reached[4] = r151;
-    reached[5] = r154;
-    reached[6] = r155;
-    reached[7] = r156;
-    reached[8] = r157;
-    reached[9] = r113 * s6 + r125 * c6;
-    reached[10] = r116 * s6 + r126 * c6;
-    reached[11] = r117 * s6 + r127 * c6;
+    const double r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2, r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2;
+    const double r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3;
+    const double r35 = c4 * r16 - s4 * r18, r38 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = s5 * r40;
+    const double r42 = c1 * s5, r43 = c5 * r35, r44 = s1 * s5, r45 = c5 * r38, r46 = c5 * r40;
+    const double r47 = c1 * c5 - s5 * r35, r48 = c6 * r47, r49 = s4 * r16 + c4 * r18, r50 = s6 * r49;
+    const double r51 = s1 * c5 + s5 * r38, r52 = c6 * r51, r53 = s4 * r20 + c4 * r22, r54 = s6 * r53;
+    const double r55 = c6 * r41, r56 = s4 * r24 + c4 * r26, r57 = s6 * r56;
+    const double r70 = 0.28 * s2 + 0.28 * r8 + 0.28 * r9 + 0.112 * r55;
+    const double r81 = 0.28 * r1 + 0.28 * r6 - 0.28 * r7 + 0.112 * r52;
+    const double r87 = r81 + 0.112 * r54 - 0.0265 * r44 + 0.0265 * r45;
+    const double r94 = 0.28 * r0 + 0.28 * r4 - 0.28 * r5 - 0.112 * r48;
+    const double r100 = r94 + 0.112 * r50 + 0.0265 * r42 + 0.0265 * r43;
+    reached[0] = 0.0 - (r100 + 0.112);
+    reached[1] = r87;
+    reached[2] = r70 + 0.112 * r57 + 0.0265 * r46;
+    reached[3] = r48 - r50;
+    reached[4] = r52 + r54;
+    reached[5] = r55 + r57;
+    reached[6] = 0.0 - (r42 + r43);
+    reached[7] = r45 - r44;
+    reached[8] = r46;
+    reached[9] = s6 * r47 + c6 * r49;
+    reached[10] = s6 * r51 - c6 * r53;
+    reached[11] = s6 * r41 - c6 * r56;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -376,48 +364,41 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = -0.112 * c1, r4 = -0.112 * s1, r7 = -0.112 - r3 + r3;
-    const double r8 = 0.0 - r4 + r4, r10 = c2 + (1.0 - c2), r11 = 0.0 - s2, r12 = c1 * r10, r13 = s1 * r10;
-    const double r14 = r1 * c2, r15 = c1 * c2, r16 = r2 * s2, r17 = r1 * r11, r18 = c1 * r11, r19 = r2 * c2;
-    const double r20 = -0.112 * r12, r21 = -0.112 * r13, r28 = 0.28 * r16, r29 = r7 - r20 + (r20 + 0.28 * r14);
-    const double r30 = r8 - r21 + (r21 + 0.28 * r15), r32 = c3 + (1.0 - c3), r33 = 0.0 - s3, r34 = r12 * r32;
-    const double r35 = r13 * r32, r38 = r14 * c3 + r17 * s3, r41 = r15 * c3 + r18 * s3;
-    const double r44 = r16 * c3 + r19 * s3, r47 = r14 * r33 + r17 * c3, r50 = r15 * r33 + r18 * c3;
-    const double r53 = r16 * r33 + r19 * c3, r54 = -0.112 * r34, r57 = -0.112 * r35;
-    const double r69 = r29 - (r54 + 0.28 * r38) + (r54 + 0.56 * r38);
-    const double r70 = r30 - (r57 + 0.28 * r41) + (r57 + 0.56 * r41), r71 = r28 - 0.28 * r44 + 0.56 * r44;
-    const double r73 = c4 + (1.0 - c4), r74 = 0.0 - s4, r75 = r34 * r73, r76 = r35 * r73;
-    const double r79 = r38 * c4 + r47 * s4, r82 = r41 * c4 + r50 * s4, r85 = r44 * c4 + r53 * s4;
-    const double r88 = r38 * r74 + r47 * c4, r91 = r41 * r74 + r50 * c4, r94 = r44 * r74 + r53 * c4;
-    const double r97 = -0.112 * r75 + 0.56 * r79, r100 = -0.112 * r76 + 0.56 * r82, r101 = 0.56 * r85;
-    const double r105 = r69 - r97 + r97, r106 = r70 - r100 + r100, r107 = r71 - r101 + r101, r109 = 0.0 - s5;
-    const double r110 = c5 + (1.0 - c5), r113 = r75 * c5 + r79 * s5, r116 = r76 * c5 + r82 * s5, r117 = r85 * s5;
-    const double r120 = r75 * r109 + r79 * c5, r123 = r76 * r109 + r82 * c5, r124 = r85 * c5, r125 = r88 * r110;
-    const double r126 = r91 * r110, r127 = r94 * r110, r130 = -0.112 * r113 + 0.56 * r120;
-    const double r133 = -0.112 * r116 + 0.56 * r123, r136 = -0.112 * r117 + 0.56 * r124;
-    const double r140 = r105 - r130 + r130, r141 = r106 - r133 + r133, r142 = r107 - r136 + r136;
-    const double r144 = 0.0 - s6, r145 = c6 + (1.0 - c6), r148 = r113 * c6 + r125 * r144;
-    const double r151 = r116 * c6 + r126 * r144, r154 = r117 * c6 + r127 * r144, r155 = r120 * r145;
-    const double r156 = r123 * r145, r157 = r124 * r145, r160 = r113 * s6 + r125 * c6;
-    const double r163 = r116 * s6 + r126 * c6, r166 = r117 * s6 + r127 * c6;
-    const double r182 = r140 - (-0.112 * r148 + 0.56 * r155) + 0.5865 * r155;
-    const double r183 = r141 - (-0.112 * r151 + 0.56 * r156) + 0.5865 * r156;
-    const double r184 = r142 - (-0.112 * r154 + 0.56 * r157) + 0.5865 * r157, r197 = r184 - r28;
-    const double r206 = r184 - r71, r213 = r182 - r105, r214 = r183 - r106, r215 = r184 - r107;
-    const double r225 = r182 - r140, r226 = r183 - r141, r227 = r184 - r142;
+    const double r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2, r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2;
+    const double r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3;
+    const double r35 = c4 * r16 - s4 * r18, r38 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = s5 * r40;
+    const double r42 = c1 * s5, r43 = c5 * r35, r44 = s1 * s5, r45 = c5 * r38, r46 = c5 * r40;
+    const double r47 = c1 * c5 - s5 * r35, r48 = c6 * r47, r49 = s4 * r16 + c4 * r18, r50 = s6 * r49;
+    const double r51 = s1 * c5 + s5 * r38, r52 = c6 * r51, r53 = s4 * r20 + c4 * r22, r54 = s6 * r53;
+    const double r55 = c6 * r41, r56 = s4 * r24 + c4 * r26, r57 = s6 * r56, r60 = s6 * r51, r61 = c6 * r53;
+    const double r65 = 0.28 * r8, r67 = 0.28 * r9, r69 = 0.112 * r55, r71 = 0.112 * r57, r73 = 0.0265 * r46;
+    const double r74 = 0.28 * s2 + r65 + r67 + r69 + r71 + r73, r76 = 0.28 * r6, r78 = 0.28 * r7;
+    const double r80 = 0.112 * r52, r82 = 0.112 * r54, r84 = 0.0265 * r44, r86 = 0.0265 * r45;
+    const double r87 = 0.28 * r1 + r76 - r78 + r80 + r82 - r84 + r86, r89 = 0.28 * r4, r91 = 0.28 * r5;
+    const double r93 = 0.112 * r48, r95 = 0.112 * r50, r97 = 0.0265 * r42, r99 = 0.0265 * r43;
+    const double r100 = 0.28 * r0 + r89 - r91 - r93 + r95 + r97 + r99, r101 = r42 + r43, r107 = r55 + r57;
+    const double r108 = r52 + r54, r109 = r48 - r50, r118 = s6 * r41 - c6 * r56, r119 = r60 - r61;
+    const double r120 = s6 * r47 + c6 * r49, r131 = r73 + (r71 + (r69 + (r65 + r67)));
+    const double r139 = c1 * (r86 + (r82 + (r80 + (r76 - r78)) - r84));
+    const double r145 = s1 * (r99 + (r97 + (r95 + (r89 - r91 - r93)))), r147 = r73 + (r69 + r71);
+    const double r152 = r86 + (r80 + r82 - r84), r156 = r93 - r95 - r97 - r99, r164 = r44 - r45;
+    const double r187 = s1 * r107, r207 = 0.0 - c1 * r107, r211 = c1 * r108 - s1 * r109, r214 = s1 * r46;
+    const double r226 = 0.0 - c1 * r46, r228 = s1 * r101 - c1 * r164, r231 = s1 * r118, r251 = 0.0 - c1 * r118;
+    const double r255 = c1 * r119 - s1 * r120;
     const Jacobian result = { {
-        {0.0 - r183, s1 * r184, r13 * r197, r35 * r206, r91 * r215 - r94 * r214, r123 * r227 - r124 * r226},
-        {r182 + 0.112, 0.0 - c1 * r184, 0.0 - r12 * r197, 0.0 - r34 * r206, r94 * r213 - r88 * r215, r124 * r225 - r120 * r227},
-        {0.0, c1 * (r183 - r8) - s1 * (r182 - r7), r12 * (r183 - r30) - r13 * (r182 - r29), r34 * (r183 - r70) - r35 * (r182 - r69), r88 * r214 - r91 * r213, r120 * r226 - r123 * r225},
-        {0.0 - r151, s1 * r154, r13 * r154, r35 * r154, r91 * r154 - r94 * r151, r123 * r154 - r124 * r151},
-        {r148, 0.0 - c1 * r154, 0.0 - r12 * r154, 0.0 - r34 * r154, r94 * r148 - r88 * r154, r124 * r148 - r120 * r154},
-        {0.0, c1 * r151 - s1 * r148, r12 * r151 - r13 * r148, r34 * r151 - r35 * r148, r88 * r151 - r91 * r148, r120 * r151 - r123 * r148},
-        {0.0 - r156, s1 * r157, r13 * r157, r35 * r157, r91 * r157 - r94 * r156, r123 * r157 - r124 * r156},
-        {r155, 0.0 - c1 * r157, 0.0 - r12 * r157, 0.0 - r34 * r157, r94 * r155 - r88 * r157, r124 * r155 - r120 * r157},
-        {0.0, c1 * r156 - s1 * r155, r12 * r156 - r13 * r155, r34 * r156 - r35 * r155, r88 * r156 - r91 * r155, r120 * r156 - r123 * r155},
-        {0.0 - r163, s1 * r166, r13 * r166, r35 * r166, r91 * r166 - r94 * r163, r123 * r166 - r124 * r163},
-        {r160, 0.0 - c1 * r166, 0.0 - r12 * r166, 0.0 - r34 * r166, r94 * r160 - r88 * r166, r124 * r160 - r120 * r166},
-        {0.0, c1 * r163 - s1 * r160, r12 * r163 - r13 * r160, r34 * r163 - r35 * r160, r88 * r163 - r91 * r160, r120 * r163 - r123 * r160},
+        {0.0 - r87, s1 * r74, s1 * r131, s1 * r147, r56 * r152 - r53 * r147, 0.0 - (r147 * r164 + r46 * r152)},
+        {0.0 - r100, 0.0 - c1 * r74, 0.0 - c1 * r131, 0.0 - c1 * r147, 0.0 - (r56 * r156 + r49 * r147), r46 * r156 + r147 * r101},
+        {0.0, c1 * r87 + s1 * r100, r139 + r145, c1 * r152 - s1 * r156, r49 * r152 + r53 * r156, r156 * r164 - r152 * r101},
+        {0.0 - r108, r187, r187, r187, r56 * r108 - r53 * r107, 0.0 - (r164 * r107 + r46 * r108)},
+        {r109, r207, r207, r207, 0.0 - (r56 * r109 + r49 * r107), r46 * r109 + r101 * r107},
+        {0.0, r211, r211, r211, r49 * r108 + r53 * r109, r164 * r109 - r101 * r108},
+        {r164, r214, r214, r214, 0.0 - (r46 * r53 + r56 * r164), 0.0},
+        {0.0 - r101, r226, r226, r226, r56 * r101 - r46 * r49, 0.0},
+        {0.0, r228, r228, r228, 0.0 - (r49 * r164 + r53 * r101), 0.0},
+        {r61 - r60, r231, r231, r231, r56 * r119 - r53 * r118, 0.0 - (r164 * r118 + r46 * r119)},
+        {r120, r251, r251, r251, 0.0 - (r56 * r120 + r49 * r118), r46 * r120 + r101 * r118},
+        {0.0, r255, r255, r255, r49 * r119 + r53 * r120, r164 * r120 - r101 * r119},
     } };
     return result;
 }
@@ -1151,16 +1132,17 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r103;
-    double r104;
+    double r32;
+    double r33;
+    double r34;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r107 = 0.0 - (0.0 - (0.0 - shared->r103)), r110 = 0.0 - (0.0 - (0.0 - shared->r104));
-    const double r114 = sqrt(fmax(r110 * r110 + r107 * r107, 0.0)), c6 = r110 / r114, s6 = r107 / r114;
+    const double r35 = shared->r33 - shared->r32, r39 = sqrt(fmax(shared->r34 * shared->r34 + r35 * r35, 0.0));
+    const double c6 = shared->r34 / r39, s6 = r35 / r39;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1175,35 +1157,30 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: HipYaw. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = 0.0 - p->r33_, r12 = (0.0 - p->r23_) * known->c1 + (0.0 - (0.0 - p->r13_)) * known->s1;
-    const double r14 = r2 + (r2 - r2) * known->c1, r22 = r12 * known->c2 + (0.0 - (0.0 - r14)) * known->s2;
-    const double r25 = r14 * known->c2 + (0.0 - r12) * known->s2;
-    const double r34 = r22 * known->c3 + (0.0 - (0.0 - r25)) * known->s3;
-    const double r47 = (r25 * known->c3 + (0.0 - r22) * known->s3) * known->c4, r54 = 0.0 - p->r31_;
-    const double r64 = (0.0 - p->r21_) * known->c1 + (0.0 - (0.0 - p->r11_)) * known->s1;
-    const double r66 = r54 + (r54 - r54) * known->c1, r74 = r64 * known->c2 + (0.0 - (0.0 - r66)) * known->s2;
-    const double r77 = r66 * known->c2 + (0.0 - r64) * known->s2;
-    const double r86 = r74 * known->c3 + (0.0 - (0.0 - r77)) * known->s3;
-    const double r99 = (r77 * known->c3 + (0.0 - r74) * known->s3) * known->c4;
-    const double r103 = 0.0 - (r99 + (0.0 - r86) * known->s4);
-    const double r104 = 0.0 - (0.0 - (r47 + (0.0 - r34) * known->s4));
-    const Shared6 own = { r103, r104 };
+    const double r2 = p->r23_ * known->c1 - p->r13_ * known->s1, r7 = known->c2 * r2 + p->r33_ * known->s2;
+    const double r9 = p->r33_ * known->c2 - known->s2 * r2, r15 = known->c4 * (known->c3 * r9 - known->s3 * r7);
+    const double r16 = known->s4 * (known->c3 * r7 + known->s3 * r9);
+    const double r19 = p->r21_ * known->c1 - p->r11_ * known->s1, r24 = known->c2 * r19 + p->r31_ * known->s2;
+    const double r26 = p->r31_ * known->c2 - known->s2 * r19;
+    const double r32 = known->c4 * (known->c3 * r26 - known->s3 * r24);
+    const double r33 = known->s4 * (known->c3 * r24 + known->s3 * r26), r34 = r15 - r16;
+    const Shared6 own = { r32, r33, r34 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r50;
-    double r51;
+    double r19;
+    double r20;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r52 = 0.0 - shared->r50, r54 = 0.0 - (-0.0 - shared->r51);
-    const double r58 = sqrt(fmax(r54 * r54 + r52 * r52, 0.0)), c5 = r54 / r58, s5 = r52 / r58;
+    const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r24 = sqrt(fmax(r23, 0.0));
+    const double c5 = shared->r20 / r24, s5 = 0.0 - shared->r19 / r24;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1215,24 +1192,20 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: HipRoll. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r12_ * known->c1 + (0.0 - (0.0 - p->r22_)) * known->s1;
-    const double r9 = p->r22_ * known->c1 + (0.0 - p->r12_) * known->s1;
-    const double r11 = p->r32_ + (p->r32_ - p->r32_) * known->c1;
-    const double r20 = r9 * known->c2 + (0.0 - (0.0 - r11)) * known->s2;
-    const double r23 = r11 * known->c2 + (0.0 - r9) * known->s2;
-    const double r32 = r20 * known->c3 + (0.0 - (0.0 - r23)) * known->s3;
-    const double r38 = 0.0 - (r23 * known->c3 + (0.0 - r20) * known->s3);
-    const double r49 = 0.0 - (r32 * known->c4 + (0.0 - r38) * known->s4), r50 = 0.0 - (0.0 - r6);
-    const double r51 = 0.0 - r49;
-    const Shared5 own = { r50, r51 };
+    const double r4 = p->r22_ * known->c1 - p->r12_ * known->s1, r9 = known->c2 * r4 + p->r32_ * known->s2;
+    const double r11 = p->r32_ * known->c2 - known->s2 * r4;
+    const double r16 = known->c4 * (known->c3 * r9 + known->s3 * r11);
+    const double r18 = known->s4 * (known->c3 * r11 - known->s3 * r9);
+    const double r19 = p->r12_ * known->c1 + p->r22_ * known->s1, r20 = r16 + r18;
+    const Shared5 own = { r19, r20 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r37;
-    double r40;
+    double r13;
+    double r14;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1240,16 +1213,15 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r41 = shared->r37 * shared->r37, r42 = shared->r40 * shared->r40, r43 = r41 + r42;
-    if (!is_away(r43, 2000000.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
+    if (!is_away(r17, 2000000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r41 - r42, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r15 - r16, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, known->f2 * (14.142135623730951 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r51 = (0.0 - (0.0 - shared->r37 * w4)) / r43;
-        const double r54 = (0.0 - shared->r40 * w4) / r43, r58 = sqrt(fmax(r54 * r54 + r51 * r51, 0.0));
-        const double c4 = r54 / r58, s4 = r51 / r58;
+        const double w4 = roots0.values[i0], r23 = w4 * shared->r13 / r17, r25 = w4 * shared->r14 / r17;
+        const double r29 = sqrt(fmax(r25 * r25 + r23 * r23, 0.0)), c4 = 0.0 - r25 / r29, s4 = r23 / r29;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1265,8 +1237,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r43 = shared->r37 * shared->r37 + shared->r40 * shared->r40;
-    if (!is_near(r43, 2e-5)) {
+    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
+    if (!is_near(r17, 2e-5)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1284,13 +1256,10 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipPitch. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r9 = p->r22_ * known->c1 + (0.0 - p->r12_) * known->s1;
-    const double r11 = p->r32_ + (p->r32_ - p->r32_) * known->c1;
-    const double r19 = r9 * known->c2 + (0.0 - (0.0 - r11)) * known->s2;
-    const double r22 = r11 * known->c2 + (0.0 - r9) * known->s2;
-    const double r31 = r19 * known->c3 + (0.0 - (0.0 - r22)) * known->s3;
-    const double r37 = 0.0 - (r22 * known->c3 + (0.0 - r19) * known->s3), r40 = 0.0 - (0.0 - r31);
-    const Shared4 own = { r37, r40 };
+    const double r2 = p->r22_ * known->c1 - p->r12_ * known->s1, r7 = known->c2 * r2 + p->r32_ * known->s2;
+    const double r9 = p->r32_ * known->c2 - known->s2 * r2, r13 = known->s3 * r7 - known->c3 * r9;
+    const double r14 = known->c3 * r7 + known->s3 * r9;
+    const Shared4 own = { r13, r14 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1298,12 +1267,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r1;
+    double r11;
+    double r13;
     double r17;
-    double r35;
-    double r36;
-    double r46;
-    double r47;
+    double r18;
+    double r22;
+    double r23;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1311,13 +1280,13 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r50 = shared->r1 * shared->r1 + shared->r17 * shared->r17;
-    if (!is_away(r50, 19600.0)) {
+    const double r26 = shared->r11 * shared->r11 + shared->r13 * shared->r13;
+    if (!is_away(r26, 19600.0)) {
         return;
     }
-    const double f2 = 1.0, r53 = shared->r17 * shared->r35 - shared->r1 * shared->r36, r55 = (0.0 - r53) / r50;
-    const double r59 = 0.0 - shared->r1 * shared->r35 - shared->r17 * shared->r36, r61 = (0.0 - r59) / r50;
-    const double r65 = sqrt(fmax(r61 * r61 + r55 * r55, 0.0)), c2 = r61 / r65, s2 = r55 / r65;
+    const double f2 = 1.0, r30 = shared->r11 * shared->r18 - (0.0 - shared->r13 * shared->r17), r31 = r30 / r26;
+    const double r34 = shared->r11 * shared->r17 - shared->r13 * shared->r18, r35 = r34 / r26;
+    const double r39 = sqrt(fmax(r35 * r35 + r31 * r31, 0.0)), c2 = r35 / r39, s2 = r31 / r39;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1333,8 +1302,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r50 = shared->r1 * shared->r1 + shared->r17 * shared->r17;
-    if (!(is_near(r50, 1.96e-7) && is_near(shared->r36, 0.01 * shared->r47) && is_near(shared->r35, 0.01 * shared->r46))) {
+    const double r26 = shared->r11 * shared->r11 + shared->r13 * shared->r13;
+    if (!(is_near(r26, 1.96e-7) && is_near(shared->r18, 0.01 * shared->r23) && is_near(shared->r17, 0.01 * shared->r22))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1354,13 +1323,12 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnklePitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.28 * known->s3, r13 = p->px + (-0.112 * p->r11_ + -0.0265 * p->r12_);
-    const double r14 = p->py + (-0.112 * p->r21_ + -0.0265 * p->r22_);
-    const double r15 = p->pz + (-0.112 * p->r31_ + -0.0265 * p->r32_), r17 = 0.0 - (0.28 * known->c3 + 0.28);
-    const double r29 = r14 * known->c1 + (0.0 - (r13 + 0.112)) * known->s1, r35 = 0.0 - (0.0 - r15);
-    const double r36 = 0.0 - (0.0 - (0.0 - r29)), r37 = p->magnitude + 1.2585, r46 = fabs(0.0 - r37);
-    const double r47 = fabs(0.0 - (r37 + (r37 + 0.112)));
-    const Shared3 own = { r1, r17, r35, r36, r46, r47 };
+    const double r4 = p->px - 0.112 * p->r11_ - 0.0265 * p->r12_ + 0.112;
+    const double r9 = known->c1 * (p->py - 0.112 * p->r21_ - 0.0265 * p->r22_), r11 = 0.28 * known->s3;
+    const double r13 = 0.28 * (known->c3 + 1.0), r17 = p->pz - 0.112 * p->r31_ - 0.0265 * p->r32_;
+    const double r18 = known->s1 * r4 - r9, r22 = fabs(p->magnitude + 1.2585);
+    const double r23 = fabs(2.0 * p->magnitude + 2.629);
+    const Shared3 own = { r11, r13, r17, r18, r22, r23 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1378,9 +1346,9 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     const double choice0_0[3] = {shared->r32 * shared->r32 - 0.02458624, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->f1);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r39 = (0.0 - (0.0 - 0.1568 * w3)) / 0.02458624;
-        const double r42 = (0.0 - 0.1568 * shared->r32) / 0.02458624;
-        const double r46 = sqrt(fmax(r42 * r42 + r39 * r39, 0.0)), c3 = r42 / r46, s3 = r39 / r46;
+        const double w3 = roots0.values[i0], r37 = 0.1568 * w3 / 0.02458624;
+        const double r39 = 0.1568 * shared->r32 / 0.02458624, r43 = sqrt(fmax(r39 * r39 + r37 * r37, 0.0));
+        const double c3 = 0.0 - r39 / r43, s3 = r37 / r43;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1393,12 +1361,12 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: KneePitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r9 = p->px + (-0.112 * p->r11_ + -0.0265 * p->r12_);
-    const double r10 = p->py + (-0.112 * p->r21_ + -0.0265 * p->r22_);
-    const double r11 = p->pz + (-0.112 * p->r31_ + -0.0265 * p->r32_);
-    const double r16 = p->px * r9 + p->py * r10 + p->pz * r11;
-    const double r22 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r30 = r16 + r16 - r22 + 0.01324625 + -0.112 * (-0.112 - r9), r32 = 0.1568 - (r30 - -0.112 * r9);
+    const double r4 = p->px * (p->px - 0.112 * p->r11_ - 0.0265 * p->r12_);
+    const double r9 = p->py * (p->py - 0.112 * p->r21_ - 0.0265 * p->r22_);
+    const double r14 = p->pz * (p->pz - 0.112 * p->r31_ - 0.0265 * p->r32_);
+    const double r23 = 2.0 * r4 + 2.0 * r9 + 2.0 * r14 - p->px * p->px;
+    const double r27 = r23 - p->py * p->py - p->pz * p->pz + 0.224 * p->px;
+    const double r31 = r27 - 0.025088 * p->r11_ - 0.005936 * p->r12_, r32 = 0.13100975 - r31;
     const Shared2 own = { r32 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
@@ -1406,10 +1374,10 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r16;
-    double r17;
-    double r21;
-    double r22;
+    double r4;
+    double r8;
+    double r11;
+    double r12;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
@@ -1417,18 +1385,17 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r23 = shared->r16 * shared->r16, r24 = shared->r17 * shared->r17, r25 = r23 + r24;
-    const double r28 = shared->r21 * shared->r21 + shared->r22 * shared->r22;
-    if (!is_away(r25, 10000.0 * r28)) {
+    const double r13 = shared->r4 * shared->r4, r14 = shared->r8 * shared->r8, r15 = r13 + r14;
+    const double r18 = shared->r11 * shared->r11 + shared->r12 * shared->r12;
+    if (!is_away(r15, 10000.0 * r18)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r23 - r24, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r28, 0.0)));
+    const double choice0_0[3] = {0.0 - r13 - r14, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r18, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r36 = (0.0 - (0.0 - shared->r16 * w1)) / r25;
-        const double r39 = (0.0 - shared->r17 * w1) / r25, r43 = sqrt(fmax(r39 * r39 + r36 * r36, 0.0));
-        const double c1 = r39 / r43, s1 = r36 / r43;
+        const double w1 = roots0.values[i0], r24 = w1 * shared->r4 / r15, r26 = w1 * shared->r8 / r15;
+        const double r30 = sqrt(fmax(r26 * r26 + r24 * r24, 0.0)), c1 = 0.0 - r26 / r30, s1 = 0.0 - r24 / r30;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1445,9 +1412,9 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
  */
 static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r25 = shared->r16 * shared->r16 + shared->r17 * shared->r17;
-    const double r28 = shared->r21 * shared->r21 + shared->r22 * shared->r22;
-    if (!is_near(r25, 1.0000000000000001e-7 * r28)) {
+    const double r15 = shared->r4 * shared->r4 + shared->r8 * shared->r8;
+    const double r18 = shared->r11 * shared->r11 + shared->r12 * shared->r12;
+    if (!is_near(r15, 1.0000000000000001e-7 * r18)) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1467,11 +1434,10 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: AnkleRoll. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r9 = p->px + (-0.112 * p->r11_ + -0.0265 * p->r12_);
-    const double r10 = p->py + (-0.112 * p->r21_ + -0.0265 * p->r22_), r16 = 0.0 - (r9 + 0.112);
-    const double r17 = 0.0 - (0.0 - (0.0 - r10)), r18 = p->magnitude + 1.2585, r21 = fabs(r18 + 0.112);
-    const double r22 = fabs(r18);
-    const Shared1 own = { r16, r17, r21, r22 };
+    const double r4 = p->px - 0.112 * p->r11_ - 0.0265 * p->r12_ + 0.112;
+    const double r8 = 0.0265 * p->r22_ - (p->py - 0.112 * p->r21_), r11 = fabs(p->magnitude + 1.3705);
+    const double r12 = fabs(p->magnitude + 1.2585);
+    const Shared1 own = { r4, r8, r11, r12 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);

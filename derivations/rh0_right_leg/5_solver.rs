@@ -441,44 +441,41 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: AnkleRoll.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r12 = p.px + (-0.112 * p.r11_ + -0.0265 * p.r12_) + 0.112;
-    let r14 = 0.0 - (p.py + (-0.112 * p.r21_ + -0.0265 * p.r22_));
-    let r16 = 0.0 - r12;
-    let r17 = 0.0 - (0.0 - r14);
-    let r18 = p.magnitude + 1.2585;
-    let r21 = f64::abs(r18 + 0.112);
-    let r22 = f64::abs(r18);
-    let shared = &Shared1 { r16, r17, r21, r22 };
+    let r4 = p.px - 0.112 * p.r11_ - 0.0265 * p.r12_ + 0.112;
+    let r8 = 0.0265 * p.r22_ - (p.py - 0.112 * p.r21_);
+    let r11 = f64::abs(p.magnitude + 1.3705);
+    let r12 = f64::abs(p.magnitude + 1.2585);
+    let shared = &Shared1 { r4, r8, r11, r12 };
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r16: f64,
-    r17: f64,
-    r21: f64,
-    r22: f64,
+    r4: f64,
+    r8: f64,
+    r11: f64,
+    r12: f64,
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r23 = shared.r16 * shared.r16;
-    let r24 = shared.r17 * shared.r17;
-    let r25 = r23 + r24;
-    let r28 = shared.r21 * shared.r21 + shared.r22 * shared.r22;
-    if !is_away(r25, 10000.0 * r28) {
+    let r13 = shared.r4 * shared.r4;
+    let r14 = shared.r8 * shared.r8;
+    let r15 = r13 + r14;
+    let r18 = shared.r11 * shared.r11 + shared.r12 * shared.r12;
+    if !is_away(r15, 10000.0 * r18) {
         return;
     }
     let f1 = 1.0;
-    let roots0 = real_roots(&[0.0 - r23 - r24, 0.0, 1.0], f64::max(r28, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r13 - r14, 0.0, 1.0], f64::max(r18, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r36 = (0.0 - (0.0 - shared.r16 * w1)) / r25;
-        let r39 = (0.0 - shared.r17 * w1) / r25;
-        let r43 = f64::max(r39 * r39 + r36 * r36, 0.0).sqrt();
-        let c1 = r39 / r43;
-        let s1 = r36 / r43;
+        let r24 = w1 * shared.r4 / r15;
+        let r26 = w1 * shared.r8 / r15;
+        let r30 = f64::max(r26 * r26 + r24 * r24, 0.0).sqrt();
+        let c1 = 0.0 - r26 / r30;
+        let s1 = 0.0 - r24 / r30;
         let next = Known { branch: i0, last: 2, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -488,9 +485,9 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is near zero.
 /// Free: AnkleRoll.
 fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r25 = shared.r16 * shared.r16 + shared.r17 * shared.r17;
-    let r28 = shared.r21 * shared.r21 + shared.r22 * shared.r22;
-    if !is_near(r25, 1.0000000000000001e-7 * r28) {
+    let r15 = shared.r4 * shared.r4 + shared.r8 * shared.r8;
+    let r18 = shared.r11 * shared.r11 + shared.r12 * shared.r12;
+    if !is_near(r15, 1.0000000000000001e-7 * r18) {
         return;
     }
     let f1 = 1000000.0;
@@ -502,13 +499,12 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: KneePitch.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r9 = p.px + (-0.112 * p.r11_ + -0.0265 * p.r12_);
-    let r13 = p.py * (p.py + (-0.112 * p.r21_ + -0.0265 * p.r22_));
-    let r14 = p.pz * (p.pz + (-0.112 * p.r31_ + -0.0265 * p.r32_));
-    let r16 = p.px * r9 + r13 + r14;
-    let r23 = r16 + r16 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r31 = r23 + 0.01324625 + -0.112 * (-0.112 - r9) - -0.112 * r9;
-    let r32 = 0.1568 - r31;
+    let r4 = p.px * (p.px - 0.112 * p.r11_ - 0.0265 * p.r12_);
+    let r9 = p.py * (p.py - 0.112 * p.r21_ - 0.0265 * p.r22_);
+    let r14 = p.pz * (p.pz - 0.112 * p.r31_ - 0.0265 * p.r32_);
+    let r23 = 2.0 * r4 + 2.0 * r9 + 2.0 * r14 - p.px * p.px;
+    let r27 = r23 - p.py * p.py - p.pz * p.pz + 0.224 * p.px;
+    let r32 = 0.13100975 - (r27 - 0.025088 * p.r11_ - 0.005936 * p.r12_);
     let shared = &Shared2 { r32 };
     chart_2_1(p, known, shared, answers);
 }
@@ -526,11 +522,11 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
         1.0,
     ], 1.4142135623730951 * known.f1);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r39 = (0.0 - (0.0 - 0.1568 * w3)) / 0.02458624;
-        let r42 = (0.0 - 0.1568 * shared.r32) / 0.02458624;
-        let r46 = f64::max(r42 * r42 + r39 * r39, 0.0).sqrt();
-        let c3 = r42 / r46;
-        let s3 = r39 / r46;
+        let r37 = 0.1568 * w3 / 0.02458624;
+        let r39 = 0.1568 * shared.r32 / 0.02458624;
+        let r43 = f64::max(r39 * r39 + r37 * r37, 0.0).sqrt();
+        let c3 = 0.0 - r39 / r43;
+        let s3 = r37 / r43;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -538,46 +534,44 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: AnklePitch.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.28 * known.s3;
-    let r16 = 0.0 - (p.pz + (-0.112 * p.r31_ + -0.0265 * p.r32_));
-    let r17 = 0.0 - (0.28 * known.c3 + 0.28);
-    let r19 = p.px + (-0.112 * p.r11_ + -0.0265 * p.r12_) + 0.112;
-    let r27 = (p.py + (-0.112 * p.r21_ + -0.0265 * p.r22_)) * known.c1;
-    let r35 = 0.0 - r16;
-    let r36 = 0.0 - (0.0 - (0.0 - (r27 + (0.0 - r19) * known.s1)));
-    let r37 = p.magnitude + 1.2585;
-    let r46 = f64::abs(0.0 - r37);
-    let r47 = f64::abs(0.0 - (r37 + (r37 + 0.112)));
-    let shared = &Shared3 { r1, r17, r35, r36, r46, r47 };
+    let r4 = p.px - 0.112 * p.r11_ - 0.0265 * p.r12_ + 0.112;
+    let r9 = known.c1 * (p.py - 0.112 * p.r21_ - 0.0265 * p.r22_);
+    let r11 = 0.28 * known.s3;
+    let r13 = 0.28 * (known.c3 + 1.0);
+    let r17 = p.pz - 0.112 * p.r31_ - 0.0265 * p.r32_;
+    let r18 = known.s1 * r4 - r9;
+    let r22 = f64::abs(p.magnitude + 1.2585);
+    let r23 = f64::abs(2.0 * p.magnitude + 2.629);
+    let shared = &Shared3 { r11, r13, r17, r18, r22, r23 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r1: f64,
+    r11: f64,
+    r13: f64,
     r17: f64,
-    r35: f64,
-    r36: f64,
-    r46: f64,
-    r47: f64,
+    r18: f64,
+    r22: f64,
+    r23: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r50 = shared.r1 * shared.r1 + shared.r17 * shared.r17;
-    if !is_away(r50, 19600.0) {
+    let r26 = shared.r11 * shared.r11 + shared.r13 * shared.r13;
+    if !is_away(r26, 19600.0) {
         return;
     }
     let f2 = 1.0;
-    let r53 = shared.r17 * shared.r35 - shared.r1 * shared.r36;
-    let r55 = (0.0 - r53) / r50;
-    let r59 = 0.0 - shared.r1 * shared.r35 - shared.r17 * shared.r36;
-    let r61 = (0.0 - r59) / r50;
-    let r65 = f64::max(r61 * r61 + r55 * r55, 0.0).sqrt();
-    let c2 = r61 / r65;
-    let s2 = r55 / r65;
+    let r30 = shared.r11 * shared.r18 - (0.0 - shared.r13 * shared.r17);
+    let r31 = r30 / r26;
+    let r34 = shared.r11 * shared.r17 - shared.r13 * shared.r18;
+    let r35 = r34 / r26;
+    let r39 = f64::max(r35 * r35 + r31 * r31, 0.0).sqrt();
+    let c2 = r35 / r39;
+    let s2 = r31 / r39;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -586,8 +580,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: AnklePitch.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r50 = shared.r1 * shared.r1 + shared.r17 * shared.r17;
-    if !(is_near(r50, 1.96e-7) && is_near(shared.r36, 0.01 * shared.r47) && is_near(shared.r35, 0.01 * shared.r46)) {
+    let r26 = shared.r11 * shared.r11 + shared.r13 * shared.r13;
+    if !(is_near(r26, 1.96e-7) && is_near(shared.r18, 0.01 * shared.r23) && is_near(shared.r17, 0.01 * shared.r22)) {
         return;
     }
     let f2 = 1000000.0;
@@ -599,44 +593,42 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: HipPitch.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r9 = p.r22_ * known.c1 + (0.0 - p.r12_) * known.s1;
-    let r11 = p.r32_ + (p.r32_ - p.r32_) * known.c1;
-    let r19 = r9 * known.c2 + (0.0 - (0.0 - r11)) * known.s2;
-    let r22 = r11 * known.c2 + (0.0 - r9) * known.s2;
-    let r31 = r19 * known.c3 + (0.0 - (0.0 - r22)) * known.s3;
-    let r37 = 0.0 - (r22 * known.c3 + (0.0 - r19) * known.s3);
-    let r40 = 0.0 - (0.0 - r31);
-    let shared = &Shared4 { r37, r40 };
+    let r2 = p.r22_ * known.c1 - p.r12_ * known.s1;
+    let r7 = known.c2 * r2 + p.r32_ * known.s2;
+    let r9 = p.r32_ * known.c2 - known.s2 * r2;
+    let r13 = known.s3 * r7 - known.c3 * r9;
+    let r14 = known.c3 * r7 + known.s3 * r9;
+    let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r37: f64,
-    r40: f64,
+    r13: f64,
+    r14: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r41 = shared.r37 * shared.r37;
-    let r42 = shared.r40 * shared.r40;
-    let r43 = r41 + r42;
-    if !is_away(r43, 2000000.0) {
+    let r15 = shared.r13 * shared.r13;
+    let r16 = shared.r14 * shared.r14;
+    let r17 = r15 + r16;
+    if !is_away(r17, 2000000.0) {
         return;
     }
     let roots0 = real_roots(&[
-        0.0 - r41 - r42,
+        0.0 - r15 - r16,
         0.0,
         1.0,
     ], known.f2 * (14.142135623730951 * known.f1));
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r51 = (0.0 - (0.0 - shared.r37 * w4)) / r43;
-        let r54 = (0.0 - shared.r40 * w4) / r43;
-        let r58 = f64::max(r54 * r54 + r51 * r51, 0.0).sqrt();
-        let c4 = r54 / r58;
-        let s4 = r51 / r58;
+        let r23 = w4 * shared.r13 / r17;
+        let r25 = w4 * shared.r14 / r17;
+        let r29 = f64::max(r25 * r25 + r23 * r23, 0.0).sqrt();
+        let c4 = 0.0 - r25 / r29;
+        let s4 = r23 / r29;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -646,8 +638,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipPitch.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r43 = shared.r37 * shared.r37 + shared.r40 * shared.r40;
-    if !is_near(r43, 2e-5) {
+    let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
+    if !is_near(r17, 2e-5) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -658,72 +650,59 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: HipRoll.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r12_ * known.c1 + (0.0 - (0.0 - p.r22_)) * known.s1;
-    let r9 = p.r22_ * known.c1 + (0.0 - p.r12_) * known.s1;
-    let r11 = p.r32_ + (p.r32_ - p.r32_) * known.c1;
-    let r20 = r9 * known.c2 + (0.0 - (0.0 - r11)) * known.s2;
-    let r23 = r11 * known.c2 + (0.0 - r9) * known.s2;
-    let r32 = r20 * known.c3 + (0.0 - (0.0 - r23)) * known.s3;
-    let r38 = 0.0 - (r23 * known.c3 + (0.0 - r20) * known.s3);
-    let r49 = 0.0 - (r32 * known.c4 + (0.0 - r38) * known.s4);
-    let r50 = 0.0 - (0.0 - r6);
-    let r51 = 0.0 - r49;
-    let shared = &Shared5 { r50, r51 };
+    let r4 = p.r22_ * known.c1 - p.r12_ * known.s1;
+    let r9 = known.c2 * r4 + p.r32_ * known.s2;
+    let r11 = p.r32_ * known.c2 - known.s2 * r4;
+    let r19 = p.r12_ * known.c1 + p.r22_ * known.s1;
+    let r20 = known.c4 * (known.c3 * r9 + known.s3 * r11) + known.s4 * (known.c3 * r11 - known.s3 * r9);
+    let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r50: f64,
-    r51: f64,
+    r19: f64,
+    r20: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r52 = 0.0 - shared.r50;
-    let r54 = 0.0 - (-0.0 - shared.r51);
-    let r58 = f64::max(r54 * r54 + r52 * r52, 0.0).sqrt();
-    let c5 = r54 / r58;
-    let s5 = r52 / r58;
+    let r23 = shared.r20 * shared.r20 + shared.r19 * shared.r19;
+    let r24 = f64::max(r23, 0.0).sqrt();
+    let c5 = shared.r20 / r24;
+    let s5 = 0.0 - shared.r19 / r24;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: HipYaw.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.0 - p.r33_;
-    let r12 = (0.0 - p.r23_) * known.c1 + (0.0 - (0.0 - p.r13_)) * known.s1;
-    let r14 = r2 + (r2 - r2) * known.c1;
-    let r22 = r12 * known.c2 + (0.0 - (0.0 - r14)) * known.s2;
-    let r25 = r14 * known.c2 + (0.0 - r12) * known.s2;
-    let r34 = r22 * known.c3 + (0.0 - (0.0 - r25)) * known.s3;
-    let r47 = (r25 * known.c3 + (0.0 - r22) * known.s3) * known.c4;
-    let r54 = 0.0 - p.r31_;
-    let r64 = (0.0 - p.r21_) * known.c1 + (0.0 - (0.0 - p.r11_)) * known.s1;
-    let r66 = r54 + (r54 - r54) * known.c1;
-    let r74 = r64 * known.c2 + (0.0 - (0.0 - r66)) * known.s2;
-    let r77 = r66 * known.c2 + (0.0 - r64) * known.s2;
-    let r86 = r74 * known.c3 + (0.0 - (0.0 - r77)) * known.s3;
-    let r99 = (r77 * known.c3 + (0.0 - r74) * known.s3) * known.c4;
-    let r103 = 0.0 - (r99 + (0.0 - r86) * known.s4);
-    let r104 = 0.0 - (0.0 - (r47 + (0.0 - r34) * known.s4));
-    let shared = &Shared6 { r103, r104 };
+    let r2 = p.r23_ * known.c1 - p.r13_ * known.s1;
+    let r7 = known.c2 * r2 + p.r33_ * known.s2;
+    let r9 = p.r33_ * known.c2 - known.s2 * r2;
+    let r19 = p.r21_ * known.c1 - p.r11_ * known.s1;
+    let r24 = known.c2 * r19 + p.r31_ * known.s2;
+    let r26 = p.r31_ * known.c2 - known.s2 * r19;
+    let r32 = known.c4 * (known.c3 * r26 - known.s3 * r24);
+    let r33 = known.s4 * (known.c3 * r24 + known.s3 * r26);
+    let r34 = known.c4 * (known.c3 * r9 - known.s3 * r7) - known.s4 * (known.c3 * r7 + known.s3 * r9);
+    let shared = &Shared6 { r32, r33, r34 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r103: f64,
-    r104: f64,
+    r32: f64,
+    r33: f64,
+    r34: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r107 = 0.0 - (0.0 - (0.0 - shared.r103));
-    let r110 = 0.0 - (0.0 - (0.0 - shared.r104));
-    let r114 = f64::max(r110 * r110 + r107 * r107, 0.0).sqrt();
-    let c6 = r110 / r114;
-    let s6 = r107 / r114;
+    let r35 = shared.r33 - shared.r32;
+    let r39 = f64::max(shared.r34 * shared.r34 + r35 * r35, 0.0).sqrt();
+    let c6 = shared.r34 / r39;
+    let s6 = r35 / r39;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -752,87 +731,60 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = -0.112 * c1;
-    let r4 = -0.112 * s1;
-    let r10 = c2 + (1.0 - c2);
-    let r11 = 0.0 - s2;
-    let r12 = c1 * r10;
-    let r13 = s1 * r10;
-    let r14 = r1 * c2;
-    let r15 = c1 * c2;
-    let r16 = r2 * s2;
-    let r17 = r1 * r11;
-    let r18 = c1 * r11;
-    let r19 = r2 * c2;
-    let r20 = -0.112 * r12;
-    let r21 = -0.112 * r13;
-    let r32 = c3 + (1.0 - c3);
-    let r33 = 0.0 - s3;
-    let r34 = r12 * r32;
-    let r35 = r13 * r32;
-    let r38 = r14 * c3 + r17 * s3;
-    let r41 = r15 * c3 + r18 * s3;
-    let r44 = r16 * c3 + r19 * s3;
-    let r47 = r14 * r33 + r17 * c3;
-    let r50 = r15 * r33 + r18 * c3;
-    let r53 = r16 * r33 + r19 * c3;
-    let r54 = -0.112 * r34;
-    let r57 = -0.112 * r35;
-    let r61 = -0.112 - r3 + r3 - r20 + (r20 + 0.28 * r14) - (r54 + 0.28 * r38);
-    let r62 = 0.0 - r4 + r4 - r21 + (r21 + 0.28 * r15) - (r57 + 0.28 * r41);
-    let r73 = c4 + (1.0 - c4);
-    let r74 = 0.0 - s4;
-    let r75 = r34 * r73;
-    let r76 = r35 * r73;
-    let r79 = r38 * c4 + r47 * s4;
-    let r82 = r41 * c4 + r50 * s4;
-    let r85 = r44 * c4 + r53 * s4;
-    let r97 = -0.112 * r75 + 0.56 * r79;
-    let r100 = -0.112 * r76 + 0.56 * r82;
-    let r101 = 0.56 * r85;
-    let r107 = 0.28 * r16 - 0.28 * r44 + 0.56 * r44 - r101 + r101;
-    let r109 = 0.0 - s5;
-    let r110 = c5 + (1.0 - c5);
-    let r113 = r75 * c5 + r79 * s5;
-    let r116 = r76 * c5 + r82 * s5;
-    let r117 = r85 * s5;
-    let r120 = r75 * r109 + r79 * c5;
-    let r123 = r76 * r109 + r82 * c5;
-    let r124 = r85 * c5;
-    let r125 = (r38 * r74 + r47 * c4) * r110;
-    let r126 = (r41 * r74 + r50 * c4) * r110;
-    let r127 = (r44 * r74 + r53 * c4) * r110;
-    let r130 = -0.112 * r113 + 0.56 * r120;
-    let r133 = -0.112 * r116 + 0.56 * r123;
-    let r136 = -0.112 * r117 + 0.56 * r124;
-    let r138 = r62 + (r57 + 0.56 * r41) - r100 + r100 - r133;
-    let r140 = r61 + (r54 + 0.56 * r38) - r97 + r97 - r130 + r130;
-    let r144 = 0.0 - s6;
-    let r145 = c6 + (1.0 - c6);
-    let r148 = r113 * c6 + r125 * r144;
-    let r151 = r116 * c6 + r126 * r144;
-    let r154 = r117 * c6 + r127 * r144;
-    let r155 = r120 * r145;
-    let r156 = r123 * r145;
-    let r157 = r124 * r145;
-    let r178 = r107 - r136 + r136 - (-0.112 * r154 + 0.56 * r157);
-    let r182 = r140 - (-0.112 * r148 + 0.56 * r155) + 0.5865 * r155;
-    let r183 = r138 + r133 - (-0.112 * r151 + 0.56 * r156) + 0.5865 * r156;
+    let r0 = s1 * c2;
+    let r1 = c1 * c2;
+    let r2 = s1 * s2;
+    let r3 = c1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r16 = r4 - r5;
+    let r18 = s3 * r0 + c3 * r2;
+    let r20 = r6 - r7;
+    let r22 = s3 * r1 + c3 * r3;
+    let r24 = r8 + r9;
+    let r26 = s2 * s3 - c2 * c3;
+    let r35 = c4 * r16 - s4 * r18;
+    let r38 = c4 * r20 - s4 * r22;
+    let r40 = c4 * r24 - s4 * r26;
+    let r41 = s5 * r40;
+    let r42 = c1 * s5;
+    let r43 = c5 * r35;
+    let r44 = s1 * s5;
+    let r45 = c5 * r38;
+    let r46 = c5 * r40;
+    let r47 = c1 * c5 - s5 * r35;
+    let r48 = c6 * r47;
+    let r49 = s4 * r16 + c4 * r18;
+    let r50 = s6 * r49;
+    let r51 = s1 * c5 + s5 * r38;
+    let r52 = c6 * r51;
+    let r53 = s4 * r20 + c4 * r22;
+    let r54 = s6 * r53;
+    let r55 = c6 * r41;
+    let r56 = s4 * r24 + c4 * r26;
+    let r57 = s6 * r56;
+    let r70 = 0.28 * s2 + 0.28 * r8 + 0.28 * r9 + 0.112 * r55;
+    let r81 = 0.28 * r1 + 0.28 * r6 - 0.28 * r7 + 0.112 * r52;
+    let r87 = r81 + 0.112 * r54 - 0.0265 * r44 + 0.0265 * r45;
+    let r94 = 0.28 * r0 + 0.28 * r4 - 0.28 * r5 - 0.112 * r48;
+    let r100 = r94 + 0.112 * r50 + 0.0265 * r42 + 0.0265 * r43;
     [
-        r182,
-        r183,
-        r178 + 0.5865 * r157,
-        r148,
-        r151,
-        r154,
-        r155,
-        r156,
-        r157,
-        r113 * s6 + r125 * c6,
-        r116 * s6 + r126 * c6,
-        r117 * s6 + r127 * c6,
+        0.0 - (r100 + 0.112),
+        r87,
+        r70 + 0.112 * r57 + 0.0265 * r46,
+        r48 - r50,
+        r52 + r54,
+        r55 + r57,
+        0.0 - (r42 + r43),
+        r45 - r44,
+        r46,
+        s6 * r47 + c6 * r49,
+        s6 * r51 - c6 * r53,
+        s6 * r41 - c6 * r56,
     ]
 }
 
@@ -890,110 +842,100 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = -0.112 * c1;
-    let r4 = -0.112 * s1;
-    let r7 = -0.112 - r3 + r3;
-    let r8 = 0.0 - r4 + r4;
-    let r10 = c2 + (1.0 - c2);
-    let r11 = 0.0 - s2;
-    let r12 = c1 * r10;
-    let r13 = s1 * r10;
-    let r14 = r1 * c2;
-    let r15 = c1 * c2;
-    let r16 = r2 * s2;
-    let r17 = r1 * r11;
-    let r18 = c1 * r11;
-    let r19 = r2 * c2;
-    let r20 = -0.112 * r12;
-    let r21 = -0.112 * r13;
-    let r28 = 0.28 * r16;
-    let r29 = r7 - r20 + (r20 + 0.28 * r14);
-    let r30 = r8 - r21 + (r21 + 0.28 * r15);
-    let r32 = c3 + (1.0 - c3);
-    let r33 = 0.0 - s3;
-    let r34 = r12 * r32;
-    let r35 = r13 * r32;
-    let r38 = r14 * c3 + r17 * s3;
-    let r41 = r15 * c3 + r18 * s3;
-    let r44 = r16 * c3 + r19 * s3;
-    let r47 = r14 * r33 + r17 * c3;
-    let r50 = r15 * r33 + r18 * c3;
-    let r53 = r16 * r33 + r19 * c3;
-    let r54 = -0.112 * r34;
-    let r57 = -0.112 * r35;
-    let r69 = r29 - (r54 + 0.28 * r38) + (r54 + 0.56 * r38);
-    let r70 = r30 - (r57 + 0.28 * r41) + (r57 + 0.56 * r41);
-    let r71 = r28 - 0.28 * r44 + 0.56 * r44;
-    let r73 = c4 + (1.0 - c4);
-    let r74 = 0.0 - s4;
-    let r75 = r34 * r73;
-    let r76 = r35 * r73;
-    let r79 = r38 * c4 + r47 * s4;
-    let r82 = r41 * c4 + r50 * s4;
-    let r85 = r44 * c4 + r53 * s4;
-    let r88 = r38 * r74 + r47 * c4;
-    let r91 = r41 * r74 + r50 * c4;
-    let r94 = r44 * r74 + r53 * c4;
-    let r97 = -0.112 * r75 + 0.56 * r79;
-    let r100 = -0.112 * r76 + 0.56 * r82;
-    let r101 = 0.56 * r85;
-    let r105 = r69 - r97 + r97;
-    let r106 = r70 - r100 + r100;
-    let r107 = r71 - r101 + r101;
-    let r109 = 0.0 - s5;
-    let r110 = c5 + (1.0 - c5);
-    let r113 = r75 * c5 + r79 * s5;
-    let r116 = r76 * c5 + r82 * s5;
-    let r117 = r85 * s5;
-    let r120 = r75 * r109 + r79 * c5;
-    let r123 = r76 * r109 + r82 * c5;
-    let r124 = r85 * c5;
-    let r125 = r88 * r110;
-    let r126 = r91 * r110;
-    let r127 = r94 * r110;
-    let r130 = -0.112 * r113 + 0.56 * r120;
-    let r133 = -0.112 * r116 + 0.56 * r123;
-    let r136 = -0.112 * r117 + 0.56 * r124;
-    let r140 = r105 - r130 + r130;
-    let r141 = r106 - r133 + r133;
-    let r142 = r107 - r136 + r136;
-    let r144 = 0.0 - s6;
-    let r145 = c6 + (1.0 - c6);
-    let r148 = r113 * c6 + r125 * r144;
-    let r151 = r116 * c6 + r126 * r144;
-    let r154 = r117 * c6 + r127 * r144;
-    let r155 = r120 * r145;
-    let r156 = r123 * r145;
-    let r157 = r124 * r145;
-    let r160 = r113 * s6 + r125 * c6;
-    let r163 = r116 * s6 + r126 * c6;
-    let r166 = r117 * s6 + r127 * c6;
-    let r182 = r140 - (-0.112 * r148 + 0.56 * r155) + 0.5865 * r155;
-    let r183 = r141 - (-0.112 * r151 + 0.56 * r156) + 0.5865 * r156;
-    let r184 = r142 - (-0.112 * r154 + 0.56 * r157) + 0.5865 * r157;
-    let r197 = r184 - r28;
-    let r206 = r184 - r71;
-    let r213 = r182 - r105;
-    let r214 = r183 - r106;
-    let r215 = r184 - r107;
-    let r225 = r182 - r140;
-    let r226 = r183 - r141;
-    let r227 = r184 - r142;
+    let r0 = s1 * c2;
+    let r1 = c1 * c2;
+    let r2 = s1 * s2;
+    let r3 = c1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r16 = r4 - r5;
+    let r18 = s3 * r0 + c3 * r2;
+    let r20 = r6 - r7;
+    let r22 = s3 * r1 + c3 * r3;
+    let r24 = r8 + r9;
+    let r26 = s2 * s3 - c2 * c3;
+    let r35 = c4 * r16 - s4 * r18;
+    let r38 = c4 * r20 - s4 * r22;
+    let r40 = c4 * r24 - s4 * r26;
+    let r41 = s5 * r40;
+    let r42 = c1 * s5;
+    let r43 = c5 * r35;
+    let r44 = s1 * s5;
+    let r45 = c5 * r38;
+    let r46 = c5 * r40;
+    let r47 = c1 * c5 - s5 * r35;
+    let r48 = c6 * r47;
+    let r49 = s4 * r16 + c4 * r18;
+    let r50 = s6 * r49;
+    let r51 = s1 * c5 + s5 * r38;
+    let r52 = c6 * r51;
+    let r53 = s4 * r20 + c4 * r22;
+    let r54 = s6 * r53;
+    let r55 = c6 * r41;
+    let r56 = s4 * r24 + c4 * r26;
+    let r57 = s6 * r56;
+    let r60 = s6 * r51;
+    let r61 = c6 * r53;
+    let r65 = 0.28 * r8;
+    let r67 = 0.28 * r9;
+    let r69 = 0.112 * r55;
+    let r71 = 0.112 * r57;
+    let r73 = 0.0265 * r46;
+    let r74 = 0.28 * s2 + r65 + r67 + r69 + r71 + r73;
+    let r76 = 0.28 * r6;
+    let r78 = 0.28 * r7;
+    let r80 = 0.112 * r52;
+    let r82 = 0.112 * r54;
+    let r84 = 0.0265 * r44;
+    let r86 = 0.0265 * r45;
+    let r87 = 0.28 * r1 + r76 - r78 + r80 + r82 - r84 + r86;
+    let r89 = 0.28 * r4;
+    let r91 = 0.28 * r5;
+    let r93 = 0.112 * r48;
+    let r95 = 0.112 * r50;
+    let r97 = 0.0265 * r42;
+    let r99 = 0.0265 * r43;
+    let r100 = 0.28 * r0 + r89 - r91 - r93 + r95 + r97 + r99;
+    let r101 = r42 + r43;
+    let r107 = r55 + r57;
+    let r108 = r52 + r54;
+    let r109 = r48 - r50;
+    let r118 = s6 * r41 - c6 * r56;
+    let r119 = r60 - r61;
+    let r120 = s6 * r47 + c6 * r49;
+    let r131 = r73 + (r71 + (r69 + (r65 + r67)));
+    let r139 = c1 * (r86 + (r82 + (r80 + (r76 - r78)) - r84));
+    let r145 = s1 * (r99 + (r97 + (r95 + (r89 - r91 - r93))));
+    let r147 = r73 + (r69 + r71);
+    let r152 = r86 + (r80 + r82 - r84);
+    let r156 = r93 - r95 - r97 - r99;
+    let r164 = r44 - r45;
+    let r187 = s1 * r107;
+    let r207 = 0.0 - c1 * r107;
+    let r211 = c1 * r108 - s1 * r109;
+    let r214 = s1 * r46;
+    let r226 = 0.0 - c1 * r46;
+    let r228 = s1 * r101 - c1 * r164;
+    let r231 = s1 * r118;
+    let r251 = 0.0 - c1 * r118;
+    let r255 = c1 * r119 - s1 * r120;
     [
-        [0.0 - r183, s1 * r184, r13 * r197, r35 * r206, r91 * r215 - r94 * r214, r123 * r227 - r124 * r226],
-        [r182 + 0.112, 0.0 - c1 * r184, 0.0 - r12 * r197, 0.0 - r34 * r206, r94 * r213 - r88 * r215, r124 * r225 - r120 * r227],
-        [0.0, c1 * (r183 - r8) - s1 * (r182 - r7), r12 * (r183 - r30) - r13 * (r182 - r29), r34 * (r183 - r70) - r35 * (r182 - r69), r88 * r214 - r91 * r213, r120 * r226 - r123 * r225],
-        [0.0 - r151, s1 * r154, r13 * r154, r35 * r154, r91 * r154 - r94 * r151, r123 * r154 - r124 * r151],
-        [r148, 0.0 - c1 * r154, 0.0 - r12 * r154, 0.0 - r34 * r154, r94 * r148 - r88 * r154, r124 * r148 - r120 * r154],
-        [0.0, c1 * r151 - s1 * r148, r12 * r151 - r13 * r148, r34 * r151 - r35 * r148, r88 * r151 - r91 * r148, r120 * r151 - r123 * r148],
-        [0.0 - r156, s1 * r157, r13 * r157, r35 * r157, r91 * r157 - r94 * r156, r123 * r157 - r124 * r156],
-        [r155, 0.0 - c1 * r157, 0.0 - r12 * r157, 0.0 - r34 * r157, r94 * r155 - r88 * r157, r124 * r155 - r120 * r157],
-        [0.0, c1 * r156 - s1 * r155, r12 * r156 - r13 * r155, r34 * r156 - r35 * r155, r88 * r156 - r91 * r155, r120 * r156 - r123 * r155],
-        [0.0 - r163, s1 * r166, r13 * r166, r35 * r166, r91 * r166 - r94 * r163, r123 * r166 - r124 * r163],
-        [r160, 0.0 - c1 * r166, 0.0 - r12 * r166, 0.0 - r34 * r166, r94 * r160 - r88 * r166, r124 * r160 - r120 * r166],
-        [0.0, c1 * r163 - s1 * r160, r12 * r163 - r13 * r160, r34 * r163 - r35 * r160, r88 * r163 - r91 * r160, r120 * r163 - r123 * r160],
+        [0.0 - r87, s1 * r74, s1 * r131, s1 * r147, r56 * r152 - r53 * r147, 0.0 - (r147 * r164 + r46 * r152)],
+        [0.0 - r100, 0.0 - c1 * r74, 0.0 - c1 * r131, 0.0 - c1 * r147, 0.0 - (r56 * r156 + r49 * r147), r46 * r156 + r147 * r101],
+        [0.0, c1 * r87 + s1 * r100, r139 + r145, c1 * r152 - s1 * r156, r49 * r152 + r53 * r156, r156 * r164 - r152 * r101],
+        [0.0 - r108, r187, r187, r187, r56 * r108 - r53 * r107, 0.0 - (r164 * r107 + r46 * r108)],
+        [r109, r207, r207, r207, 0.0 - (r56 * r109 + r49 * r107), r46 * r109 + r101 * r107],
+        [0.0, r211, r211, r211, r49 * r108 + r53 * r109, r164 * r109 - r101 * r108],
+        [r164, r214, r214, r214, 0.0 - (r46 * r53 + r56 * r164), 0.0],
+        [0.0 - r101, r226, r226, r226, r56 * r101 - r46 * r49, 0.0],
+        [0.0, r228, r228, r228, 0.0 - (r49 * r164 + r53 * r101), 0.0],
+        [r61 - r60, r231, r231, r231, r56 * r119 - r53 * r118, 0.0 - (r164 * r118 + r46 * r119)],
+        [r120, r251, r251, r251, 0.0 - (r56 * r120 + r49 * r118), r46 * r120 + r101 * r118],
+        [0.0, r255, r255, r255, r49 * r119 + r53 * r120, r164 * r120 - r101 * r119],
     ]
 }
 

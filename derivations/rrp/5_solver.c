@@ -286,16 +286,12 @@ static Parameters parameters(const double *target)
 /* The tip at joint values q, as the equations compare it. */
 static void tip(const double *q, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], r2 = c1 + (1.0 - c1);
-    const double r8 = c2 + (1.0 - c2), r9 = c1 * c2, r10 = s1 * c2, r11 = r2 * (0.0 - s2), r14 = c1 * s2;
-    const double r15 = s1 * s2, r16 = r2 * c2, r31 = 0.15 * c1 - (0.15 * r9 + 0.6 * r14) + r9 * d3;
-    const double r33 = 0.15 * s1 - (0.15 * r10 + 0.6 * r15) + r10 * d3;
-    const double r35 = 0.6 * r2 - (0.15 * r11 + 0.6 * r16) + r11 * d3;
-    const double r40 = 0.55 * r9 + 0.1 * ((0.0 - s1) * r8) + 0.65 * r14;
-    const double r50 = r33 + (0.55 * r10 + 0.1 * (c1 * r8) + 0.65 * r15);
-    reached[0] = r31 + r40;
-    reached[1] = r50;
-    reached[2] = r35 + (0.55 * r11 + 0.65 * r16);
+    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], r0 = c1 * c2;
+    const double r1 = s1 * c2, r22 = d3 * r1 + (0.05 * (s1 * s2) + (0.4 * r1 + 0.15 * s1));
+    const double r27 = d3 * r0 + (0.05 * (c1 * s2) + (0.4 * r0 + 0.15 * c1));
+    reached[0] = r27 - 0.1 * s1;
+    reached[1] = 0.1 * c1 + r22;
+    reached[2] = 0.6 - (s2 * d3 + (0.4 * s2 - 0.05 * c2));
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -308,7 +304,7 @@ static Equations equations(const Parameters *p, const double *q)
 {
     double reached[TIP];
     tip(q, reached);
-    const double d3 = q[2], r52 = fabs(d3) + 1.1302692427176386;
+    const double d3 = q[2], r8 = fabs(d3) + 1.1302692427176386;
     const Equations result = {
         {
             reached[0] - p->px,
@@ -316,9 +312,9 @@ static Equations equations(const Parameters *p, const double *q)
             reached[2] - p->pz,
         },
         {
-            r52,
-            r52,
-            r52,
+            r8,
+            r8,
+            r8,
         },
     };
     return result;
@@ -332,16 +328,15 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], r1 = 0.0 - s1;
-    const double r2 = c1 + (1.0 - c1), r3 = 0.15 * c1, r4 = 0.15 * s1, r5 = 0.6 * r2, r8 = c2 + (1.0 - c2);
-    const double r9 = c1 * c2, r10 = s1 * c2, r11 = r2 * (0.0 - s2), r14 = c1 * s2, r15 = s1 * s2, r16 = r2 * c2;
-    const double r49 = r3 - (0.15 * r9 + 0.6 * r14) + r9 * d3 + (0.55 * r9 + 0.1 * (r1 * r8) + 0.65 * r14);
-    const double r50 = r4 - (0.15 * r10 + 0.6 * r15) + r10 * d3 + (0.55 * r10 + 0.1 * (c1 * r8) + 0.65 * r15);
-    const double r51 = r5 - (0.15 * r11 + 0.6 * r16) + r11 * d3 + (0.55 * r11 + 0.65 * r16), r56 = r51 - r5;
+    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], r0 = c1 * c2;
+    const double r1 = s1 * c2, r5 = d3 * r0, r6 = d3 * r1, r12 = s2 * d3 + (0.4 * s2 - 0.05 * c2);
+    const double r13 = 0.4 * r1, r14 = 0.05 * (s1 * s2), r15 = 0.1 * c1, r16 = 0.4 * r0, r17 = 0.05 * (c1 * s2);
+    const double r18 = 0.1 * s1, r43 = 0.0 - (r15 + (r6 + (r14 + (r13 + 0.15 * s1))));
+    const double r46 = s1 * (r6 + (r13 + r14) + r15) + c1 * (r5 + (r16 + r17) - r18);
     const Jacobian result = { {
-        {0.0 - r50, c1 * r56, r9},
-        {r49, 0.0 - r1 * r56, r10},
-        {0.0, r1 * (r50 - r4) - c1 * (r49 - r3), r11},
+        {r43, 0.0 - c1 * r12, r0},
+        {r5 + (r17 + (r16 + 0.15 * c1)) - r18, 0.0 - s1 * r12, r1},
+        {0.0, 0.0 - r46, 0.0 - s2},
     } };
     return result;
 }
@@ -1047,9 +1042,9 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r17;
-    double r18;
-    double r19;
+    double r2;
+    double r3;
+    double r5;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1057,13 +1052,13 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r21 = shared->r18 * shared->r18 + 0.0025000000000000005;
-    if (!is_away(r21, 20000.0)) {
+    const double r7 = shared->r2 * shared->r2 + 0.0025000000000000005;
+    if (!is_away(r7, 20000.0)) {
         return;
     }
-    const double r24 = shared->r18 * shared->r19 - 0.05 * shared->r17, r26 = (0.0 - r24) / r21;
-    const double r30 = 0.0 - 0.05 * shared->r19 - shared->r18 * shared->r17, r32 = (0.0 - r30) / r21;
-    const double r36 = sqrt(fmax(r32 * r32 + r26 * r26, 0.0)), c2 = r32 / r36, s2 = r26 / r36;
+    const double r11 = (0.05 * shared->r5 - shared->r2 * shared->r3) / r7;
+    const double r15 = shared->r2 * shared->r5 - (0.0 - 0.05 * shared->r3), r16 = r15 / r7;
+    const double r20 = sqrt(fmax(r16 * r16 + r11 * r11, 0.0)), c2 = r16 / r20, s2 = r11 / r20;
     const double q[JOINTS] = {angle(known->c1, known->s1), angle(c2, s2), known->d3};
     finish(p, 2 * known->branch, 2 * known->last, q, known->free, answers);
 }
@@ -1074,8 +1069,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r21 = shared->r18 * shared->r18 + 0.0025000000000000005;
-    if (!(is_near(r21, 2.0000000000000002e-7) && is_near(shared->r17, 0.01) && is_near(shared->r19, 0.01))) {
+    const double r7 = shared->r2 * shared->r2 + 0.0025000000000000005;
+    if (!(is_near(r7, 2.0000000000000002e-7) && is_near(shared->r5, 0.01) && is_near(shared->r3, 0.01))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1089,9 +1084,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Pitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r10 = p->px * known->c1 + (0.0 - (0.0 - p->py)) * known->s1, r17 = -0.15 - (0.0 - r10);
-    const double r18 = 0.0 - (0.0 - (known->d3 + 0.55 - 0.15)), r19 = 0.0 - (0.6 - p->pz);
-    const Shared3 own = { r17, r18, r19 };
+    const double r2 = known->d3 + 0.4, r3 = p->pz - 0.6, r5 = p->px * known->c1 + p->py * known->s1 - 0.15;
+    const Shared3 own = { r2, r3, r5 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1099,17 +1093,17 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r30;
+    double r14;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double choice0_0[3] = {shared->r30 - 0.16000000000000003, 0.0, 1.0};
+    const double choice0_0[3] = {shared->r14 - 0.16000000000000003, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], d3 = 0.0 - (0.4 - w3);
+        const double w3 = roots0.values[i0], d3 = w3 - 0.4;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1121,39 +1115,30 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Slide. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r4 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r13 = p->px * known->c1 + (0.0 - (0.0 - p->py)) * known->s1;
-    const double r18 = p->pz + (p->pz - p->pz) * known->c1;
-    const double r28 = r4 + r4 - r4 + (0.15 * (0.15 - r13) + 0.6 * (0.6 - r18));
-    const double r30 = 0.1725 - (r28 - (0.15 * r13 + 0.6 * r18));
-    const Shared2 own = { r30 };
+    const double r6 = p->pz * p->pz + (p->px * p->px + p->py * p->py);
+    const double r10 = r6 - 0.3 * (p->px * known->c1) - 0.3 * (p->py * known->s1);
+    const double r14 = 0.0 - (r10 - 1.2 * p->pz + 0.21);
+    const Shared2 own = { r14 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
-/* What the charts of block 1 share. */
-typedef struct {
-    double r1;
-    double r4;
-    double r6;
-} Shared1;
-
 /* Chart 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r7 = shared->r1 * shared->r1, r8 = shared->r4 * shared->r4, r9 = r7 + r8;
-    const double r10 = shared->r6 * shared->r6, r11 = r10 + r10;
-    if (!is_away(r9, 10000.0 * r11)) {
+    const double r0 = p->py * p->py, r1 = p->px * p->px, r2 = r0 + r1, r3 = p->magnitude * p->magnitude;
+    const double r4 = r3 + r3;
+    if (!is_away(r2, 10000.0 * r4)) {
         return;
     }
-    const double choice0_0[3] = {0.010000000000000002 - r7 - r8, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r11, 0.0)));
+    const double choice0_0[3] = {0.010000000000000002 - r0 - r1, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r4, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r20 = (0.0 - (0.1 * shared->r4 - shared->r1 * w1)) / r9;
-        const double r25 = (0.0 - (shared->r4 * w1 + 0.1 * shared->r1)) / r9;
-        const double r29 = sqrt(fmax(r25 * r25 + r20 * r20, 0.0)), c1 = r25 / r29, s1 = r20 / r29;
+        const double w1 = roots0.values[i0], r12 = (0.1 * p->px + p->py * w1) / r2;
+        const double r16 = (0.1 * p->py - p->px * w1) / r2, r20 = sqrt(fmax(r16 * r16 + r12 * r12, 0.0));
+        const double c1 = r16 / r20, s1 = 0.0 - r12 / r20;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1166,10 +1151,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Yaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r1 = 0.0 - p->py, r4 = 0.0 - (0.0 - p->px), r6 = fabs(p->magnitude);
-    const Shared1 own = { r1, r4, r6 };
-    const Shared1 *const shared = &own;
-    chart_1_1(p, shared, answers);
+    chart_1_1(p, answers);
 }
 
 static bool all_finite(const double *target)

@@ -347,38 +347,27 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Yaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - p.py;
-    let r4 = 0.0 - (0.0 - p.px);
-    let r6 = f64::abs(p.magnitude);
-    let shared = &Shared1 { r1, r4, r6 };
-    chart_1_1(p, shared, answers);
-}
-
-/// What the charts of block 1 share.
-struct Shared1 {
-    r1: f64,
-    r4: f64,
-    r6: f64,
+    chart_1_1(p, answers);
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r7 = shared.r1 * shared.r1;
-    let r8 = shared.r4 * shared.r4;
-    let r9 = r7 + r8;
-    let r10 = shared.r6 * shared.r6;
-    let r11 = r10 + r10;
-    if !is_away(r9, 10000.0 * r11) {
+fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let r0 = p.py * p.py;
+    let r1 = p.px * p.px;
+    let r2 = r0 + r1;
+    let r3 = p.magnitude * p.magnitude;
+    let r4 = r3 + r3;
+    if !is_away(r2, 10000.0 * r4) {
         return;
     }
-    let roots0 = real_roots(&[0.010000000000000002 - r7 - r8, 0.0, 1.0], f64::max(r11, 0.0).sqrt());
+    let roots0 = real_roots(&[0.010000000000000002 - r0 - r1, 0.0, 1.0], f64::max(r4, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r20 = (0.0 - (0.1 * shared.r4 - shared.r1 * w1)) / r9;
-        let r25 = (0.0 - (shared.r4 * w1 + 0.1 * shared.r1)) / r9;
-        let r29 = f64::max(r25 * r25 + r20 * r20, 0.0).sqrt();
-        let c1 = r25 / r29;
-        let s1 = r20 / r29;
+        let r12 = (0.1 * p.px + p.py * w1) / r2;
+        let r16 = (0.1 * p.py - p.px * w1) / r2;
+        let r20 = f64::max(r16 * r16 + r12 * r12, 0.0).sqrt();
+        let c1 = r16 / r20;
+        let s1 = 0.0 - r12 / r20;
         let next = Known { branch: i0, last: 2, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -386,25 +375,23 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Slide.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.px * p.px + p.py * p.py + p.pz * p.pz;
-    let r13 = p.px * known.c1 + (0.0 - (0.0 - p.py)) * known.s1;
-    let r18 = p.pz + (p.pz - p.pz) * known.c1;
-    let r28 = r4 + r4 - r4 + (0.15 * (0.15 - r13) + 0.6 * (0.6 - r18));
-    let r30 = 0.1725 - (r28 - (0.15 * r13 + 0.6 * r18));
-    let shared = &Shared2 { r30 };
+    let r8 = p.pz * p.pz + (p.px * p.px + p.py * p.py) - 0.3 * (p.px * known.c1);
+    let r13 = r8 - 0.3 * (p.py * known.s1) - 1.2 * p.pz + 0.21;
+    let r14 = 0.0 - r13;
+    let shared = &Shared2 { r14 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r30: f64,
+    r14: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let roots0 = real_roots(&[shared.r30 - 0.16000000000000003, 0.0, 1.0], 1.4142135623730951);
+    let roots0 = real_roots(&[shared.r14 - 0.16000000000000003, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let d3 = 0.0 - (0.4 - w3);
+        let d3 = w3 - 0.4;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, d3, ..*known };
         block_3(p, &next, answers);
     }
@@ -412,36 +399,34 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Pitch.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r10 = p.px * known.c1 + (0.0 - (0.0 - p.py)) * known.s1;
-    let r17 = -0.15 - (0.0 - r10);
-    let r18 = 0.0 - (0.0 - (known.d3 + 0.55 - 0.15));
-    let r19 = 0.0 - (0.6 - p.pz);
-    let shared = &Shared3 { r17, r18, r19 };
+    let r2 = known.d3 + 0.4;
+    let r3 = p.pz - 0.6;
+    let r5 = p.px * known.c1 + p.py * known.s1 - 0.15;
+    let shared = &Shared3 { r2, r3, r5 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r17: f64,
-    r18: f64,
-    r19: f64,
+    r2: f64,
+    r3: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r21 = shared.r18 * shared.r18 + 0.0025000000000000005;
-    if !is_away(r21, 20000.0) {
+    let r7 = shared.r2 * shared.r2 + 0.0025000000000000005;
+    if !is_away(r7, 20000.0) {
         return;
     }
-    let r25 = 0.0 - (shared.r18 * shared.r19 - 0.05 * shared.r17);
-    let r26 = r25 / r21;
-    let r30 = 0.0 - 0.05 * shared.r19 - shared.r18 * shared.r17;
-    let r32 = (0.0 - r30) / r21;
-    let r36 = f64::max(r32 * r32 + r26 * r26, 0.0).sqrt();
-    let c2 = r32 / r36;
-    let s2 = r26 / r36;
+    let r11 = (0.05 * shared.r5 - shared.r2 * shared.r3) / r7;
+    let r15 = shared.r2 * shared.r5 - (0.0 - 0.05 * shared.r3);
+    let r16 = r15 / r7;
+    let r20 = f64::max(r16 * r16 + r11 * r11, 0.0).sqrt();
+    let c2 = r16 / r20;
+    let s2 = r11 / r20;
     let q = [angle(known.c1, known.s1), angle(c2, s2), known.d3];
     answers.finish(p, 2 * known.branch, 2 * known.last, q, known.free);
 }
@@ -450,8 +435,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Pitch.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r21 = shared.r18 * shared.r18 + 0.0025000000000000005;
-    if !(is_near(r21, 2.0000000000000002e-7) && is_near(shared.r17, 0.01) && is_near(shared.r19, 0.01)) {
+    let r7 = shared.r2 * shared.r2 + 0.0025000000000000005;
+    if !(is_near(r7, 2.0000000000000002e-7) && is_near(shared.r5, 0.01) && is_near(shared.r3, 0.01)) {
         return;
     }
     for [c2, s2] in SAMPLES_1 {
@@ -470,23 +455,14 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let c2 = q[1].cos();
     let s2 = q[1].sin();
     let d3 = q[2];
-    let r2 = c1 + (1.0 - c1);
-    let r8 = c2 + (1.0 - c2);
-    let r9 = c1 * c2;
-    let r10 = s1 * c2;
-    let r11 = r2 * (0.0 - s2);
-    let r14 = c1 * s2;
-    let r15 = s1 * s2;
-    let r16 = r2 * c2;
-    let r31 = 0.15 * c1 - (0.15 * r9 + 0.6 * r14) + r9 * d3;
-    let r33 = 0.15 * s1 - (0.15 * r10 + 0.6 * r15) + r10 * d3;
-    let r35 = 0.6 * r2 - (0.15 * r11 + 0.6 * r16) + r11 * d3;
-    let r40 = 0.55 * r9 + 0.1 * ((0.0 - s1) * r8) + 0.65 * r14;
-    let r50 = r33 + (0.55 * r10 + 0.1 * (c1 * r8) + 0.65 * r15);
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r22 = d3 * r1 + (0.05 * (s1 * s2) + (0.4 * r1 + 0.15 * s1));
+    let r27 = d3 * r0 + (0.05 * (c1 * s2) + (0.4 * r0 + 0.15 * c1));
     [
-        r31 + r40,
-        r50,
-        r35 + (0.55 * r11 + 0.65 * r16),
+        r27 - 0.1 * s1,
+        0.1 * c1 + r22,
+        0.6 - (s2 * d3 + (0.4 * s2 - 0.05 * c2)),
     ]
 }
 
@@ -499,7 +475,7 @@ struct Equations {
 fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
     let reached = tip(q);
     let d3 = q[2];
-    let r52 = f64::abs(d3) + 1.1302692427176386;
+    let r8 = f64::abs(d3) + 1.1302692427176386;
     Equations {
         value: [
             reached[0] - p.px,
@@ -507,9 +483,9 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
             reached[2] - p.pz,
         ],
         size: [
-            r52,
-            r52,
-            r52,
+            r8,
+            r8,
+            r8,
         ],
     }
 }
@@ -521,26 +497,23 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let c2 = q[1].cos();
     let s2 = q[1].sin();
     let d3 = q[2];
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.15 * c1;
-    let r4 = 0.15 * s1;
-    let r5 = 0.6 * r2;
-    let r8 = c2 + (1.0 - c2);
-    let r9 = c1 * c2;
-    let r10 = s1 * c2;
-    let r11 = r2 * (0.0 - s2);
-    let r14 = c1 * s2;
-    let r15 = s1 * s2;
-    let r16 = r2 * c2;
-    let r49 = r3 - (0.15 * r9 + 0.6 * r14) + r9 * d3 + (0.55 * r9 + 0.1 * (r1 * r8) + 0.65 * r14);
-    let r50 = r4 - (0.15 * r10 + 0.6 * r15) + r10 * d3 + (0.55 * r10 + 0.1 * (c1 * r8) + 0.65 * r15);
-    let r51 = r5 - (0.15 * r11 + 0.6 * r16) + r11 * d3 + (0.55 * r11 + 0.65 * r16);
-    let r56 = r51 - r5;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r5 = d3 * r0;
+    let r6 = d3 * r1;
+    let r12 = s2 * d3 + (0.4 * s2 - 0.05 * c2);
+    let r13 = 0.4 * r1;
+    let r14 = 0.05 * (s1 * s2);
+    let r15 = 0.1 * c1;
+    let r16 = 0.4 * r0;
+    let r17 = 0.05 * (c1 * s2);
+    let r18 = 0.1 * s1;
+    let r43 = 0.0 - (r15 + (r6 + (r14 + (r13 + 0.15 * s1))));
+    let r46 = s1 * (r6 + (r13 + r14) + r15) + c1 * (r5 + (r16 + r17) - r18);
     [
-        [0.0 - r50, c1 * r56, r9],
-        [r49, 0.0 - r1 * r56, r10],
-        [0.0, r1 * (r50 - r4) - c1 * (r49 - r3), r11],
+        [r43, 0.0 - c1 * r12, r0],
+        [r5 + (r17 + (r16 + 0.15 * c1)) - r18, 0.0 - s1 * r12, r1],
+        [0.0, 0.0 - r46, 0.0 - s2],
     ]
 }
 

@@ -314,25 +314,20 @@ static Parameters parameters(const double *target)
 static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], c4 = cos(q[3]);
-    const double s4 = sin(q[3]), r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r7 = 0.0 - s2, r9 = c1 * c2;
-    const double r11 = r9 + r1 * s2, r14 = s1 * c2 + c1 * s2, r17 = c1 * r7 + r1 * c2, r19 = s1 * r7 + r9;
-    const double r20 = r2 * (c2 + (1.0 - c2)), r23 = 0.387 * r20, r37 = 0.0 - s4, r41 = r11 * c4 + r17 * r37;
-    const double r44 = r14 * c4 + r19 * r37, r51 = r20 * (c4 + (1.0 - c4)), r52 = 0.6 * r41, r53 = 0.6 * r44;
-    const double r54 = 0.387 * r51, r57 = 0.387 * r2 - r23 + (0.0 - r20) * d3 + r23 - r54;
-    const double r58 = 0.325 * c1 - 0.325 * r11 + 0.6 * r11 - r52 + r52;
-    const double r59 = 0.325 * s1 - 0.325 * r14 + 0.6 * r14 - r53 + r53;
-    reached[0] = r58;
-    reached[1] = r59;
-    reached[2] = r57 + r54;
-    reached[3] = r41;
-    reached[4] = r44;
+    const double s4 = sin(q[3]), r0 = c1 * c2, r1 = s1 * s2, r2 = s1 * c2, r3 = c1 * s2, r5 = r0 - r1;
+    const double r7 = r2 + r3, r8 = s4 * r7, r9 = c4 * r7, r10 = r1 - r0;
+    reached[0] = 0.325 * c1 + 0.275 * r0 - 0.275 * r1;
+    reached[1] = 0.325 * s1 + 0.275 * r2 + 0.275 * r3;
+    reached[2] = 0.387 - d3;
+    reached[3] = c4 * r5 + r8;
+    reached[4] = r9 + s4 * r10;
     reached[5] = 0.0;
-    reached[6] = 0.0 - (r11 * s4 + r17 * c4);
-    reached[7] = 0.0 - (r14 * s4 + r19 * c4);
+    reached[6] = r9 - s4 * r5;
+    reached[7] = c4 * r10 - r8;
     reached[8] = 0.0;
     reached[9] = 0.0;
     reached[10] = 0.0;
-    reached[11] = 0.0 - r51;
+    reached[11] = -1.0;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -345,7 +340,7 @@ static Equations equations(const Parameters *p, const double *q)
 {
     double reached[TIP];
     tip(q, reached);
-    const double d3 = q[2], r64 = fabs(d3) + 0.7803652144736517;
+    const double d3 = q[2], r14 = fabs(d3) + 0.7803652144736517;
     const Equations result = {
         {
             reached[0] - p->px,
@@ -362,9 +357,9 @@ static Equations equations(const Parameters *p, const double *q)
             reached[11] - p->r33_,
         },
         {
-            r64,
-            r64,
-            r64,
+            r14,
+            r14,
+            r14,
             1.0,
             1.0,
             1.0,
@@ -388,21 +383,18 @@ static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c4 = cos(q[3]), s4 = sin(q[3]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.325 * c1, r4 = 0.325 * s1, r7 = 0.0 - s2;
-    const double r9 = c1 * c2, r11 = r9 + r1 * s2, r14 = s1 * c2 + c1 * s2, r17 = c1 * r7 + r1 * c2;
-    const double r19 = s1 * r7 + r9, r27 = 0.0 - r2 * (c2 + (1.0 - c2)), r33 = r3 - 0.325 * r11 + 0.6 * r11;
-    const double r34 = r4 - 0.325 * r14 + 0.6 * r14, r37 = 0.0 - s4, r41 = r11 * c4 + r17 * r37;
-    const double r44 = r14 * c4 + r19 * r37, r52 = 0.6 * r41, r53 = 0.6 * r44, r58 = r33 - r52 + r52;
-    const double r59 = r34 - r53 + r53, r61 = 0.0 - (r11 * s4 + r17 * c4), r62 = 0.0 - (r14 * s4 + r19 * c4);
+    const double r0 = c1 * c2, r1 = s1 * s2, r2 = s1 * c2, r3 = c1 * s2, r5 = r0 - r1, r7 = r2 + r3;
+    const double r8 = s4 * r7, r9 = c4 * r7, r10 = r1 - r0, r12 = s4 * r5, r13 = c4 * r10, r29 = r9 + s4 * r10;
+    const double r30 = c4 * r5 + r8, r35 = r9 - r12, r46 = 0.0 - r29, r48 = r8 - r13;
     const Jacobian result = { {
-        {0.0 - r59, 0.0 - r2 * (r59 - r4), 0.0, 0.0 - r27 * (r59 - r34)},
-        {r58, r2 * (r58 - r3), 0.0, r27 * (r58 - r33)},
-        {0.0, 0.0, r27, 0.0},
-        {0.0 - r44, 0.0 - r2 * r44, 0.0, 0.0 - r27 * r44},
-        {r41, r2 * r41, 0.0, r27 * r41},
+        {0.0 - (0.325 * s1 + 0.275 * r2 + 0.275 * r3), 0.0 - 0.275 * r7, 0.0, 0.0},
+        {0.325 * c1 + 0.275 * r0 - 0.275 * r1, 0.275 * r5, 0.0, 0.0},
+        {0.0, 0.0, -1.0, 0.0},
+        {r46, r46, 0.0, r29},
+        {r30, r30, 0.0, 0.0 - r30},
         {0.0, 0.0, 0.0, 0.0},
-        {0.0 - r62, 0.0 - r2 * r62, 0.0, 0.0 - r27 * r62},
-        {r61, r2 * r61, 0.0, r27 * r61},
+        {r48, r48, 0.0, r13 - r8},
+        {r35, r35, 0.0, r12 - r9},
         {0.0, 0.0, 0.0, 0.0},
         {0.0, 0.0, 0.0, 0.0},
         {0.0, 0.0, 0.0, 0.0},
@@ -1071,16 +1063,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r54;
-    double r55;
+    double r16;
+    double r17;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r57 = 0.0 - (0.0 - shared->r54), r59 = 0.0 - (0.0 - shared->r55);
-    const double r63 = sqrt(fmax(r59 * r59 + r57 * r57, 0.0)), c4 = r59 / r63, s4 = r57 / r63;
+    const double r20 = shared->r16 * shared->r16 + shared->r17 * shared->r17, r21 = sqrt(fmax(r20, 0.0));
+    const double c4 = shared->r16 / r21, s4 = shared->r17 / r21;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1093,24 +1085,21 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: Tool. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r12_ * known->c1 + (0.0 - (0.0 - p->r22_)) * known->s1;
-    const double r9 = p->r22_ * known->c1 + (0.0 - p->r12_) * known->s1;
-    const double r24 = 0.0 - (r9 * known->c2 + (0.0 - r6) * known->s2), r26 = 0.0 - p->r11_, r27 = 0.0 - p->r21_;
-    const double r35 = r26 * known->c1 + (0.0 - (0.0 - r27)) * known->s1;
-    const double r48 = (r27 * known->c1 + (0.0 - r26) * known->s1) * known->c2;
-    const double r54 = 0.0 - (0.0 - (r48 + (0.0 - r35) * known->s2)), r55 = 0.0 - (0.0 - r24);
-    const Shared4 own = { r54, r55 };
+    const double r6 = known->c2 * (p->r22_ * known->c1 - p->r12_ * known->s1);
+    const double r7 = known->s2 * (p->r12_ * known->c1 + p->r22_ * known->s1);
+    const double r14 = known->c2 * (p->r21_ * known->c1 - p->r11_ * known->s1);
+    const double r15 = known->s2 * (p->r11_ * known->c1 + p->r21_ * known->s1), r16 = r7 - r6, r17 = r15 - r14;
+    const Shared4 own = { r16, r17 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
 /* What the charts of block 3 share. */
 typedef struct {
+    double r0;
+    double r2;
+    double r3;
     double r5;
-    double r13;
-    double r17;
-    double r18;
-    double r28;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1118,13 +1107,13 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r31 = shared->r5 * shared->r5 + shared->r13 * shared->r13;
-    if (!is_away(r31, 24181.25)) {
+    const double r8 = shared->r0 * shared->r0 + shared->r2 * shared->r2;
+    if (!is_away(r8, 24181.25)) {
         return;
     }
-    const double r34 = shared->r13 * shared->r17 - shared->r5 * shared->r18, r36 = (0.0 - r34) / r31;
-    const double r40 = 0.0 - shared->r5 * shared->r17 - shared->r13 * shared->r18, r42 = (0.0 - r40) / r31;
-    const double r46 = sqrt(fmax(r42 * r42 + r36 * r36, 0.0)), c1 = r42 / r46, s1 = r36 / r46;
+    const double r12 = (p->py * shared->r2 - p->px * shared->r0) / r8;
+    const double r16 = p->px * shared->r2 - (0.0 - p->py * shared->r0), r17 = r16 / r8;
+    const double r21 = sqrt(fmax(r17 * r17 + r12 * r12, 0.0)), c1 = r17 / r21, s1 = r12 / r21;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1139,8 +1128,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r31 = shared->r5 * shared->r5 + shared->r13 * shared->r13, r32 = 0.01 * shared->r28;
-    if (!(is_near(r31, 2.418125e-7) && is_near(shared->r18, r32) && is_near(shared->r17, r32))) {
+    const double r8 = shared->r0 * shared->r0 + shared->r2 * shared->r2, r9 = 0.01 * shared->r5;
+    if (!(is_near(r8, 2.418125e-7) && is_near(shared->r3, r9) && is_near(p->py, r9))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1158,9 +1147,9 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Shoulder. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = 0.275 * known->s2, r13 = 0.0 - (0.275 * known->c2 + 0.325), r17 = 0.0 - (0.0 - p->py);
-    const double r18 = 0.0 - (0.0 - (0.0 - p->px)), r28 = fabs(0.0 - (p->magnitude + 1.974));
-    const Shared3 own = { r5, r13, r17, r18, r28 };
+    const double r0 = 0.275 * known->s2, r2 = 0.275 * known->c2 + 0.325, r3 = 0.0 - p->px;
+    const double r5 = fabs(p->magnitude + 1.974);
+    const Shared3 own = { r0, r2, r3, r5 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
@@ -1168,52 +1157,23 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r20;
-    double r35;
-    double r70;
-    double r71;
+    double r11;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
- * It runs where A^2 + B^2 is not zero.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r72 = shared->r20 * shared->r20, r73 = shared->r70 * shared->r70;
-    if (!is_away(r72, 10000.0 * r73)) {
-        return;
-    }
-    const double choice0_0[3] = {shared->r35 * shared->r35 - r72, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r73, 0.0)));
+    const double r13 = shared->r11 * shared->r11 - 0.031951562499999996;
+    const double choice0_0[3] = {r13, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r81 = (0.0 - (0.0 - shared->r20 * w2)) / r72;
-        const double r84 = (0.0 - shared->r20 * shared->r35) / r72, r88 = sqrt(fmax(r84 * r84 + r81 * r81, 0.0));
-        const double c2 = r84 / r88, s2 = r81 / r88;
+        const double w2 = roots0.values[i0], r15 = 0.17875 * w2 / 0.031951562499999996;
+        const double r17 = 0.17875 * shared->r11 / 0.031951562499999996;
+        const double r21 = sqrt(fmax(r17 * r17 + r15 * r15, 0.0)), c2 = 0.0 - r17 / r21, s2 = r15 / r21;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.c2 = c2;
-        next.s2 = s2;
-        block_3(p, &next, answers);
-    }
-}
-
-/* Chart 2 of block 2: A = 0, B = 0, C = 0.
- * It runs where A^2 + B^2 is near zero and C is near zero.
- * Free: Elbow.
- */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
-{
-    const double r74 = 1.0000000000000001e-7 * (shared->r70 * shared->r70);
-    if (!(is_near(shared->r20 * shared->r20, r74) && is_near(shared->r35, 0.01 * shared->r71))) {
-        return;
-    }
-    for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[1] = true;
+        next.branch = 2 * known->branch + i0;
+        next.last = 2 * known->last;
         next.c2 = c2;
         next.s2 = s2;
         block_3(p, &next, answers);
@@ -1223,22 +1183,11 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Elbow. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - known->d3, r1 = r0 + 0.387, r2 = r0 * r1, r7 = r1 - 0.387, r11 = 0.387 * r1 + 0.195;
-    const double r14 = r2 + r2 - r0 * r0 + 0.509769 - (r11 + r11 - 0.255394);
-    const double r17 = 0.387 * (r7 + 0.387) + 0.105625, r18 = 0.387 * (r7 - r7) + 0.089375, r20 = r18 + r18;
-    const double r29 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r35 = r14 + (r17 + r17 - 0.255394) - (r29 + r29 - r29), r36 = fabs(known->d3);
-    const double r37 = r36 + 0.387, r38 = r36 * r37, r43 = r37 + 0.387, r47 = 0.387 * r37 + 0.195;
-    const double r50 = r38 + r38 + r36 * r36 + 0.509769 + (r47 + r47 + 0.255394);
-    const double r53 = 0.387 * (r43 + 0.387) + 0.105625, r54 = 0.387 * (r43 + r43) + 0.300625;
-    const double r60 = p->magnitude * (p->magnitude + 1.974), r62 = r60 + r60 + r60;
-    const double r64 = p->magnitude * p->magnitude;
-    const double r69 = r50 + (r53 + r53 + 0.255394) + (r62 + r62 + (r64 + r64 + r64) + 2.039076);
-    const double r70 = fabs(r54 + r54), r71 = fabs(r69);
-    const Shared2 own = { r20, r35, r70, r71 };
+    const double r7 = 2.0 * (known->d3 * (known->d3 - 0.387)) - known->d3 * known->d3;
+    const double r10 = r7 - p->px * p->px - p->py * p->py - p->pz * p->pz, r11 = r10 + 0.331019;
+    const Shared2 own = { r11 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -1250,7 +1199,7 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double d3 = (0.0 - shared->r0) / (-1.0);
+    const double d3 = shared->r0;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;

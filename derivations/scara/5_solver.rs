@@ -443,120 +443,70 @@ struct Shared1 {
 
 /// Chart 1 of block 1: generic.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let d3 = (0.0 - shared.r0) / (-1.0);
+    let d3 = shared.r0;
     let next = Known { branch: 0, last: 1, d3, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
 
 /// Block 2: Elbow.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - known.d3;
-    let r1 = r0 + 0.387;
-    let r2 = r0 * r1;
-    let r7 = r1 - 0.387;
-    let r11 = 0.387 * r1 + 0.195;
-    let r14 = r2 + r2 - r0 * r0 + 0.509769 - (r11 + r11 - 0.255394);
-    let r17 = 0.387 * (r7 + 0.387) + 0.105625;
-    let r18 = 0.387 * (r7 - r7) + 0.089375;
-    let r20 = r18 + r18;
-    let r29 = p.px * p.px + p.py * p.py + p.pz * p.pz;
-    let r35 = r14 + (r17 + r17 - 0.255394) - (r29 + r29 - r29);
-    let r36 = f64::abs(known.d3);
-    let r37 = r36 + 0.387;
-    let r38 = r36 * r37;
-    let r43 = r37 + 0.387;
-    let r47 = 0.387 * r37 + 0.195;
-    let r50 = r38 + r38 + r36 * r36 + 0.509769 + (r47 + r47 + 0.255394);
-    let r53 = 0.387 * (r43 + 0.387) + 0.105625;
-    let r54 = 0.387 * (r43 + r43) + 0.300625;
-    let r60 = p.magnitude * (p.magnitude + 1.974);
-    let r62 = r60 + r60 + r60;
-    let r64 = p.magnitude * p.magnitude;
-    let r69 = r50 + (r53 + r53 + 0.255394) + (r62 + r62 + (r64 + r64 + r64) + 2.039076);
-    let r70 = f64::abs(r54 + r54);
-    let r71 = f64::abs(r69);
-    let shared = &Shared2 { r20, r35, r70, r71 };
+    let r7 = 2.0 * (known.d3 * (known.d3 - 0.387)) - known.d3 * known.d3;
+    let r11 = r7 - p.px * p.px - p.py * p.py - p.pz * p.pz + 0.331019;
+    let shared = &Shared2 { r11 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r20: f64,
-    r35: f64,
-    r70: f64,
-    r71: f64,
+    r11: f64,
 }
 
 /// Chart 1 of block 2: generic.
-/// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r72 = shared.r20 * shared.r20;
-    let r73 = shared.r70 * shared.r70;
-    if !is_away(r72, 10000.0 * r73) {
-        return;
-    }
-    let roots0 = real_roots(&[shared.r35 * shared.r35 - r72, 0.0, 1.0], f64::max(r73, 0.0).sqrt());
+    let r13 = shared.r11 * shared.r11 - 0.031951562499999996;
+    let roots0 = real_roots(&[r13, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let r81 = (0.0 - (0.0 - shared.r20 * w2)) / r72;
-        let r84 = (0.0 - shared.r20 * shared.r35) / r72;
-        let r88 = f64::max(r84 * r84 + r81 * r81, 0.0).sqrt();
-        let c2 = r84 / r88;
-        let s2 = r81 / r88;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c2, s2, ..*known };
-        block_3(p, &next, answers);
-    }
-}
-
-/// Chart 2 of block 2: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero and C is near zero.
-/// Free: Elbow.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r74 = 1.0000000000000001e-7 * (shared.r70 * shared.r70);
-    if !(is_near(shared.r20 * shared.r20, r74) && is_near(shared.r35, 0.01 * shared.r71)) {
-        return;
-    }
-    for [c2, s2] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, free: [known.free[0], true, known.free[2], known.free[3]], c2, s2, ..*known };
+        let r15 = 0.17875 * w2 / 0.031951562499999996;
+        let r17 = 0.17875 * shared.r11 / 0.031951562499999996;
+        let r21 = f64::max(r17 * r17 + r15 * r15, 0.0).sqrt();
+        let c2 = 0.0 - r17 / r21;
+        let s2 = r15 / r21;
+        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c2, s2, ..*known };
         block_3(p, &next, answers);
     }
 }
 
 /// Block 3: Shoulder.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = 0.275 * known.s2;
-    let r13 = 0.0 - (0.275 * known.c2 + 0.325);
-    let r17 = 0.0 - (0.0 - p.py);
-    let r18 = 0.0 - (0.0 - (0.0 - p.px));
-    let r28 = f64::abs(0.0 - (p.magnitude + 1.974));
-    let shared = &Shared3 { r5, r13, r17, r18, r28 };
+    let r0 = 0.275 * known.s2;
+    let r2 = 0.275 * known.c2 + 0.325;
+    let r3 = 0.0 - p.px;
+    let r5 = f64::abs(p.magnitude + 1.974);
+    let shared = &Shared3 { r0, r2, r3, r5 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
+    r0: f64,
+    r2: f64,
+    r3: f64,
     r5: f64,
-    r13: f64,
-    r17: f64,
-    r18: f64,
-    r28: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r31 = shared.r5 * shared.r5 + shared.r13 * shared.r13;
-    if !is_away(r31, 24181.25) {
+    let r8 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
+    if !is_away(r8, 24181.25) {
         return;
     }
-    let r34 = shared.r13 * shared.r17 - shared.r5 * shared.r18;
-    let r36 = (0.0 - r34) / r31;
-    let r40 = 0.0 - shared.r5 * shared.r17 - shared.r13 * shared.r18;
-    let r42 = (0.0 - r40) / r31;
-    let r46 = f64::max(r42 * r42 + r36 * r36, 0.0).sqrt();
-    let c1 = r42 / r46;
-    let s1 = r36 / r46;
+    let r12 = (p.py * shared.r2 - p.px * shared.r0) / r8;
+    let r17 = (p.px * shared.r2 - (0.0 - p.py * shared.r0)) / r8;
+    let r21 = f64::max(r17 * r17 + r12 * r12, 0.0).sqrt();
+    let c1 = r17 / r21;
+    let s1 = r12 / r21;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c1, s1, ..*known };
     block_4(p, &next, answers);
 }
@@ -565,9 +515,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r31 = shared.r5 * shared.r5 + shared.r13 * shared.r13;
-    let r32 = 0.01 * shared.r28;
-    if !(is_near(r31, 2.418125e-7) && is_near(shared.r18, r32) && is_near(shared.r17, r32)) {
+    let r8 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
+    let r9 = 0.01 * shared.r5;
+    if !(is_near(r8, 2.418125e-7) && is_near(shared.r3, r9) && is_near(p.py, r9)) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -578,32 +528,28 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: Tool.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r12_ * known.c1 + (0.0 - (0.0 - p.r22_)) * known.s1;
-    let r9 = p.r22_ * known.c1 + (0.0 - p.r12_) * known.s1;
-    let r24 = 0.0 - (r9 * known.c2 + (0.0 - r6) * known.s2);
-    let r26 = 0.0 - p.r11_;
-    let r27 = 0.0 - p.r21_;
-    let r35 = r26 * known.c1 + (0.0 - (0.0 - r27)) * known.s1;
-    let r48 = (r27 * known.c1 + (0.0 - r26) * known.s1) * known.c2;
-    let r54 = 0.0 - (0.0 - (r48 + (0.0 - r35) * known.s2));
-    let r55 = 0.0 - (0.0 - r24);
-    let shared = &Shared4 { r54, r55 };
+    let r6 = known.c2 * (p.r22_ * known.c1 - p.r12_ * known.s1);
+    let r7 = known.s2 * (p.r12_ * known.c1 + p.r22_ * known.s1);
+    let r14 = known.c2 * (p.r21_ * known.c1 - p.r11_ * known.s1);
+    let r15 = known.s2 * (p.r11_ * known.c1 + p.r21_ * known.s1);
+    let r16 = r7 - r6;
+    let r17 = r15 - r14;
+    let shared = &Shared4 { r16, r17 };
     chart_4_1(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r54: f64,
-    r55: f64,
+    r16: f64,
+    r17: f64,
 }
 
 /// Chart 1 of block 4: generic.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r57 = 0.0 - (0.0 - shared.r54);
-    let r59 = 0.0 - (0.0 - shared.r55);
-    let r63 = f64::max(r59 * r59 + r57 * r57, 0.0).sqrt();
-    let c4 = r59 / r63;
-    let s4 = r57 / r63;
+    let r20 = shared.r16 * shared.r16 + shared.r17 * shared.r17;
+    let r21 = f64::max(r20, 0.0).sqrt();
+    let c4 = shared.r16 / r21;
+    let s4 = shared.r17 / r21;
     let q = [angle(known.c1, known.s1), angle(known.c2, known.s2), known.d3, angle(c4, s4)];
     answers.finish(p, known.branch, known.last, q, known.free);
 }
@@ -620,39 +566,28 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let d3 = q[2];
     let c4 = q[3].cos();
     let s4 = q[3].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r7 = 0.0 - s2;
-    let r9 = c1 * c2;
-    let r11 = r9 + r1 * s2;
-    let r14 = s1 * c2 + c1 * s2;
-    let r17 = c1 * r7 + r1 * c2;
-    let r19 = s1 * r7 + r9;
-    let r20 = r2 * (c2 + (1.0 - c2));
-    let r23 = 0.387 * r20;
-    let r37 = 0.0 - s4;
-    let r41 = r11 * c4 + r17 * r37;
-    let r44 = r14 * c4 + r19 * r37;
-    let r51 = r20 * (c4 + (1.0 - c4));
-    let r52 = 0.6 * r41;
-    let r53 = 0.6 * r44;
-    let r54 = 0.387 * r51;
-    let r57 = 0.387 * r2 - r23 + (0.0 - r20) * d3 + r23 - r54;
-    let r58 = 0.325 * c1 - 0.325 * r11 + 0.6 * r11 - r52 + r52;
-    let r59 = 0.325 * s1 - 0.325 * r14 + 0.6 * r14 - r53 + r53;
+    let r0 = c1 * c2;
+    let r1 = s1 * s2;
+    let r2 = s1 * c2;
+    let r3 = c1 * s2;
+    let r5 = r0 - r1;
+    let r7 = r2 + r3;
+    let r8 = s4 * r7;
+    let r9 = c4 * r7;
+    let r10 = r1 - r0;
     [
-        r58,
-        r59,
-        r57 + r54,
-        r41,
-        r44,
+        0.325 * c1 + 0.275 * r0 - 0.275 * r1,
+        0.325 * s1 + 0.275 * r2 + 0.275 * r3,
+        0.387 - d3,
+        c4 * r5 + r8,
+        r9 + s4 * r10,
         0.0,
-        0.0 - (r11 * s4 + r17 * c4),
-        0.0 - (r14 * s4 + r19 * c4),
+        r9 - s4 * r5,
+        c4 * r10 - r8,
         0.0,
         0.0,
         0.0,
-        0.0 - r51,
+        -1.0,
     ]
 }
 
@@ -665,7 +600,7 @@ struct Equations {
 fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
     let reached = tip(q);
     let d3 = q[2];
-    let r64 = f64::abs(d3) + 0.7803652144736517;
+    let r14 = f64::abs(d3) + 0.7803652144736517;
     Equations {
         value: [
             reached[0] - p.px,
@@ -682,9 +617,9 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
             reached[11] - p.r33_,
         ],
         size: [
-            r64,
-            r64,
-            r64,
+            r14,
+            r14,
+            r14,
             1.0,
             1.0,
             1.0,
@@ -706,37 +641,31 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s2 = q[1].sin();
     let c4 = q[3].cos();
     let s4 = q[3].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.325 * c1;
-    let r4 = 0.325 * s1;
-    let r7 = 0.0 - s2;
-    let r9 = c1 * c2;
-    let r11 = r9 + r1 * s2;
-    let r14 = s1 * c2 + c1 * s2;
-    let r17 = c1 * r7 + r1 * c2;
-    let r19 = s1 * r7 + r9;
-    let r27 = 0.0 - r2 * (c2 + (1.0 - c2));
-    let r33 = r3 - 0.325 * r11 + 0.6 * r11;
-    let r34 = r4 - 0.325 * r14 + 0.6 * r14;
-    let r37 = 0.0 - s4;
-    let r41 = r11 * c4 + r17 * r37;
-    let r44 = r14 * c4 + r19 * r37;
-    let r52 = 0.6 * r41;
-    let r53 = 0.6 * r44;
-    let r58 = r33 - r52 + r52;
-    let r59 = r34 - r53 + r53;
-    let r61 = 0.0 - (r11 * s4 + r17 * c4);
-    let r62 = 0.0 - (r14 * s4 + r19 * c4);
+    let r0 = c1 * c2;
+    let r1 = s1 * s2;
+    let r2 = s1 * c2;
+    let r3 = c1 * s2;
+    let r5 = r0 - r1;
+    let r7 = r2 + r3;
+    let r8 = s4 * r7;
+    let r9 = c4 * r7;
+    let r10 = r1 - r0;
+    let r12 = s4 * r5;
+    let r13 = c4 * r10;
+    let r29 = r9 + s4 * r10;
+    let r30 = c4 * r5 + r8;
+    let r35 = r9 - r12;
+    let r46 = 0.0 - r29;
+    let r48 = r8 - r13;
     [
-        [0.0 - r59, 0.0 - r2 * (r59 - r4), 0.0, 0.0 - r27 * (r59 - r34)],
-        [r58, r2 * (r58 - r3), 0.0, r27 * (r58 - r33)],
-        [0.0, 0.0, r27, 0.0],
-        [0.0 - r44, 0.0 - r2 * r44, 0.0, 0.0 - r27 * r44],
-        [r41, r2 * r41, 0.0, r27 * r41],
+        [0.0 - (0.325 * s1 + 0.275 * r2 + 0.275 * r3), 0.0 - 0.275 * r7, 0.0, 0.0],
+        [0.325 * c1 + 0.275 * r0 - 0.275 * r1, 0.275 * r5, 0.0, 0.0],
+        [0.0, 0.0, -1.0, 0.0],
+        [r46, r46, 0.0, r29],
+        [r30, r30, 0.0, 0.0 - r30],
         [0.0, 0.0, 0.0, 0.0],
-        [0.0 - r62, 0.0 - r2 * r62, 0.0, 0.0 - r27 * r62],
-        [r61, r2 * r61, 0.0, r27 * r61],
+        [r48, r48, 0.0, r13 - r8],
+        [r35, r35, 0.0, r12 - r9],
         [0.0, 0.0, 0.0, 0.0],
         [0.0, 0.0, 0.0, 0.0],
         [0.0, 0.0, 0.0, 0.0],

@@ -442,35 +442,31 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Axis3.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r4 = -0.12 * p.r11_ + -0.03 * p.r12_ + -0.15 * p.r13_;
-    let r9 = -0.12 * p.r21_ + -0.03 * p.r22_ + -0.15 * p.r23_;
-    let r14 = -0.12 * p.r31_ + -0.03 * p.r32_ + -0.15 * p.r33_;
-    let r17 = p.pz + r14;
-    let r18 = 0.5922902494331066 - r17;
-    let r23 = p.px * (p.px + r4) + p.py * (p.py + r9) + p.pz * r17;
-    let r30 = r23 + r23 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r35 = 0.6350170068027211 - (r30 + 0.0378);
-    let r38 = 5.174603174603175 * r35 - 2.7560090702947844 * r18;
-    let r39 = r38 - 0.0019437631439575074;
-    let r42 = 0.5047619047619047 * r18 - 0.8888888888888888 * r35;
-    let r43 = r42 + 0.011783284742468416;
-    let r50 = 11.11111111111111 * (r35 * r35) + 0.5792669978044128;
-    let r51 = r18 * (5.0 * r18 - 13.333333333333334 * r35) + r50;
-    let r52 = p.magnitude + 3.6;
-    let r53 = r52 + 1.6689342403628118;
-    let r54 = p.magnitude * r52;
-    let r56 = r54 + r54 + r54;
-    let r58 = p.magnitude * p.magnitude;
-    let r63 = r56 + r56 + (r58 + r58 + r58) + 5.0858 + 7.9276473922902495;
-    let r68 = 2.7560090702947844 * r53 + 5.174603174603175 * r63;
-    let r72 = 0.5047619047619047 * r53 + 0.8888888888888888 * r63;
-    let r77 = f64::abs(r18) * (10.0 * r53 + 13.333333333333334 * r63);
-    let r80 = 13.333333333333334 * r53 + 22.22222222222222 * r63;
-    let r83 = r77 + (f64::abs(r35) * r80 + 0.5792669978044128);
-    let r84 = f64::abs(r68 + 0.0019437631439575074);
-    let r85 = f64::abs(r72 + 0.011783284742468416);
-    let r86 = f64::abs(r83);
-    let shared = &Shared1 { r39, r43, r51, r84, r85, r86 };
+    let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
+    let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
+    let r19 = p.pz - 0.12 * p.r31_ - 0.03 * p.r32_ - 0.15 * p.r33_;
+    let r24 = 0.5922902494331066 - r19;
+    let r29 = 2.0 * (p.px * r5) + 2.0 * (p.py * r12) + 2.0 * (p.pz * r19);
+    let r32 = r29 - p.px * p.px - p.py * p.py - p.pz * p.pz;
+    let r33 = 0.597217006802721 - r32;
+    let r36 = 5.174603174603175 * r33 - 2.7560090702947844 * r24;
+    let r37 = r36 - 0.0019437631439575074;
+    let r40 = 0.5047619047619047 * r24 - 0.8888888888888888 * r33;
+    let r41 = r40 + 0.011783284742468416;
+    let r48 = 11.11111111111111 * (r33 * r33) + 0.5792669978044128;
+    let r49 = r24 * (5.0 * r24 - 13.333333333333334 * r33) + r48;
+    let r53 = p.magnitude + 5.268934240362812;
+    let r56 = 6.0 * (p.magnitude * (p.magnitude + 3.6)) + 3.0 * (p.magnitude * p.magnitude);
+    let r57 = r56 + 13.01344739229025;
+    let r62 = 2.7560090702947844 * r53 + 5.174603174603175 * r57;
+    let r66 = 0.5047619047619047 * r53 + 0.8888888888888888 * r57;
+    let r71 = f64::abs(r24) * (10.0 * r53 + 13.333333333333334 * r57);
+    let r74 = 13.333333333333334 * r53 + 22.22222222222222 * r57;
+    let r77 = r71 + (f64::abs(r33) * r74 + 0.5792669978044128);
+    let r78 = f64::abs(r62 + 0.0019437631439575074);
+    let r79 = f64::abs(r66 + 0.011783284742468416);
+    let r80 = f64::abs(r77);
+    let shared = &Shared1 { r36, r37, r41, r49, r78, r79, r80 };
     match greatest(&[claim_1_1(shared), claim_1_2(shared), claim_1_3(shared), claim_1_4(shared), claim_1_5(shared)]) {
         0 => chart_1_1(p, shared, answers),
         1 => chart_1_2(p, shared, answers),
@@ -484,43 +480,45 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r39: f64,
-    r43: f64,
-    r51: f64,
-    r84: f64,
-    r85: f64,
-    r86: f64,
+    r36: f64,
+    r37: f64,
+    r41: f64,
+    r49: f64,
+    r78: f64,
+    r79: f64,
+    r80: f64,
 }
 
 /// Chart 1 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r89 = 2.0 * shared.r43;
-    let r94 = shared.r39 - shared.r51;
-    let r97 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if !is_away(r94, 1000000000000.0 * r97) {
+    let r82 = 0.0019437631439575074 - shared.r36 - shared.r49;
+    let r83 = 2.0 * shared.r41;
+    let r88 = shared.r37 - shared.r49;
+    let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if !is_away(r88, 1000000000000.0 * (shared.r80 + r90)) {
         return;
     }
     let f3 = 1.0;
     let roots0 = real_roots(&[
-        0.0 - shared.r39 - shared.r51,
-        0.43638807904114024 - r89,
-        2.610602989495118 - 2.0 * shared.r51,
-        -0.43638807904114024 - r89,
-        r94,
+        r82,
+        0.43638807904114024 - r83,
+        2.610602989495118 - 2.0 * shared.r49,
+        -0.43638807904114024 - r83,
+        r88,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r99 = 0.5 * shared.r39;
-        let r100 = 0.5 * shared.r51;
-        let r104 = w3 * (r99 - r100) + (-0.21819403952057012 - shared.r43);
-        let r109 = -0.6526507473737795 * (w3 * r104 - (r99 - 1.305301494747559 + r100));
-        let r113 = w3 * (r100 - r99) + (shared.r43 + 0.21819403952057012);
-        let r119 = w3 * (r109 + -0.21819403952057012 * r113) + -0.21819403952057012 * (r99 + r100);
-        let r121 = (0.0 - r119) / 0.47356163692985703;
-        let r124 = 0.0 - (r121 * w3 - 1.0);
-        let r128 = f64::max(r124 * r124 + r121 * r121, 0.0).sqrt();
-        let c3 = r124 / r128;
-        let s3 = r121 / r128;
+        let r93 = 0.5 * shared.r37;
+        let r94 = 0.5 * shared.r49;
+        let r98 = w3 * (r93 - r94) + (-0.21819403952057012 - shared.r41);
+        let r103 = 0.6526507473737795 * (w3 * r98 - (r94 + (r93 - 1.305301494747559)));
+        let r108 = w3 * (r94 - r93) + (shared.r41 + 0.21819403952057012);
+        let r111 = w3 * (0.0 - r103 - 0.21819403952057012 * r108);
+        let r115 = (0.21819403952057012 * (r93 + r94) - r111) / 0.47356163692985703;
+        let r117 = 1.0 - w3 * r115;
+        let r121 = f64::max(r117 * r117 + r115 * r115, 0.0).sqrt();
+        let c3 = r117 / r121;
+        let s3 = r115 / r121;
         let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -528,42 +526,43 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// The pivot of chart 1 of block 1; -1 where it does not run.
 fn claim_1_1(shared: &Shared1) -> f64 {
-    let r94 = shared.r39 - shared.r51;
-    let r97 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if is_away(r94, 1000000000000.0 * r97) { f64::abs(r94) } else { -1.0 }
+    let r88 = shared.r37 - shared.r49;
+    let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if is_away(r88, 1000000000000.0 * (shared.r80 + r90)) { f64::abs(r88) } else { -1.0 }
 }
 
 /// Chart 2 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r89 = 2.0 * shared.r39;
-    let r95 = -0.6526507473737795 - shared.r43 + shared.r51;
-    let r98 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if !is_away(r95, 1000000000000.0 * r98) {
+    let r82 = shared.r49 + (shared.r41 - 0.6526507473737795);
+    let r83 = 2.0 * shared.r37;
+    let r89 = shared.r49 + (-0.6526507473737795 - shared.r41);
+    let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if !is_away(r89, 1000000000000.0 * (shared.r80 + r91)) {
         return;
     }
     let f3 = 1.0;
     let roots0 = real_roots(&[
-        shared.r43 - 0.6526507473737795 + shared.r51,
-        0.43638807904114024 - r89,
-        2.0 * shared.r51 + 1.305301494747559,
-        -0.43638807904114024 - r89,
-        r95,
+        r82,
+        0.43638807904114024 - r83,
+        2.0 * shared.r49 + 1.305301494747559,
+        -0.43638807904114024 - r83,
+        r89,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r100 = 0.5 * shared.r43;
-        let r102 = 0.5 * shared.r51;
-        let r103 = -0.32632537368688974 - r100 + r102;
-        let r106 = w3 * r103 + (-0.21819403952057012 - shared.r39);
-        let r109 = -0.21819403952057012 * r106 + -0.6526507473737795 * r103;
-        let r112 = r100 + 0.32632537368688974 + r102;
-        let r115 = -0.21819403952057012 * r112 - -0.6526507473737795 * shared.r39;
-        let r119 = -0.6526507473737795 * r112 - 0.04760863888230411;
-        let r122 = (0.0 - (w3 * (w3 * r109 + r115) + r119)) / 0.47356163692985703;
-        let r125 = 0.0 - w3 * (r122 + 1.0);
-        let r129 = f64::max(r125 * r125 + r122 * r122, 0.0).sqrt();
-        let c3 = r125 / r129;
-        let s3 = r122 / r129;
+        let r94 = 0.5 * shared.r41;
+        let r96 = 0.5 * shared.r49;
+        let r97 = -0.32632537368688974 - r94 + r96;
+        let r100 = w3 * r97 + (-0.21819403952057012 - shared.r37);
+        let r104 = 0.0 - 0.21819403952057012 * r100 - 0.6526507473737795 * r97;
+        let r107 = r96 + (r94 + 0.32632537368688974);
+        let r110 = 0.6526507473737795 * shared.r37 - 0.21819403952057012 * r107;
+        let r115 = 0.0 - 0.6526507473737795 * r107 - 0.04760863888230411;
+        let r117 = (w3 * (w3 * r104 + r110) + r115) / 0.47356163692985703;
+        let r119 = w3 * (1.0 - r117);
+        let r123 = f64::max(r119 * r119 + r117 * r117, 0.0).sqrt();
+        let c3 = 0.0 - r119 / r123;
+        let s3 = 0.0 - r117 / r123;
         let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -571,40 +570,40 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// The pivot of chart 2 of block 1; -1 where it does not run.
 fn claim_1_2(shared: &Shared1) -> f64 {
-    let r95 = -0.6526507473737795 - shared.r43 + shared.r51;
-    let r98 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if is_away(r95, 1000000000000.0 * r98) { f64::abs(r95) } else { -1.0 }
+    let r89 = shared.r49 + (-0.6526507473737795 - shared.r41);
+    let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if is_away(r89, 1000000000000.0 * (shared.r80 + r91)) { f64::abs(r89) } else { -1.0 }
 }
 
 /// Chart 3 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r88 = 2.0 * shared.r43;
-    let r93 = shared.r39 + shared.r51;
-    let r96 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if !is_away(r93, 1000000000000.0 * r96) {
+    let r82 = 2.0 * shared.r41;
+    let r87 = shared.r37 + shared.r49;
+    let r89 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if !is_away(r87, 1000000000000.0 * (shared.r80 + r89)) {
         return;
     }
     let f3 = 1.0;
     let roots0 = real_roots(&[
-        shared.r51 - shared.r39,
-        -0.43638807904114024 - r88,
-        2.0 * shared.r51 - 2.610602989495118,
-        0.43638807904114024 - r88,
-        r93,
+        shared.r49 - shared.r37,
+        -0.43638807904114024 - r82,
+        2.0 * shared.r49 - 2.610602989495118,
+        0.43638807904114024 - r82,
+        r87,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r98 = 0.5 * shared.r39;
-        let r99 = 0.5 * shared.r51;
-        let r102 = shared.r43 - 0.21819403952057012;
-        let r107 = w3 * (w3 * (r98 + r99) - r102) + (-1.305301494747559 - r98 + r99);
-        let r113 = -0.21819403952057012 * (w3 * (-0.5 * shared.r39 - r99) + r102);
-        let r118 = w3 * (-0.6526507473737795 * r107 + r113) + -0.21819403952057012 * (r98 - r99);
-        let r120 = (0.0 - r118) / 0.47356163692985703;
-        let r123 = 0.0 - (r120 * w3 + 1.0);
-        let r127 = f64::max(r123 * r123 + r120 * r120, 0.0).sqrt();
-        let c3 = r123 / r127;
-        let s3 = r120 / r127;
+        let r92 = 0.5 * shared.r37;
+        let r93 = 0.5 * shared.r49;
+        let r96 = shared.r41 - 0.21819403952057012;
+        let r101 = w3 * (w3 * (r92 + r93) - r96) + (r93 + (-1.305301494747559 - r92));
+        let r108 = 0.21819403952057012 * (r96 + w3 * (0.0 - r92 - r93));
+        let r110 = w3 * (0.0 - 0.6526507473737795 * r101 - r108);
+        let r114 = (0.21819403952057012 * (r92 - r93) - r110) / 0.47356163692985703;
+        let r116 = w3 * r114 + 1.0;
+        let r120 = f64::max(r116 * r116 + r114 * r114, 0.0).sqrt();
+        let c3 = 0.0 - r116 / r120;
+        let s3 = r114 / r120;
         let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -612,43 +611,43 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// The pivot of chart 3 of block 1; -1 where it does not run.
 fn claim_1_3(shared: &Shared1) -> f64 {
-    let r93 = shared.r39 + shared.r51;
-    let r96 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if is_away(r93, 1000000000000.0 * r96) { f64::abs(r93) } else { -1.0 }
+    let r87 = shared.r37 + shared.r49;
+    let r89 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if is_away(r87, 1000000000000.0 * (shared.r80 + r89)) { f64::abs(r87) } else { -1.0 }
 }
 
 /// Chart 4 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r88 = -0.6526507473737795 - shared.r43 + shared.r51;
-    let r89 = 2.0 * shared.r39;
-    let r95 = shared.r43 - 0.6526507473737795 + shared.r51;
-    let r98 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if !is_away(r95, 1000000000000.0 * r98) {
+    let r82 = shared.r49 + (-0.6526507473737795 - shared.r41);
+    let r83 = 2.0 * shared.r37;
+    let r89 = shared.r49 + (shared.r41 - 0.6526507473737795);
+    let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if !is_away(r89, 1000000000000.0 * (shared.r80 + r91)) {
         return;
     }
     let f3 = 1.0;
     let roots0 = real_roots(&[
-        r88,
-        r89 + 0.43638807904114024,
-        2.0 * shared.r51 + 1.305301494747559,
-        r89 - 0.43638807904114024,
-        r95,
+        r82,
+        r83 + 0.43638807904114024,
+        2.0 * shared.r49 + 1.305301494747559,
+        r83 - 0.43638807904114024,
+        r89,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r100 = 0.5 * shared.r43;
-        let r102 = 0.5 * shared.r51;
-        let r106 = w3 * (0.32632537368688974 - r100 - r102) - (shared.r39 - 0.21819403952057012);
-        let r108 = r100 - 0.32632537368688974;
-        let r111 = -0.21819403952057012 * r106 - -0.6526507473737795 * (r108 + r102);
-        let r113 = r108 - r102;
-        let r116 = -0.21819403952057012 * r113 - -0.6526507473737795 * shared.r39;
-        let r120 = -0.6526507473737795 * r113 + 0.04760863888230411;
-        let r123 = (0.0 - (w3 * (w3 * r111 + r116) + r120)) / 0.47356163692985703;
-        let r126 = 0.0 - w3 * (r123 - 1.0);
-        let r130 = f64::max(r126 * r126 + r123 * r123, 0.0).sqrt();
-        let c3 = r126 / r130;
-        let s3 = r123 / r130;
+        let r94 = 0.5 * shared.r41;
+        let r96 = 0.5 * shared.r49;
+        let r100 = w3 * (0.32632537368688974 - r94 - r96) - (shared.r37 - 0.21819403952057012);
+        let r102 = r94 - 0.32632537368688974;
+        let r105 = 0.6526507473737795 * (r96 + r102) - 0.21819403952057012 * r100;
+        let r107 = r102 - r96;
+        let r110 = 0.6526507473737795 * shared.r37 - 0.21819403952057012 * r107;
+        let r114 = 0.04760863888230411 - 0.6526507473737795 * r107;
+        let r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703;
+        let r119 = w3 * (0.0 - r116 - 1.0);
+        let r123 = f64::max(r119 * r119 + r116 * r116, 0.0).sqrt();
+        let c3 = 0.0 - r119 / r123;
+        let s3 = 0.0 - r116 / r123;
         let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -656,57 +655,57 @@ fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// The pivot of chart 4 of block 1; -1 where it does not run.
 fn claim_1_4(shared: &Shared1) -> f64 {
-    let r95 = shared.r43 - 0.6526507473737795 + shared.r51;
-    let r98 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if is_away(r95, 1000000000000.0 * r98) { f64::abs(r95) } else { -1.0 }
+    let r89 = shared.r49 + (shared.r41 - 0.6526507473737795);
+    let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if is_away(r89, 1000000000000.0 * (shared.r80 + r91)) { f64::abs(r89) } else { -1.0 }
 }
 
 /// Chart 5 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r87 = 1.25 * shared.r39;
-    let r89 = 1.6666666666666667 * shared.r43;
-    let r91 = 2.0833333333333335 * shared.r51;
-    let r93 = 3.3333333333333335 * shared.r39;
-    let r95 = 2.5 * shared.r43;
-    let r98 = 4.166666666666667 * shared.r51 + 1.0916139879988276;
-    let r103 = -1.0883950360189427 - r87 - r89 + r91;
-    let r106 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if !is_away(r103, 1000000000000.0 * r106) {
+    let r81 = 1.25 * shared.r37;
+    let r83 = 1.6666666666666667 * shared.r41;
+    let r85 = 2.0833333333333335 * shared.r49;
+    let r87 = 3.3333333333333335 * shared.r37;
+    let r89 = 2.5 * shared.r41;
+    let r92 = 4.166666666666667 * shared.r49 + 1.0916139879988276;
+    let r97 = r85 + (-1.0883950360189427 - r81 - r83);
+    let r99 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if !is_away(r97, 1000000000000.0 * (shared.r80 + r99)) {
         return;
     }
     let f3 = 1.0;
     let roots0 = real_roots(&[
-        r87 - 1.0883950360189427 + r89 + r91,
-        -2.3560432767211195 - r93 + r95,
-        r98,
-        2.3560432767211195 - r93 + r95,
-        r103,
+        r81 - 1.0883950360189427 + r83 + r85,
+        -2.3560432767211195 - r87 + r89,
+        r92,
+        r89 + (2.3560432767211195 - r87),
+        r97,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r108 = 0.24 * shared.r39;
-        let r110 = 0.32 * shared.r43;
-        let r112 = 0.4 * shared.r51;
-        let r114 = w3 * (-0.11499013929381277 - r108 - r110 + r112);
-        let r115 = 0.82 * shared.r39;
-        let r117 = 0.24 * shared.r43;
-        let r119 = 0.3 * shared.r51;
-        let r121 = r114 + (0.27996780600675647 - r115 + r117 + r119);
-        let r123 = 0.18 * shared.r39;
-        let r127 = w3 * (r123 + 0.12530894349576566 + r117 - r119);
-        let r129 = 0.68 * shared.r43;
-        let r132 = r127 + (r108 - 0.5430054218149845 - r129 + r112);
-        let r134 = -0.21819403952057012 * r121 + -0.6526507473737795 * r132;
-        let r139 = -0.21819403952057012 * (-0.04623375630524329 - r108 + r129 + r112);
-        let r143 = -0.6526507473737795 * (r117 + 0.4072540663612384 - r115 - r119);
-        let r150 = -0.21819403952057012 * (r123 - 0.1074825970660373 + r117 + r119);
-        let r154 = -0.6526507473737795 * (r108 + 0.35504200657133606 + r110 + r112);
-        let r156 = w3 * (w3 * r134 + (r139 + r143)) + (r150 + r154);
-        let r158 = (0.0 - r156) / 0.47356163692985703;
-        let r162 = 0.0 - (w3 * (r158 + 0.8) - 0.6);
-        let r166 = f64::max(r162 * r162 + r158 * r158, 0.0).sqrt();
-        let c3 = r162 / r166;
-        let s3 = r158 / r166;
+        let r102 = 0.24 * shared.r37;
+        let r104 = 0.32 * shared.r41;
+        let r106 = 0.4 * shared.r49;
+        let r108 = w3 * (-0.11499013929381277 - r102 - r104 + r106);
+        let r109 = 0.82 * shared.r37;
+        let r111 = 0.24 * shared.r41;
+        let r113 = 0.3 * shared.r49;
+        let r115 = r108 + (0.27996780600675647 - r109 + r111 + r113);
+        let r118 = 0.18 * shared.r37;
+        let r122 = w3 * (r111 + (r118 + 0.12530894349576566) - r113);
+        let r124 = 0.68 * shared.r41;
+        let r127 = r122 + (r106 + (r102 - 0.5430054218149845 - r124));
+        let r129 = 0.0 - 0.21819403952057012 * r115 - 0.6526507473737795 * r127;
+        let r133 = r106 + (r124 + (-0.04623375630524329 - r102));
+        let r139 = 0.6526507473737795 * (r111 + 0.4072540663612384 - r109 - r113);
+        let r141 = w3 * r129 + (0.0 - 0.21819403952057012 * r133 - r139);
+        let r146 = 0.21819403952057012 * (r113 + (r111 + (r118 - 0.1074825970660373)));
+        let r151 = 0.6526507473737795 * (r106 + (r104 + (r102 + 0.35504200657133606)));
+        let r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703;
+        let r157 = 0.6 - w3 * (0.8 - r154);
+        let r161 = f64::max(r157 * r157 + r154 * r154, 0.0).sqrt();
+        let c3 = r157 / r161;
+        let s3 = 0.0 - r154 / r161;
         let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -714,17 +713,17 @@ fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// The pivot of chart 5 of block 1; -1 where it does not run.
 fn claim_1_5(shared: &Shared1) -> f64 {
-    let r102 = -1.0883950360189427 - 1.25 * shared.r39 - 1.6666666666666667 * shared.r43;
-    let r103 = r102 + 2.0833333333333335 * shared.r51;
-    let r106 = shared.r84 + 0.8708447868943496 + shared.r85 + shared.r86;
-    if is_away(r103, 1000000000000.0 * r106) { f64::abs(r103) } else { -1.0 }
+    let r96 = -1.0883950360189427 - 1.25 * shared.r37 - 1.6666666666666667 * shared.r41;
+    let r97 = 2.0833333333333335 * shared.r49 + r96;
+    let r99 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    if is_away(r97, 1000000000000.0 * (shared.r80 + r99)) { f64::abs(r97) } else { -1.0 }
 }
 
 /// Chart 6 of block 1: A = B = C = D = E = 0.
 /// It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
 /// Free: Axis3.
 fn chart_1_6(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    if !(is_near(-0.21819403952057012, 0.0021819403952057013) && is_near(-0.6526507473737795, 0.006526507473737795) && is_near(shared.r39, 0.01 * shared.r84) && is_near(shared.r43, 0.01 * shared.r85) && is_near(shared.r51, 0.01 * shared.r86)) {
+    if !(is_near(-0.21819403952057012, 0.0021819403952057013) && is_near(-0.6526507473737795, 0.006526507473737795) && is_near(shared.r37, 0.01 * shared.r78) && is_near(shared.r41, 0.01 * shared.r79) && is_near(shared.r49, 0.01 * shared.r80)) {
         return;
     }
     let f3 = 1000000.0;
@@ -736,77 +735,67 @@ fn chart_1_6(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Axis1.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.35816326530612247 * known.c3 + 0.15 * known.s3;
-    let r5 = 0.025510204081632654 * known.c3 + 0.20714285714285716 * known.s3;
-    let r8 = 0.18775510204081633 * known.c3 + -0.3142857142857143 * known.s3;
-    let r12 = r2 - 0.00816326530612245 + 0.25;
-    let r13 = r5 + 0.024489795918367346 + 0.2;
-    let r14 = r8 + 0.012244897959183673 + 0.6;
-    let r18 = 0.3333333333333333 * r12 + 0.6666666666666666 * r13;
-    let r24 = -0.12 * p.r11_ + -0.03 * p.r12_ + -0.15 * p.r13_;
-    let r29 = -0.12 * p.r21_ + -0.03 * p.r22_ + -0.15 * p.r23_;
-    let r34 = -0.12 * p.r31_ + -0.03 * p.r32_ + -0.15 * p.r33_;
-    let r35 = p.px + r24;
-    let r36 = p.py + r29;
-    let r37 = p.pz + r34;
-    let r48 = 0.3333333333333333 * r35 + 0.6666666666666666 * r36;
-    let r49 = 0.3333333333333333 * (0.0 - (0.0 - r36)) + 0.6666666666666666 * (0.0 - r35);
-    let r51 = r18 + 0.6666666666666666 * r14 - 0.6666666666666666 * r37;
-    let r52 = 0.0 - (r48 + 0.6666666666666666 * (r37 - r37));
-    let r58 = 0.25 * r12 + 0.2 * r13 + 0.6 * r14;
-    let r69 = 0.1 * (0.1 - r12) + -0.05 * (-0.05 - r13) + 0.3 * (0.3 - r14);
-    let r76 = r58 + r58 - 0.4625 + 0.165 + r69 - (0.1 * r12 + -0.05 * r13 + 0.3 * r14);
-    let r81 = p.px * r35 + p.py * r36 + p.pz * r37;
-    let r88 = r81 + r81 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r114 = r88 + 0.0378 + (0.3 * (0.3 - r37) + 0.0125) - 0.3 * r37;
-    let r120 = 0.0 - (0.0 - r49);
-    let r121 = 0.0 - r51;
-    let r122 = 3.3333333333333335 * (r76 - r114);
-    let r123 = p.magnitude + 3.6;
-    let r126 = 0.6666666666666666 * r123;
-    let r128 = 0.3333333333333333 * r123 + r126;
-    let r131 = p.magnitude * r123;
-    let r133 = r131 + r131 + r131;
-    let r135 = p.magnitude * p.magnitude;
-    let r149 = r133 + r133 + (r135 + r135 + r135) + 5.0858 + (0.3 * (r123 + 0.3) + 0.0125);
-    let r156 = 3.3333333333333335 * (r149 + 0.3 * r123 + 14.485);
-    let r157 = f64::abs(r128 + 0.6666666666666666 * (r123 + r123));
-    let r158 = f64::abs(0.0 - r128);
-    let r159 = f64::abs(0.0 - (r126 + 6.0187074829931975));
-    let r160 = f64::abs(r156);
-    let shared = &Shared2 { r52, r120, r121, r122, r157, r158, r159, r160 };
+    let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
+    let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
+    let r19 = p.pz - 0.12 * p.r31_ - 0.03 * p.r32_ - 0.15 * p.r33_;
+    let r28 = 0.3333333333333333 * p.px - 0.04 * p.r11_ - 0.01 * p.r12_;
+    let r32 = r28 - 0.05 * p.r13_ + 0.6666666666666666 * p.py;
+    let r38 = 0.1 * p.r23_ - (r32 - 0.08 * p.r21_ - 0.02 * p.r22_);
+    let r43 = 0.3333333333333333 * p.py - 0.04 * p.r21_ - 0.01 * p.r22_;
+    let r47 = r43 - 0.05 * p.r23_ - 0.6666666666666666 * p.px;
+    let r53 = r47 + 0.08 * p.r11_ + 0.02 * p.r12_ + 0.1 * p.r13_;
+    let r56 = 0.2615646258503401 * known.c3 - 0.02142857142857143 * known.s3;
+    let r60 = r56 - 0.6666666666666666 * p.pz + 0.08 * p.r31_;
+    let r65 = r60 + 0.02 * p.r32_ + 0.1 * p.r33_ + 0.6384353741496599;
+    let r66 = 0.0 - r65;
+    let r69 = 0.7761904761904762 * known.c3 - 0.13333333333333333 * known.s3;
+    let r73 = r69 - 6.666666666666667 * (p.px * r5) - 6.666666666666667 * (p.py * r12);
+    let r77 = r73 - 6.666666666666667 * (p.pz * r19) + 3.3333333333333335 * (p.px * p.px);
+    let r81 = r77 + 3.3333333333333335 * (p.py * p.py) + 3.3333333333333335 * (p.pz * p.pz);
+    let r85 = r81 + 2.0 * p.pz - 0.24000000000000002 * p.r31_;
+    let r89 = r85 - 0.060000000000000005 * p.r32_ - 0.3 * p.r33_;
+    let r90 = r89 + 0.7228095238095238;
+    let r91 = p.magnitude + 3.6;
+    let r97 = 0.6666666666666666 * p.magnitude + 8.418707482993197;
+    let r100 = 20.0 * (p.magnitude * r91) + 10.0 * (p.magnitude * p.magnitude);
+    let r104 = f64::abs(2.3333333333333335 * p.magnitude + 8.4);
+    let r105 = f64::abs(r91);
+    let r106 = f64::abs(r97);
+    let r107 = f64::abs(r100 + 2.0 * p.magnitude + 72.77766666666668);
+    let shared = &Shared2 { r38, r53, r65, r66, r90, r104, r105, r106, r107 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r52: f64,
-    r120: f64,
-    r121: f64,
-    r122: f64,
-    r157: f64,
-    r158: f64,
-    r159: f64,
-    r160: f64,
+    r38: f64,
+    r53: f64,
+    r65: f64,
+    r66: f64,
+    r90: f64,
+    r104: f64,
+    r105: f64,
+    r106: f64,
+    r107: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r163 = shared.r52 * shared.r52 + shared.r120 * shared.r120;
-    let r166 = shared.r157 * shared.r157 + shared.r158 * shared.r158;
-    if !is_away(r163, 10000.0 * r166) {
+    let r110 = shared.r38 * shared.r38 + shared.r53 * shared.r53;
+    let r113 = shared.r104 * shared.r104 + shared.r105 * shared.r105;
+    if !is_away(r110, 10000.0 * r113) {
         return;
     }
     let f1 = 1.0;
-    let r170 = shared.r120 * shared.r121 - shared.r52 * shared.r122;
-    let r172 = (0.0 - r170) / r163;
-    let r176 = 0.0 - shared.r52 * shared.r121 - shared.r120 * shared.r122;
-    let r178 = (0.0 - r176) / r163;
-    let r182 = f64::max(r178 * r178 + r172 * r172, 0.0).sqrt();
-    let c1 = r178 / r182;
-    let s1 = r172 / r182;
+    let r118 = shared.r38 * shared.r90 - (0.0 - shared.r53 * shared.r65);
+    let r119 = r118 / r110;
+    let r122 = shared.r53 * shared.r90 - shared.r38 * shared.r65;
+    let r123 = r122 / r110;
+    let r127 = f64::max(r123 * r123 + r119 * r119, 0.0).sqrt();
+    let c1 = r123 / r127;
+    let s1 = r119 / r127;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c1, s1, f1, ..*known };
     block_3(p, &next, answers);
 }
@@ -815,9 +804,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Axis1.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r163 = shared.r52 * shared.r52 + shared.r120 * shared.r120;
-    let r166 = shared.r157 * shared.r157 + shared.r158 * shared.r158;
-    if !(is_near(r163, 1.0000000000000001e-7 * r166) && is_near(shared.r122, 0.01 * shared.r160) && is_near(shared.r121, 0.01 * shared.r159)) {
+    let r110 = shared.r38 * shared.r38 + shared.r53 * shared.r53;
+    let r113 = shared.r104 * shared.r104 + shared.r105 * shared.r105;
+    if !(is_near(r110, 1.0000000000000001e-7 * r113) && is_near(shared.r90, 0.01 * shared.r107) && is_near(shared.r66, 0.01 * shared.r106)) {
         return;
     }
     let f1 = 1000000.0;
@@ -829,72 +818,53 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Axis2.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.35816326530612247 * known.c3 + 0.15 * known.s3;
-    let r5 = 0.025510204081632654 * known.c3 + 0.20714285714285716 * known.s3;
-    let r8 = 0.18775510204081633 * known.c3 + -0.3142857142857143 * known.s3;
-    let r15 = r2 - 0.00816326530612245 + 0.25 - 0.1;
-    let r16 = r5 + 0.024489795918367346 + 0.2 + 0.05;
-    let r17 = r8 + 0.012244897959183673 + 0.6 - 0.3;
-    let r21 = 0.3333333333333333 * r15 + 0.6666666666666666 * r16;
-    let r22 = r21 + 0.6666666666666666 * r17;
-    let r24 = 0.6666666666666666 * r22;
-    let r29 = 0.6666666666666666 * r15;
-    let r35 = r24 - 0.05;
-    let r36 = r24 + 0.3;
-    let r41 = r16 - r24 + (0.0 - (r17 - r24));
-    let r42 = r29 - 0.3333333333333333 * r17 + (0.0 - (0.3333333333333333 * r16 - r29));
-    let r47 = -0.12 * p.r11_ + -0.03 * p.r12_ + -0.15 * p.r13_;
-    let r52 = -0.12 * p.r21_ + -0.03 * p.r22_ + -0.15 * p.r23_;
-    let r57 = -0.12 * p.r31_ + -0.03 * p.r32_ + -0.15 * p.r33_;
-    let r58 = p.px + r47;
-    let r59 = p.py + r52;
-    let r60 = p.pz + r57;
-    let r67 = r58 * known.c1 + (0.0 - (0.0 - r59)) * known.s1;
-    let r70 = r59 * known.c1 + (0.0 - r58) * known.s1;
-    let r72 = r60 + (r60 - r60) * known.c1;
-    let r76 = -1.3333333333333333 * (0.3333333333333333 * r22 + 0.1);
-    let r88 = r76 + 0.3333333333333333 * r35 + 0.3333333333333333 * r36;
-    let r94 = -1.3333333333333333 * r67 + 0.3333333333333333 * r70;
-    let r97 = 0.0 - r42;
-    let r98 = 0.0 - (r35 + (0.0 - r36) - (r70 + (0.0 - r72)));
-    let r99 = 0.0 - (r88 - (r94 + 0.3333333333333333 * r72));
-    let r100 = p.magnitude + 3.6;
-    let r101 = r100 + r100;
-    let r102 = r100 + r101;
-    let r108 = 1.3333333333333333 * r101 + 0.3333333333333333 * r101;
-    let r110 = r108 + 0.3333333333333333 * r102 + 5.836999244142102;
-    let r113 = f64::abs(0.0 - (r101 + r102 + 8.730498866213152));
-    let r114 = f64::abs(0.0 - r110);
-    let shared = &Shared3 { r41, r97, r98, r99, r113, r114 };
+    let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
+    let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
+    let r14 = known.c1 * r12;
+    let r15 = known.s1 * r5;
+    let r18 = 0.16224489795918368 * known.c3 - 0.5214285714285715 * known.s3;
+    let r19 = r18 + 0.03775510204081633;
+    let r22 = 0.4064625850340136 * known.c3 + 0.2357142857142857 * known.s3;
+    let r23 = 0.006462585034013605 - r22;
+    let r29 = r14 - r15 - p.pz + 0.12 * p.r31_ + 0.03 * p.r32_;
+    let r32 = r29 + 0.15 * p.r33_ + 0.35;
+    let r35 = 1.3333333333333333 * (known.c1 * r5) + 1.3333333333333333 * (known.s1 * r12);
+    let r39 = r35 - 0.3333333333333333 * r14 + 0.3333333333333333 * r15;
+    let r43 = r39 - 0.3333333333333333 * p.pz + 0.04 * p.r31_;
+    let r48 = 0.05 - (r43 + 0.01 * p.r32_ + 0.05 * p.r33_);
+    let r52 = 4.333333333333333 * p.magnitude + 21.4369992441421;
+    let r53 = f64::abs(5.0 * p.magnitude + 26.730498866213154);
+    let r54 = f64::abs(r52);
+    let shared = &Shared3 { r19, r23, r32, r48, r53, r54 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r41: f64,
-    r97: f64,
-    r98: f64,
-    r99: f64,
-    r113: f64,
-    r114: f64,
+    r19: f64,
+    r23: f64,
+    r32: f64,
+    r48: f64,
+    r53: f64,
+    r54: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r117 = shared.r41 * shared.r41 + shared.r97 * shared.r97;
-    if !is_away(r117, 3099959.7402831125) {
+    let r57 = shared.r19 * shared.r19 + shared.r23 * shared.r23;
+    if !is_away(r57, 3099959.7402831125) {
         return;
     }
     let f2 = 1.0;
-    let r120 = shared.r97 * shared.r98 - shared.r41 * shared.r99;
-    let r122 = (0.0 - r120) / r117;
-    let r126 = 0.0 - shared.r41 * shared.r98 - shared.r97 * shared.r99;
-    let r128 = (0.0 - r126) / r117;
-    let r132 = f64::max(r128 * r128 + r122 * r122, 0.0).sqrt();
-    let c2 = r128 / r132;
-    let s2 = r122 / r132;
+    let r60 = shared.r23 * shared.r32 + shared.r19 * shared.r48;
+    let r61 = r60 / r57;
+    let r64 = shared.r23 * shared.r48 - shared.r19 * shared.r32;
+    let r65 = r64 / r57;
+    let r69 = f64::max(r65 * r65 + r61 * r61, 0.0).sqrt();
+    let c2 = r65 / r69;
+    let s2 = 0.0 - r61 / r69;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -903,8 +873,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Axis2.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r117 = shared.r41 * shared.r41 + shared.r97 * shared.r97;
-    if !(is_near(r117, 3.099959740283113e-5) && is_near(shared.r99, 0.01 * shared.r114) && is_near(shared.r98, 0.01 * shared.r113)) {
+    let r57 = shared.r19 * shared.r19 + shared.r23 * shared.r23;
+    if !(is_near(r57, 3.099959740283113e-5) && is_near(shared.r48, 0.01 * shared.r54) && is_near(shared.r32, 0.01 * shared.r53)) {
         return;
     }
     let f2 = 1000000.0;
@@ -916,97 +886,117 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: Wrist1.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = -0.3333333333333333 * p.r11_ + 0.6666666666666666 * p.r12_;
-    let r4 = r3 + 0.6666666666666666 * p.r13_;
-    let r8 = -0.3333333333333333 * p.r21_ + 0.6666666666666666 * p.r22_;
-    let r9 = r8 + 0.6666666666666666 * p.r23_;
-    let r13 = -0.3333333333333333 * p.r31_ + 0.6666666666666666 * p.r32_;
-    let r14 = r13 + 0.6666666666666666 * p.r33_;
-    let r21 = r4 * known.c1 + (0.0 - (0.0 - r9)) * known.s1;
-    let r24 = r9 * known.c1 + (0.0 - r4) * known.s1;
-    let r26 = r14 + (r14 - r14) * known.c1;
-    let r28 = 0.6666666666666666 * r24;
-    let r29 = 0.6666666666666666 * r26;
-    let r31 = 0.3333333333333333 * r21 + r28 + r29;
-    let r32 = 0.3333333333333333 * r31;
-    let r33 = 0.6666666666666666 * r31;
-    let r38 = 0.6666666666666666 * r21;
-    let r48 = (r21 - r32) * known.c2 + (0.0 - (r29 - r28)) * known.s2;
-    let r50 = (0.0 - (r38 - 0.3333333333333333 * r26)) * known.s2;
-    let r53 = (0.0 - (0.3333333333333333 * r24 - r38)) * known.s2;
-    let r55 = r32 + r48;
-    let r56 = r33 + ((r24 - r33) * known.c2 + r50);
-    let r57 = r33 + ((r26 - r33) * known.c2 + r53);
-    let r61 = -0.2857142857142857 * r55 + 0.8571428571428571 * r56;
-    let r62 = r61 + 0.42857142857142855 * r57;
-    let r63 = -0.2857142857142857 * r62;
-    let r64 = 0.8571428571428571 * r62;
-    let r65 = 0.42857142857142855 * r62;
-    let r71 = 0.8571428571428571 * r57 - 0.42857142857142855 * r56;
-    let r74 = 0.42857142857142855 * r55 - -0.2857142857142857 * r57;
-    let r77 = -0.2857142857142857 * r56 - 0.8571428571428571 * r55;
-    let r83 = (r55 - r63) * known.c3 + (0.0 - r71) * known.s3;
-    let r86 = (r56 - r64) * known.c3 + (0.0 - r74) * known.s3;
-    let r89 = (r57 - r65) * known.c3 + (0.0 - r77) * known.s3;
-    let r90 = r63 + r83;
-    let r91 = r64 + r86;
-    let r92 = r65 + r89;
-    let r93 = 0.6666666666666666 * r90;
-    let r95 = 0.6666666666666666 * r92;
-    let r97 = r93 + -0.3333333333333333 * r91 + r95;
-    let r98 = 0.6666666666666666 * r97;
-    let r99 = -0.3333333333333333 * r97;
-    let r104 = 0.6666666666666666 * r91;
-    let r114 = 0.6666666666666666 * (0.0 - (-0.3333333333333333 * r92 - r104));
-    let r120 = -0.3333333333333333 * (0.0 - (r104 - -0.3333333333333333 * r90));
-    let r121 = 0.6666666666666666 * r98 + 0.6666666666666666 * r99;
-    let r122 = 0.6666666666666666 * (r90 - r98) + 0.6666666666666666 * (r91 - r99);
-    let r123 = r114 + 0.6666666666666666 * (0.0 - (r93 - r95));
-    let r127 = 0.0 - (r121 + -0.3333333333333333 * r98);
-    let r128 = 0.0 - (r122 + -0.3333333333333333 * (r92 - r98));
-    let r129 = 0.0 - (r123 + r120);
-    let shared = &Shared4 { r127, r128, r129 };
+    let r2 = 0.3333333333333333 * p.r11_ - 0.6666666666666666 * p.r12_;
+    let r4 = r2 - 0.6666666666666666 * p.r13_;
+    let r5 = known.c1 * r4;
+    let r8 = 0.3333333333333333 * p.r21_ - 0.6666666666666666 * p.r22_;
+    let r10 = r8 - 0.6666666666666666 * p.r23_;
+    let r11 = known.s1 * r10;
+    let r12 = known.c1 * r10;
+    let r13 = known.s1 * r4;
+    let r16 = 0.8888888888888888 * r5 + 0.8888888888888888 * r11;
+    let r17 = 0.2222222222222222 * r12;
+    let r19 = 0.2222222222222222 * r13;
+    let r21 = 0.07407407407407407 * p.r31_;
+    let r23 = 0.14814814814814814 * p.r32_;
+    let r25 = 0.14814814814814814 * p.r33_;
+    let r27 = known.c2 * (r16 - r17 + r19 - r21 + r23 + r25);
+    let r30 = 0.2222222222222222 * p.r31_ - 0.4444444444444444 * p.r32_;
+    let r34 = r30 - 0.4444444444444444 * p.r33_ - 0.6666666666666666 * r12;
+    let r37 = known.s2 * (r34 + 0.6666666666666666 * r13);
+    let r40 = 0.5555555555555556 * r12 - 0.5555555555555556 * r13;
+    let r41 = 0.2222222222222222 * r5;
+    let r43 = 0.2222222222222222 * r11;
+    let r45 = 0.14814814814814814 * p.r31_;
+    let r47 = 0.2962962962962963 * p.r32_;
+    let r49 = 0.2962962962962963 * p.r33_;
+    let r51 = known.c2 * (r40 - r41 - r43 - r45 + r47 + r49);
+    let r52 = 0.6666666666666666 * r5;
+    let r53 = 0.6666666666666666 * r11;
+    let r58 = r52 + r53 - 0.1111111111111111 * p.r31_ + 0.2222222222222222 * p.r32_;
+    let r61 = known.s2 * (r58 + 0.2222222222222222 * p.r33_);
+    let r64 = 0.18518518518518517 * p.r31_ - 0.37037037037037035 * p.r32_;
+    let r68 = r64 - 0.37037037037037035 * p.r33_ - r41 - r43;
+    let r69 = 0.4444444444444444 * r12;
+    let r71 = 0.4444444444444444 * r13;
+    let r73 = known.c2 * (r68 - r69 + r71);
+    let r76 = 0.3333333333333333 * r12 - 0.3333333333333333 * r13;
+    let r79 = known.s2 * (r76 - r52 - r53);
+    let r82 = 0.25396825396825395 * r5 + 0.25396825396825395 * r11;
+    let r86 = r82 + 0.5079365079365079 * r12 - 0.5079365079365079 * r13;
+    let r90 = r86 + 0.1693121693121693 * p.r31_ - 0.3386243386243386 * p.r32_;
+    let r94 = r90 - 0.3386243386243386 * p.r33_ - 0.2857142857142857 * r27;
+    let r98 = r94 + 0.2857142857142857 * r37 + 0.8571428571428571 * r51;
+    let r102 = r98 - 0.8571428571428571 * r61 + 0.42857142857142855 * r73;
+    let r104 = 0.42857142857142855 * r79 - r102;
+    let r107 = 0.1111111111111111 * r5 + 0.1111111111111111 * r11;
+    let r112 = r21 + (r17 + r107 - r19) - r23 - r25;
+    let r117 = known.c3 * (r27 + r112 - r37 - 0.2857142857142857 * r104);
+    let r120 = 0.09523809523809523 * r5 + 0.09523809523809523 * r11;
+    let r124 = r120 + 0.19047619047619047 * r12 - 0.19047619047619047 * r13;
+    let r128 = r124 + 0.06349206349206349 * p.r31_ - 0.12698412698412698 * p.r32_;
+    let r132 = r128 - 0.12698412698412698 * p.r33_ + 0.8571428571428571 * r73;
+    let r136 = r132 - 0.8571428571428571 * r79 - 0.42857142857142855 * r51;
+    let r139 = known.s3 * (r136 + 0.42857142857142855 * r61);
+    let r145 = r45 + (r69 + (r41 + r43) - r71) - r47 - r49;
+    let r150 = known.c3 * (r51 + r145 - r61 + 0.8571428571428571 * r104);
+    let r154 = r112 + 0.42857142857142855 * r27 - 0.42857142857142855 * r37;
+    let r158 = r154 + 0.2857142857142857 * r73 - 0.2857142857142857 * r79;
+    let r163 = r73 + r145 - r79 + 0.42857142857142855 * r104;
+    let r164 = known.c3 * r163;
+    let r167 = 0.15873015873015872 * r5 + 0.15873015873015872 * r11;
+    let r171 = r167 + 0.31746031746031744 * r12 - 0.31746031746031744 * r13;
+    let r175 = r171 + 0.10582010582010581 * p.r31_ - 0.21164021164021163 * p.r32_;
+    let r179 = r175 - 0.21164021164021163 * p.r33_ + 0.2857142857142857 * r51;
+    let r183 = r179 - 0.2857142857142857 * r61 + 0.8571428571428571 * r27;
+    let r186 = known.s3 * (r183 - 0.8571428571428571 * r37);
+    let r189 = 0.23809523809523808 * r104 - 0.6666666666666666 * r117;
+    let r192 = 0.6666666666666666 * r150;
+    let r194 = 0.6666666666666666 * (known.s3 * r158);
+    let r195 = r189 + 0.6666666666666666 * r139 - r192 + r194;
+    let r199 = r195 + 0.3333333333333333 * r164 + 0.3333333333333333 * r186;
+    let r202 = 0.9523809523809523 * r104 - 0.6666666666666666 * r164;
+    let r206 = r194 + (r202 - 0.6666666666666666 * r186 - r192);
+    let r210 = 0.3333333333333333 * r139 - (r206 + 0.3333333333333333 * r117);
+    let shared = &Shared4 { r199, r210 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r127: f64,
-    r128: f64,
-    r129: f64,
+    r199: f64,
+    r210: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r130 = shared.r128 * shared.r128;
-    let r131 = shared.r129 * shared.r129;
-    let r132 = r130 + r131;
-    if !is_away(r132, 444519865.2036134) {
+    let r211 = shared.r199 * shared.r199;
+    let r212 = shared.r210 * shared.r210;
+    let r213 = r211 + r212;
+    if !is_away(r213, 444519865.2036134) {
         return;
     }
-    let r138 = known.f2 * (known.f1 * (210.83639752272694 * known.f3));
-    let roots0 = real_roots(&[shared.r127 * shared.r127 - r130 - r131, 0.0, 1.0], r138);
+    let r218 = known.f2 * (known.f1 * (210.83639752272694 * known.f3));
+    let roots0 = real_roots(&[0.0 - r211 - r212, 0.0, 1.0], r218);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r142 = 0.0 - (shared.r129 * shared.r127 - shared.r128 * w4);
-        let r143 = r142 / r132;
-        let r147 = 0.0 - (shared.r129 * w4 + shared.r128 * shared.r127);
-        let r148 = r147 / r132;
-        let r152 = f64::max(r148 * r148 + r143 * r143, 0.0).sqrt();
-        let c4 = r148 / r152;
-        let s4 = r143 / r152;
+        let r220 = w4 * shared.r199 / r213;
+        let r222 = w4 * shared.r210 / r213;
+        let r226 = f64::max(r222 * r222 + r220 * r220, 0.0).sqrt();
+        let c4 = 0.0 - r222 / r226;
+        let s4 = 0.0 - r220 / r226;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
 }
 
 /// Chart 2 of block 4: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero and C is near zero.
+/// It runs where A^2 + B^2 is near zero.
 /// Free: Wrist1.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r132 = shared.r128 * shared.r128 + shared.r129 * shared.r129;
-    if !(is_near(r132, 0.004445198652036134) && is_near(shared.r127, 0.8312286890064668)) {
+    let r213 = shared.r199 * shared.r199 + shared.r210 * shared.r210;
+    if !is_near(r213, 0.004445198652036134) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -1017,191 +1007,332 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: Wrist2.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = -0.3333333333333333 * p.r11_ + 0.6666666666666666 * p.r12_;
-    let r4 = r3 + 0.6666666666666666 * p.r13_;
-    let r8 = -0.3333333333333333 * p.r21_ + 0.6666666666666666 * p.r22_;
-    let r9 = r8 + 0.6666666666666666 * p.r23_;
-    let r13 = -0.3333333333333333 * p.r31_ + 0.6666666666666666 * p.r32_;
-    let r14 = r13 + 0.6666666666666666 * p.r33_;
-    let r21 = r4 * known.c1 + (0.0 - (0.0 - r9)) * known.s1;
-    let r24 = r9 * known.c1 + (0.0 - r4) * known.s1;
-    let r26 = r14 + (r14 - r14) * known.c1;
-    let r28 = 0.6666666666666666 * r24;
-    let r29 = 0.6666666666666666 * r26;
-    let r31 = 0.3333333333333333 * r21 + r28 + r29;
-    let r32 = 0.3333333333333333 * r31;
-    let r33 = 0.6666666666666666 * r31;
-    let r38 = 0.6666666666666666 * r21;
-    let r48 = (r21 - r32) * known.c2 + (0.0 - (r29 - r28)) * known.s2;
-    let r50 = (0.0 - (r38 - 0.3333333333333333 * r26)) * known.s2;
-    let r53 = (0.0 - (0.3333333333333333 * r24 - r38)) * known.s2;
-    let r55 = r32 + r48;
-    let r56 = r33 + ((r24 - r33) * known.c2 + r50);
-    let r57 = r33 + ((r26 - r33) * known.c2 + r53);
-    let r61 = -0.2857142857142857 * r55 + 0.8571428571428571 * r56;
-    let r62 = r61 + 0.42857142857142855 * r57;
-    let r63 = -0.2857142857142857 * r62;
-    let r64 = 0.8571428571428571 * r62;
-    let r65 = 0.42857142857142855 * r62;
-    let r71 = 0.8571428571428571 * r57 - 0.42857142857142855 * r56;
-    let r74 = 0.42857142857142855 * r55 - -0.2857142857142857 * r57;
-    let r77 = -0.2857142857142857 * r56 - 0.8571428571428571 * r55;
-    let r83 = (r55 - r63) * known.c3 + (0.0 - r71) * known.s3;
-    let r86 = (r56 - r64) * known.c3 + (0.0 - r74) * known.s3;
-    let r89 = (r57 - r65) * known.c3 + (0.0 - r77) * known.s3;
-    let r90 = r63 + r83;
-    let r91 = r64 + r86;
-    let r92 = r65 + r89;
-    let r93 = 0.6666666666666666 * r90;
-    let r95 = 0.6666666666666666 * r92;
-    let r97 = r93 + -0.3333333333333333 * r91 + r95;
-    let r98 = 0.6666666666666666 * r97;
-    let r99 = -0.3333333333333333 * r97;
-    let r104 = 0.6666666666666666 * r91;
-    let r113 = (0.0 - (-0.3333333333333333 * r92 - r104)) * known.s4;
-    let r117 = (r91 - r99) * known.c4 + (0.0 - (r93 - r95)) * known.s4;
-    let r119 = (0.0 - (r104 - -0.3333333333333333 * r90)) * known.s4;
-    let r121 = r98 + ((r90 - r98) * known.c4 + r113);
-    let r122 = r99 + r117;
-    let r129 = -1.3333333333333333 * (r98 + ((r92 - r98) * known.c4 + r119));
-    let r130 = -0.3333333333333333 * r121 + -0.3333333333333333 * r122;
-    let r133 = 0.0 - (0.0 - (r121 + (0.0 - r122)));
-    let r134 = 0.0 - (0.0 - (r130 + r129));
-    let shared = &Shared5 { r133, r134 };
+    let r2 = 0.3333333333333333 * p.r11_ - 0.6666666666666666 * p.r12_;
+    let r4 = r2 - 0.6666666666666666 * p.r13_;
+    let r5 = known.c1 * r4;
+    let r8 = 0.3333333333333333 * p.r21_ - 0.6666666666666666 * p.r22_;
+    let r10 = r8 - 0.6666666666666666 * p.r23_;
+    let r11 = known.s1 * r10;
+    let r12 = known.c1 * r10;
+    let r13 = known.s1 * r4;
+    let r16 = 0.8888888888888888 * r5 + 0.8888888888888888 * r11;
+    let r17 = 0.2222222222222222 * r12;
+    let r19 = 0.2222222222222222 * r13;
+    let r21 = 0.07407407407407407 * p.r31_;
+    let r23 = 0.14814814814814814 * p.r32_;
+    let r25 = 0.14814814814814814 * p.r33_;
+    let r27 = known.c2 * (r16 - r17 + r19 - r21 + r23 + r25);
+    let r30 = 0.2222222222222222 * p.r31_ - 0.4444444444444444 * p.r32_;
+    let r34 = r30 - 0.4444444444444444 * p.r33_ - 0.6666666666666666 * r12;
+    let r37 = known.s2 * (r34 + 0.6666666666666666 * r13);
+    let r40 = 0.5555555555555556 * r12 - 0.5555555555555556 * r13;
+    let r41 = 0.2222222222222222 * r5;
+    let r43 = 0.2222222222222222 * r11;
+    let r45 = 0.14814814814814814 * p.r31_;
+    let r47 = 0.2962962962962963 * p.r32_;
+    let r49 = 0.2962962962962963 * p.r33_;
+    let r51 = known.c2 * (r40 - r41 - r43 - r45 + r47 + r49);
+    let r52 = 0.6666666666666666 * r5;
+    let r53 = 0.6666666666666666 * r11;
+    let r58 = r52 + r53 - 0.1111111111111111 * p.r31_ + 0.2222222222222222 * p.r32_;
+    let r61 = known.s2 * (r58 + 0.2222222222222222 * p.r33_);
+    let r64 = 0.18518518518518517 * p.r31_ - 0.37037037037037035 * p.r32_;
+    let r68 = r64 - 0.37037037037037035 * p.r33_ - r41 - r43;
+    let r69 = 0.4444444444444444 * r12;
+    let r71 = 0.4444444444444444 * r13;
+    let r73 = known.c2 * (r68 - r69 + r71);
+    let r76 = 0.3333333333333333 * r12 - 0.3333333333333333 * r13;
+    let r79 = known.s2 * (r76 - r52 - r53);
+    let r82 = 0.25396825396825395 * r5 + 0.25396825396825395 * r11;
+    let r86 = r82 + 0.5079365079365079 * r12 - 0.5079365079365079 * r13;
+    let r90 = r86 + 0.1693121693121693 * p.r31_ - 0.3386243386243386 * p.r32_;
+    let r94 = r90 - 0.3386243386243386 * p.r33_ - 0.2857142857142857 * r27;
+    let r98 = r94 + 0.2857142857142857 * r37 + 0.8571428571428571 * r51;
+    let r102 = r98 - 0.8571428571428571 * r61 + 0.42857142857142855 * r73;
+    let r104 = 0.42857142857142855 * r79 - r102;
+    let r107 = 0.1111111111111111 * r5 + 0.1111111111111111 * r11;
+    let r112 = r21 + (r17 + r107 - r19) - r23 - r25;
+    let r117 = known.c3 * (r27 + r112 - r37 - 0.2857142857142857 * r104);
+    let r120 = 0.09523809523809523 * r5 + 0.09523809523809523 * r11;
+    let r124 = r120 + 0.19047619047619047 * r12 - 0.19047619047619047 * r13;
+    let r128 = r124 + 0.06349206349206349 * p.r31_ - 0.12698412698412698 * p.r32_;
+    let r132 = r128 - 0.12698412698412698 * p.r33_ + 0.8571428571428571 * r73;
+    let r136 = r132 - 0.8571428571428571 * r79 - 0.42857142857142855 * r51;
+    let r139 = known.s3 * (r136 + 0.42857142857142855 * r61);
+    let r145 = r45 + (r69 + (r41 + r43) - r71) - r47 - r49;
+    let r150 = known.c3 * (r51 + r145 - r61 + 0.8571428571428571 * r104);
+    let r154 = r112 + 0.42857142857142855 * r27 - 0.42857142857142855 * r37;
+    let r158 = r154 + 0.2857142857142857 * r73 - 0.2857142857142857 * r79;
+    let r159 = known.s3 * r158;
+    let r163 = r73 + r145 - r79 + 0.42857142857142855 * r104;
+    let r164 = known.c3 * r163;
+    let r167 = 0.15873015873015872 * r5 + 0.15873015873015872 * r11;
+    let r171 = r167 + 0.31746031746031744 * r12 - 0.31746031746031744 * r13;
+    let r175 = r171 + 0.10582010582010581 * p.r31_ - 0.21164021164021163 * p.r32_;
+    let r179 = r175 - 0.21164021164021163 * p.r33_ + 0.2857142857142857 * r51;
+    let r183 = r179 - 0.2857142857142857 * r61 + 0.8571428571428571 * r27;
+    let r186 = known.s3 * (r183 - 0.8571428571428571 * r37);
+    let r189 = 0.15873015873015872 * r104 + 0.5555555555555556 * r117;
+    let r192 = 0.2222222222222222 * r150;
+    let r194 = 0.2222222222222222 * r159;
+    let r195 = r189 - 0.5555555555555556 * r139 + r192 - r194;
+    let r199 = r195 - 0.4444444444444444 * r164 - 0.4444444444444444 * r186;
+    let r200 = known.c4 * r199;
+    let r203 = 0.7142857142857143 * r104 - 0.3333333333333333 * r164;
+    let r206 = 0.6666666666666666 * r150;
+    let r208 = 0.6666666666666666 * r159;
+    let r209 = r203 - 0.3333333333333333 * r186 - r206 + r208;
+    let r210 = known.s4 * r209;
+    let r213 = 0.7936507936507936 * r104 - 0.8888888888888888 * r150;
+    let r217 = r213 + 0.8888888888888888 * r159 - 0.2222222222222222 * r117;
+    let r221 = r217 + 0.2222222222222222 * r139 - 0.2222222222222222 * r164;
+    let r224 = known.c4 * (r221 - 0.2222222222222222 * r186);
+    let r225 = 0.47619047619047616 * r104;
+    let r226 = 0.6666666666666666 * r117;
+    let r228 = 0.6666666666666666 * r139;
+    let r230 = 0.6666666666666666 * r164;
+    let r232 = 0.6666666666666666 * r186;
+    let r234 = known.s4 * (r225 + r226 - r228 - r230 - r232);
+    let r237 = 0.5555555555555556 * r104 - 0.5555555555555556 * r164;
+    let r241 = r237 - 0.5555555555555556 * r186 + 0.4444444444444444 * r117;
+    let r245 = r194 + (r241 - 0.4444444444444444 * r139 - r192);
+    let r250 = r208 + (r225 - r206) - 0.3333333333333333 * r117;
+    let r253 = known.s4 * (r250 + 0.3333333333333333 * r139);
+    let r258 = r226 + 0.19047619047619047 * r104 - r228 - 0.3333333333333333 * r150;
+    let r262 = r232 + (r230 + (r258 + 0.3333333333333333 * r159));
+    let r266 = r262 + 0.3333333333333333 * r200 - 0.3333333333333333 * r210;
+    let r270 = r266 - 0.3333333333333333 * r224 - 0.3333333333333333 * r234;
+    let r272 = r270 - 1.3333333333333333 * (known.c4 * r245);
+    let r274 = r272 + 1.3333333333333333 * r253;
+    let r278 = r234 + (r224 + (r200 + r262 - r210));
+    let shared = &Shared5 { r274, r278 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r133: f64,
-    r134: f64,
+    r274: f64,
+    r278: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r135 = 0.0 - shared.r133;
-    let r136 = 0.0 - shared.r134;
-    let r139 = (0.0 - (r135 - r136)) / 2.0;
-    let r143 = (0.0 - (0.0 - r135 - r136)) / 2.0;
-    let r147 = f64::max(r143 * r143 + r139 * r139, 0.0).sqrt();
-    let c5 = r143 / r147;
-    let s5 = r139 / r147;
+    let r280 = (shared.r274 + shared.r278) / 2.0;
+    let r282 = (shared.r278 - shared.r274) / 2.0;
+    let r286 = f64::max(r282 * r282 + r280 * r280, 0.0).sqrt();
+    let c5 = r282 / r286;
+    let s5 = 0.0 - r280 / r286;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: Wrist3.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.r12_ + (0.0 - p.r13_);
-    let r3 = p.r22_ + (0.0 - p.r23_);
-    let r5 = p.r32_ + (0.0 - p.r33_);
-    let r12 = r1 * known.c1 + (0.0 - (0.0 - r3)) * known.s1;
-    let r15 = r3 * known.c1 + (0.0 - r1) * known.s1;
-    let r17 = r5 + (r5 - r5) * known.c1;
-    let r19 = 0.6666666666666666 * r15;
-    let r20 = 0.6666666666666666 * r17;
-    let r22 = 0.3333333333333333 * r12 + r19 + r20;
-    let r23 = 0.3333333333333333 * r22;
-    let r24 = 0.6666666666666666 * r22;
-    let r29 = 0.6666666666666666 * r12;
-    let r39 = (r12 - r23) * known.c2 + (0.0 - (r20 - r19)) * known.s2;
-    let r41 = (0.0 - (r29 - 0.3333333333333333 * r17)) * known.s2;
-    let r44 = (0.0 - (0.3333333333333333 * r15 - r29)) * known.s2;
-    let r46 = r23 + r39;
-    let r47 = r24 + ((r15 - r24) * known.c2 + r41);
-    let r48 = r24 + ((r17 - r24) * known.c2 + r44);
-    let r52 = -0.2857142857142857 * r46 + 0.8571428571428571 * r47;
-    let r53 = r52 + 0.42857142857142855 * r48;
-    let r54 = -0.2857142857142857 * r53;
-    let r55 = 0.8571428571428571 * r53;
-    let r56 = 0.42857142857142855 * r53;
-    let r62 = 0.8571428571428571 * r48 - 0.42857142857142855 * r47;
-    let r65 = 0.42857142857142855 * r46 - -0.2857142857142857 * r48;
-    let r68 = -0.2857142857142857 * r47 - 0.8571428571428571 * r46;
-    let r74 = (r46 - r54) * known.c3 + (0.0 - r62) * known.s3;
-    let r77 = (r47 - r55) * known.c3 + (0.0 - r65) * known.s3;
-    let r80 = (r48 - r56) * known.c3 + (0.0 - r68) * known.s3;
-    let r81 = r54 + r74;
-    let r82 = r55 + r77;
-    let r83 = r56 + r80;
-    let r84 = 0.6666666666666666 * r81;
-    let r86 = 0.6666666666666666 * r83;
-    let r88 = r84 + -0.3333333333333333 * r82 + r86;
-    let r89 = 0.6666666666666666 * r88;
-    let r90 = -0.3333333333333333 * r88;
-    let r95 = 0.6666666666666666 * r82;
-    let r104 = (0.0 - (-0.3333333333333333 * r83 - r95)) * known.s4;
-    let r108 = (r82 - r90) * known.c4 + (0.0 - (r84 - r86)) * known.s4;
-    let r110 = (0.0 - (r95 - -0.3333333333333333 * r81)) * known.s4;
-    let r115 = 0.6666666666666666 * (r89 + ((r81 - r89) * known.c4 + r104));
-    let r117 = -0.3333333333333333 * (r89 + ((r83 - r89) * known.c4 + r110));
-    let r119 = r115 + 0.6666666666666666 * (r90 + r108) + r117;
-    let r124 = -1.3333333333333333 * p.r11_ + -0.3333333333333333 * p.r12_;
-    let r125 = r124 + -0.3333333333333333 * p.r13_;
-    let r129 = -1.3333333333333333 * p.r21_ + -0.3333333333333333 * p.r22_;
-    let r130 = r129 + -0.3333333333333333 * p.r23_;
-    let r134 = -1.3333333333333333 * p.r31_ + -0.3333333333333333 * p.r32_;
-    let r135 = r134 + -0.3333333333333333 * p.r33_;
-    let r142 = r125 * known.c1 + (0.0 - (0.0 - r130)) * known.s1;
-    let r145 = r130 * known.c1 + (0.0 - r125) * known.s1;
-    let r147 = r135 + (r135 - r135) * known.c1;
-    let r149 = 0.6666666666666666 * r145;
-    let r150 = 0.6666666666666666 * r147;
-    let r152 = 0.3333333333333333 * r142 + r149 + r150;
-    let r153 = 0.3333333333333333 * r152;
-    let r154 = 0.6666666666666666 * r152;
-    let r159 = 0.6666666666666666 * r142;
-    let r169 = (r142 - r153) * known.c2 + (0.0 - (r150 - r149)) * known.s2;
-    let r171 = (0.0 - (r159 - 0.3333333333333333 * r147)) * known.s2;
-    let r174 = (0.0 - (0.3333333333333333 * r145 - r159)) * known.s2;
-    let r176 = r153 + r169;
-    let r177 = r154 + ((r145 - r154) * known.c2 + r171);
-    let r178 = r154 + ((r147 - r154) * known.c2 + r174);
-    let r182 = -0.2857142857142857 * r176 + 0.8571428571428571 * r177;
-    let r183 = r182 + 0.42857142857142855 * r178;
-    let r184 = -0.2857142857142857 * r183;
-    let r185 = 0.8571428571428571 * r183;
-    let r186 = 0.42857142857142855 * r183;
-    let r192 = 0.8571428571428571 * r178 - 0.42857142857142855 * r177;
-    let r195 = 0.42857142857142855 * r176 - -0.2857142857142857 * r178;
-    let r198 = -0.2857142857142857 * r177 - 0.8571428571428571 * r176;
-    let r204 = (r176 - r184) * known.c3 + (0.0 - r192) * known.s3;
-    let r207 = (r177 - r185) * known.c3 + (0.0 - r195) * known.s3;
-    let r210 = (r178 - r186) * known.c3 + (0.0 - r198) * known.s3;
-    let r211 = r184 + r204;
-    let r212 = r185 + r207;
-    let r213 = r186 + r210;
-    let r214 = 0.6666666666666666 * r211;
-    let r216 = 0.6666666666666666 * r213;
-    let r218 = r214 + -0.3333333333333333 * r212 + r216;
-    let r219 = 0.6666666666666666 * r218;
-    let r220 = -0.3333333333333333 * r218;
-    let r225 = 0.6666666666666666 * r212;
-    let r234 = (0.0 - (-0.3333333333333333 * r213 - r225)) * known.s4;
-    let r238 = (r212 - r220) * known.c4 + (0.0 - (r214 - r216)) * known.s4;
-    let r240 = (0.0 - (r225 - -0.3333333333333333 * r211)) * known.s4;
-    let r245 = 0.6666666666666666 * (r219 + ((r211 - r219) * known.c4 + r234));
-    let r247 = -0.3333333333333333 * (r219 + ((r213 - r219) * known.c4 + r240));
-    let r249 = r245 + 0.6666666666666666 * (r220 + r238) + r247;
-    let r250 = 0.0 - r249;
-    let r251 = 0.0 - (0.0 - r119);
-    let shared = &Shared6 { r250, r251 };
+    let r0 = p.r12_ - p.r13_;
+    let r1 = known.c1 * r0;
+    let r2 = p.r22_ - p.r23_;
+    let r3 = known.s1 * r2;
+    let r4 = known.c1 * r2;
+    let r5 = known.s1 * r0;
+    let r8 = 0.8888888888888888 * r1 + 0.8888888888888888 * r3;
+    let r9 = 0.2222222222222222 * r4;
+    let r11 = 0.2222222222222222 * r5;
+    let r13 = 0.2222222222222222 * p.r32_;
+    let r15 = 0.2222222222222222 * p.r33_;
+    let r17 = known.c2 * (r8 - r9 + r11 - r13 + r15);
+    let r21 = known.s2 * (r5 + (p.r32_ - p.r33_ - r4));
+    let r24 = 0.5555555555555556 * r4 - 0.5555555555555556 * r5;
+    let r25 = 0.2222222222222222 * r1;
+    let r27 = 0.2222222222222222 * r3;
+    let r30 = r24 - r25 - r27 - 0.4444444444444444 * p.r32_;
+    let r33 = known.c2 * (r30 + 0.4444444444444444 * p.r33_);
+    let r34 = 0.6666666666666666 * r1;
+    let r35 = 0.6666666666666666 * r3;
+    let r40 = r34 + r35 - 0.3333333333333333 * p.r32_ + 0.3333333333333333 * p.r33_;
+    let r41 = known.s2 * r40;
+    let r44 = 0.5555555555555556 * p.r32_ - 0.5555555555555556 * p.r33_;
+    let r50 = r44 - r25 - r27 - 0.4444444444444444 * r4 + 0.4444444444444444 * r5;
+    let r51 = known.c2 * r50;
+    let r54 = 0.3333333333333333 * r4 - 0.3333333333333333 * r5;
+    let r57 = known.s2 * (r54 - r34 - r35);
+    let r60 = 0.1836734693877551 * r1 + 0.1836734693877551 * r3;
+    let r64 = r60 + 0.3673469387755102 * r4 - 0.3673469387755102 * r5;
+    let r68 = r64 + 0.3673469387755102 * p.r32_ - 0.3673469387755102 * p.r33_;
+    let r72 = r68 + 0.9183673469387755 * r17 - 0.6122448979591837 * r21;
+    let r73 = 0.24489795918367346 * r33;
+    let r75 = 0.24489795918367346 * r41;
+    let r77 = 0.12244897959183673 * r51;
+    let r79 = 0.12244897959183673 * r57;
+    let r84 = 0.09523809523809523 * r1 + 0.09523809523809523 * r3;
+    let r88 = r84 + 0.19047619047619047 * r4 - 0.19047619047619047 * r5;
+    let r92 = r88 + 0.19047619047619047 * p.r32_ - 0.19047619047619047 * p.r33_;
+    let r96 = r92 + 0.8571428571428571 * r51 - 0.8571428571428571 * r57;
+    let r100 = r96 - 0.42857142857142855 * r33 + 0.42857142857142855 * r41;
+    let r104 = 0.0045351473922902496 * r1 + 0.0045351473922902496 * r3;
+    let r108 = r104 + 0.009070294784580499 * r4 - 0.009070294784580499 * r5;
+    let r112 = r108 + 0.009070294784580499 * p.r32_ - 0.009070294784580499 * p.r33_;
+    let r116 = r112 + 0.2653061224489796 * r33 - 0.2653061224489796 * r41;
+    let r117 = 0.24489795918367346 * r17;
+    let r119 = 0.16326530612244897 * r21;
+    let r121 = 0.3673469387755102 * r51;
+    let r123 = 0.3673469387755102 * r57;
+    let r125 = known.c3 * (r116 + r117 - r119 - r121 + r123);
+    let r128 = 0.1111111111111111 * r1 + 0.1111111111111111 * r3;
+    let r134 = r13 + (r9 + r128 - r11) - r15 + 0.42857142857142855 * r17;
+    let r138 = r134 - 0.2857142857142857 * r21 + 0.2857142857142857 * r51;
+    let r144 = 0.11337868480725624 * r1 + 0.11337868480725624 * r3;
+    let r148 = r144 + 0.22675736961451248 * r4 - 0.22675736961451248 * r5;
+    let r152 = r148 + 0.22675736961451248 * p.r32_ - 0.22675736961451248 * p.r33_;
+    let r156 = r152 + 0.8163265306122449 * r51 - 0.8163265306122449 * r57;
+    let r157 = 0.12244897959183673 * r17;
+    let r159 = 0.08163265306122448 * r21;
+    let r161 = 0.3673469387755102 * r33;
+    let r163 = 0.3673469387755102 * r41;
+    let r165 = known.c3 * (r156 + r157 - r159 - r161 + r163);
+    let r168 = 0.15873015873015872 * r1 + 0.15873015873015872 * r3;
+    let r172 = r168 + 0.31746031746031744 * r4 - 0.31746031746031744 * r5;
+    let r176 = r172 + 0.31746031746031744 * p.r32_ - 0.31746031746031744 * p.r33_;
+    let r180 = r176 + 0.2857142857142857 * r33 - 0.2857142857142857 * r41;
+    let r184 = r180 + 0.8571428571428571 * r17 - 0.5714285714285714 * r21;
+    let r188 = 0.07256235827664399 * r1 + 0.07256235827664399 * r3;
+    let r192 = r188 + 0.14512471655328799 * r4 - 0.14512471655328799 * r5;
+    let r196 = r192 + 0.14512471655328799 * p.r32_ - 0.14512471655328799 * p.r33_;
+    let r200 = r196 - 0.08163265306122448 * r17 + 0.05442176870748299 * r21;
+    let r205 = r77 + (r73 + r200 - r75) - r79 - known.c3 * (r72 + r73 - r75 + r77 - r79);
+    let r206 = known.s3 * r100 + r205;
+    let r210 = 0.21768707482993196 * r1 + 0.21768707482993196 * r3;
+    let r214 = r210 + 0.43537414965986393 * r4 - 0.43537414965986393 * r5;
+    let r218 = r214 + 0.43537414965986393 * p.r32_ - 0.43537414965986393 * p.r33_;
+    let r222 = r119 + (r218 - r117) + 0.7346938775510204 * r33;
+    let r226 = r121 + (r222 - 0.7346938775510204 * r41) - r123;
+    let r228 = r125 + r226 - known.s3 * (r138 - 0.2857142857142857 * r57);
+    let r231 = 0.10884353741496598 * r1 + 0.10884353741496598 * r3;
+    let r235 = r231 + 0.21768707482993196 * r4 - 0.21768707482993196 * r5;
+    let r239 = r235 + 0.21768707482993196 * p.r32_ - 0.21768707482993196 * p.r33_;
+    let r245 = r161 + (r159 + (r239 - r157)) - r163 + 0.1836734693877551 * r51;
+    let r249 = known.s3 * r184 + (r165 + (r245 - 0.1836734693877551 * r57));
+    let r251 = 0.2222222222222222 * r228;
+    let r254 = r251 - 0.5555555555555556 * r206 - 0.4444444444444444 * r249;
+    let r257 = 0.6666666666666666 * r228;
+    let r259 = known.s4 * (0.3333333333333333 * r249 + r257);
+    let r262 = 0.8888888888888888 * r228 - 0.2222222222222222 * r206;
+    let r265 = known.c4 * (r262 + 0.2222222222222222 * r249);
+    let r270 = 0.5555555555555556 * r249 + 0.4444444444444444 * r206;
+    let r275 = known.s4 * (r257 - 0.3333333333333333 * r206);
+    let r278 = 1.3333333333333333 * p.r11_ + 0.3333333333333333 * p.r12_;
+    let r280 = r278 + 0.3333333333333333 * p.r13_;
+    let r281 = known.c1 * r280;
+    let r284 = 1.3333333333333333 * p.r21_ + 0.3333333333333333 * p.r22_;
+    let r286 = r284 + 0.3333333333333333 * p.r23_;
+    let r287 = known.s1 * r286;
+    let r288 = known.c1 * r286;
+    let r289 = known.s1 * r280;
+    let r292 = 0.8888888888888888 * r281 + 0.8888888888888888 * r287;
+    let r293 = 0.2222222222222222 * r288;
+    let r295 = 0.2222222222222222 * r289;
+    let r297 = 0.2962962962962963 * p.r31_;
+    let r299 = 0.07407407407407407 * p.r32_;
+    let r301 = 0.07407407407407407 * p.r33_;
+    let r303 = known.c2 * (r292 - r293 + r295 - r297 - r299 - r301);
+    let r308 = r15 + (r13 + 0.8888888888888888 * p.r31_) - 0.6666666666666666 * r288;
+    let r311 = known.s2 * (r308 + 0.6666666666666666 * r289);
+    let r314 = 0.5555555555555556 * r288 - 0.5555555555555556 * r289;
+    let r315 = 0.2222222222222222 * r281;
+    let r317 = 0.2222222222222222 * r287;
+    let r319 = 0.5925925925925926 * p.r31_;
+    let r321 = 0.14814814814814814 * p.r32_;
+    let r323 = 0.14814814814814814 * p.r33_;
+    let r325 = known.c2 * (r314 - r315 - r317 - r319 - r321 - r323);
+    let r326 = 0.6666666666666666 * r281;
+    let r327 = 0.6666666666666666 * r287;
+    let r332 = r326 + r327 - 0.4444444444444444 * p.r31_ - 0.1111111111111111 * p.r32_;
+    let r335 = known.s2 * (r332 - 0.1111111111111111 * p.r33_);
+    let r338 = 0.7407407407407407 * p.r31_ + 0.18518518518518517 * p.r32_;
+    let r342 = r338 + 0.18518518518518517 * p.r33_ - r315 - r317;
+    let r343 = 0.4444444444444444 * r288;
+    let r345 = 0.4444444444444444 * r289;
+    let r347 = known.c2 * (r342 - r343 + r345);
+    let r350 = 0.3333333333333333 * r288 - 0.3333333333333333 * r289;
+    let r353 = known.s2 * (r350 - r326 - r327);
+    let r356 = 0.25396825396825395 * r281 + 0.25396825396825395 * r287;
+    let r360 = r356 + 0.5079365079365079 * r288 - 0.5079365079365079 * r289;
+    let r364 = r360 + 0.6772486772486772 * p.r31_ + 0.1693121693121693 * p.r32_;
+    let r368 = r364 + 0.1693121693121693 * p.r33_ - 0.2857142857142857 * r303;
+    let r372 = r368 + 0.2857142857142857 * r311 + 0.8571428571428571 * r325;
+    let r376 = r372 - 0.8571428571428571 * r335 + 0.42857142857142855 * r347;
+    let r378 = 0.42857142857142855 * r353 - r376;
+    let r381 = 0.1111111111111111 * r281 + 0.1111111111111111 * r287;
+    let r386 = r301 + (r299 + (r297 + (r293 + r381 - r295)));
+    let r390 = r303 + r386 - r311 - 0.2857142857142857 * r378;
+    let r391 = known.c3 * r390;
+    let r394 = 0.09523809523809523 * r281 + 0.09523809523809523 * r287;
+    let r398 = r394 + 0.19047619047619047 * r288 - 0.19047619047619047 * r289;
+    let r402 = r398 + 0.25396825396825395 * p.r31_ + 0.06349206349206349 * p.r32_;
+    let r406 = r402 + 0.06349206349206349 * p.r33_ + 0.8571428571428571 * r347;
+    let r410 = r406 - 0.8571428571428571 * r353 - 0.42857142857142855 * r325;
+    let r413 = known.s3 * (r410 + 0.42857142857142855 * r335);
+    let r418 = r321 + (r319 + (r343 + (r315 + r317) - r345));
+    let r419 = r323 + r418;
+    let r423 = r325 + r419 - r335 + 0.8571428571428571 * r378;
+    let r424 = known.c3 * r423;
+    let r428 = r386 + 0.42857142857142855 * r303 - 0.42857142857142855 * r311;
+    let r432 = r428 + 0.2857142857142857 * r347 - 0.2857142857142857 * r353;
+    let r433 = known.s3 * r432;
+    let r437 = r347 + r419 - r353 + 0.42857142857142855 * r378;
+    let r438 = known.c3 * r437;
+    let r441 = 0.15873015873015872 * r281 + 0.15873015873015872 * r287;
+    let r445 = r441 + 0.31746031746031744 * r288 - 0.31746031746031744 * r289;
+    let r449 = r445 + 0.42328042328042326 * p.r31_ + 0.10582010582010581 * p.r32_;
+    let r453 = r449 + 0.10582010582010581 * p.r33_ + 0.2857142857142857 * r325;
+    let r457 = r453 - 0.2857142857142857 * r335 + 0.8571428571428571 * r303;
+    let r460 = known.s3 * (r457 - 0.8571428571428571 * r311);
+    let r463 = 0.15873015873015872 * r378 + 0.5555555555555556 * r391;
+    let r466 = 0.2222222222222222 * r424;
+    let r468 = 0.2222222222222222 * r433;
+    let r469 = r463 - 0.5555555555555556 * r413 + r466 - r468;
+    let r473 = r469 - 0.4444444444444444 * r438 - 0.4444444444444444 * r460;
+    let r477 = 0.7142857142857143 * r378 - 0.3333333333333333 * r438;
+    let r480 = 0.6666666666666666 * r424;
+    let r482 = 0.6666666666666666 * r433;
+    let r483 = r477 - 0.3333333333333333 * r460 - r480 + r482;
+    let r487 = 0.7936507936507936 * r378 - 0.8888888888888888 * r424;
+    let r491 = r487 + 0.8888888888888888 * r433 - 0.2222222222222222 * r391;
+    let r495 = r491 + 0.2222222222222222 * r413 - 0.2222222222222222 * r438;
+    let r498 = known.c4 * (r495 - 0.2222222222222222 * r460);
+    let r499 = 0.47619047619047616 * r378;
+    let r503 = r499 + 0.6666666666666666 * r391 - 0.6666666666666666 * r413;
+    let r507 = r503 - 0.6666666666666666 * r438 - 0.6666666666666666 * r460;
+    let r511 = 0.5555555555555556 * r378 - 0.5555555555555556 * r438;
+    let r515 = r511 - 0.5555555555555556 * r460 + 0.4444444444444444 * r391;
+    let r519 = r468 + (r515 - 0.4444444444444444 * r413 - r466);
+    let r524 = r482 + (r499 - r480) - 0.3333333333333333 * r391;
+    let r527 = known.s4 * (r524 + 0.3333333333333333 * r413);
+    let r530 = 0.6666666666666666 * (known.c4 * r254) + 0.6666666666666666 * r259;
+    let r533 = 0.4444444444444444 * (known.s4 * (0.0 - r206 - r249));
+    let r535 = 0.3333333333333333 * (known.c4 * (r251 + r270));
+    let r536 = r530 + 0.6666666666666666 * r265 - r533 - r535;
+    let r538 = r536 + 0.3333333333333333 * r275;
+    let r541 = 0.6666666666666666 * (known.c4 * r473) - 0.6666666666666666 * (known.s4 * r483);
+    let r545 = r541 - 0.6666666666666666 * r498 - 0.6666666666666666 * (known.s4 * r507);
+    let r547 = r545 + 0.3333333333333333 * (known.c4 * r519);
+    let r549 = r547 - 0.3333333333333333 * r527;
+    let shared = &Shared6 { r538, r549 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r250: f64,
-    r251: f64,
+    r538: f64,
+    r549: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r254 = (0.0 - (shared.r251 - shared.r250)) / 2.0;
-    let r258 = (0.0 - (0.0 - shared.r251 - shared.r250)) / 2.0;
-    let r262 = f64::max(r258 * r258 + r254 * r254, 0.0).sqrt();
-    let c6 = r258 / r262;
-    let s6 = r254 / r262;
+    let r551 = (shared.r549 - shared.r538) / 2.0;
+    let r554 = (shared.r549 - (0.0 - shared.r538)) / 2.0;
+    let r558 = f64::max(r554 * r554 + r551 * r551, 0.0).sqrt();
+    let c6 = r554 / r558;
+    let s6 = r551 / r558;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -1241,136 +1372,328 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r17 = 1.0 - c2;
-    let r19 = c2 + 0.1111111111111111 * r17;
-    let r20 = 0.2222222222222222 * r17;
-    let r22 = 0.6666666666666666 * s2 + r20;
-    let r24 = -0.6666666666666666 * s2 + r20;
-    let r25 = 0.4444444444444444 * r17;
-    let r26 = c2 + r25;
-    let r30 = -0.3333333333333333 * s2 + r25;
-    let r33 = c1 * r19 + r1 * r22;
-    let r35 = c1 * r22;
-    let r36 = s1 * r19 + r35;
-    let r37 = r2 * r24;
-    let r40 = c1 * r24 + r1 * r26;
-    let r43 = s1 * r24 + c1 * r26;
-    let r44 = r2 * (0.3333333333333333 * s2 + r25);
-    let r46 = r35 + r1 * r30;
-    let r49 = s1 * r22 + c1 * r30;
-    let r50 = r2 * r26;
-    let r66 = 0.1 * c1 + -0.05 * r1 - (0.1 * r33 + -0.05 * r40 + 0.3 * r46);
-    let r67 = 0.1 * s1 + -0.05 * c1 - (0.1 * r36 + -0.05 * r43 + 0.3 * r49);
-    let r68 = 0.3 * r2 - (0.1 * r37 + -0.05 * r44 + 0.3 * r50);
-    let r102 = 1.0 - c3;
-    let r104 = c3 + 0.08163265306122448 * r102;
-    let r105 = -0.24489795918367346 * r102;
-    let r107 = 0.42857142857142855 * s3 + r105;
-    let r108 = -0.12244897959183673 * r102;
-    let r110 = -0.8571428571428571 * s3 + r108;
-    let r112 = -0.42857142857142855 * s3 + r105;
-    let r114 = c3 + 0.7346938775510204 * r102;
-    let r115 = 0.3673469387755102 * r102;
-    let r117 = -0.2857142857142857 * s3 + r115;
-    let r119 = 0.8571428571428571 * s3 + r108;
-    let r121 = 0.2857142857142857 * s3 + r115;
-    let r123 = c3 + 0.1836734693877551 * r102;
-    let r128 = r33 * r104 + r40 * r107 + r46 * r110;
-    let r133 = r36 * r104 + r43 * r107 + r49 * r110;
-    let r138 = r37 * r104 + r44 * r107 + r50 * r110;
-    let r143 = r33 * r112 + r40 * r114 + r46 * r117;
-    let r148 = r36 * r112 + r43 * r114 + r49 * r117;
-    let r153 = r37 * r112 + r44 * r114 + r50 * r117;
-    let r158 = r33 * r119 + r40 * r121 + r46 * r123;
-    let r163 = r36 * r119 + r43 * r121 + r49 * r123;
-    let r168 = r37 * r119 + r44 * r121 + r50 * r123;
-    let r184 = r66 + (0.25 * r33 + 0.2 * r40 + 0.6 * r46) - (0.25 * r128 + 0.2 * r143 + 0.6 * r158);
-    let r185 = r67 + (0.25 * r36 + 0.2 * r43 + 0.6 * r49) - (0.25 * r133 + 0.2 * r148 + 0.6 * r163);
-    let r186 = r68 + (0.25 * r37 + 0.2 * r44 + 0.6 * r50) - (0.25 * r138 + 0.2 * r153 + 0.6 * r168);
-    let r217 = r184 + (0.6 * r128 + 0.25 * r143 + 0.8 * r158);
-    let r218 = r185 + (0.6 * r133 + 0.25 * r148 + 0.8 * r163);
-    let r219 = r186 + (0.6 * r138 + 0.25 * r153 + 0.8 * r168);
-    let r220 = 1.0 - c4;
-    let r221 = 0.4444444444444444 * r220;
-    let r222 = c4 + r221;
-    let r223 = -0.2222222222222222 * r220;
-    let r225 = 0.6666666666666666 * s4 + r223;
-    let r227 = 0.3333333333333333 * s4 + r221;
-    let r229 = -0.6666666666666666 * s4 + r223;
-    let r231 = c4 + 0.1111111111111111 * r220;
-    let r233 = -0.3333333333333333 * s4 + r221;
-    let r238 = r128 * r222 + r143 * r225 + r158 * r227;
-    let r243 = r133 * r222 + r148 * r225 + r163 * r227;
-    let r248 = r138 * r222 + r153 * r225 + r168 * r227;
-    let r253 = r128 * r229 + r143 * r231 + r158 * r225;
-    let r258 = r133 * r229 + r148 * r231 + r163 * r225;
-    let r263 = r138 * r229 + r153 * r231 + r168 * r225;
-    let r268 = r128 * r233 + r143 * r229 + r158 * r222;
-    let r273 = r133 * r233 + r148 * r229 + r163 * r222;
-    let r278 = r138 * r233 + r153 * r229 + r168 * r222;
-    let r283 = 0.6 * r238 + 0.25 * r253 + 0.8 * r268;
-    let r288 = 0.6 * r243 + 0.25 * r258 + 0.8 * r273;
-    let r293 = 0.6 * r248 + 0.25 * r263 + 0.8 * r278;
-    let r315 = 1.0 - c5;
-    let r316 = 0.4444444444444444 * r315;
-    let r317 = c5 + r316;
-    let r319 = -0.3333333333333333 * s5 + r316;
-    let r320 = -0.2222222222222222 * r315;
-    let r322 = -0.6666666666666666 * s5 + r320;
-    let r324 = 0.3333333333333333 * s5 + r316;
-    let r326 = 0.6666666666666666 * s5 + r320;
-    let r328 = c5 + 0.1111111111111111 * r315;
-    let r333 = r238 * r317 + r253 * r319 + r268 * r322;
-    let r338 = r243 * r317 + r258 * r319 + r273 * r322;
-    let r343 = r248 * r317 + r263 * r319 + r278 * r322;
-    let r348 = r238 * r324 + r253 * r317 + r268 * r326;
-    let r353 = r243 * r324 + r258 * r317 + r273 * r326;
-    let r358 = r248 * r324 + r263 * r317 + r278 * r326;
-    let r363 = r238 * r326 + r253 * r322 + r268 * r328;
-    let r368 = r243 * r326 + r258 * r322 + r273 * r328;
-    let r373 = r248 * r326 + r263 * r322 + r278 * r328;
-    let r378 = 0.6 * r333 + 0.25 * r348 + 0.8 * r363;
-    let r383 = 0.6 * r338 + 0.25 * r353 + 0.8 * r368;
-    let r388 = 0.6 * r343 + 0.25 * r358 + 0.8 * r373;
-    let r410 = 1.0 - c6;
-    let r412 = c6 + 0.1111111111111111 * r410;
-    let r413 = -0.2222222222222222 * r410;
-    let r415 = 0.6666666666666666 * s6 + r413;
-    let r417 = -0.6666666666666666 * s6 + r413;
-    let r418 = 0.4444444444444444 * r410;
-    let r419 = c6 + r418;
-    let r421 = -0.3333333333333333 * s6 + r418;
-    let r423 = 0.3333333333333333 * s6 + r418;
-    let r428 = r333 * r412 + r348 * r415 + r363 * r417;
-    let r433 = r338 * r412 + r353 * r415 + r368 * r417;
-    let r438 = r343 * r412 + r358 * r415 + r373 * r417;
-    let r443 = r333 * r417 + r348 * r419 + r363 * r421;
-    let r448 = r338 * r417 + r353 * r419 + r368 * r421;
-    let r453 = r343 * r417 + r358 * r419 + r373 * r421;
-    let r458 = r333 * r415 + r348 * r423 + r363 * r419;
-    let r463 = r338 * r415 + r353 * r423 + r368 * r419;
-    let r468 = r343 * r415 + r358 * r423 + r373 * r419;
-    let r484 = r217 - r283 + r283 - r378 + r378 - (0.6 * r428 + 0.25 * r443 + 0.8 * r458);
-    let r485 = r218 - r288 + r288 - r383 + r383 - (0.6 * r433 + 0.25 * r448 + 0.8 * r463);
-    let r486 = r219 - r293 + r293 - r388 + r388 - (0.6 * r438 + 0.25 * r453 + 0.8 * r468);
-    let r502 = r484 + (0.72 * r428 + 0.28 * r443 + 0.95 * r458);
-    let r503 = r485 + (0.72 * r433 + 0.28 * r448 + 0.95 * r463);
-    let r504 = r486 + (0.72 * r438 + 0.28 * r453 + 0.95 * r468);
+    let r1 = 0.8888888888888888 * c2 + 0.1111111111111111;
+    let r2 = c1 * r1;
+    let r3 = 0.6666666666666666 * s2;
+    let r4 = 0.2222222222222222 * c2;
+    let r6 = r3 - r4 + 0.2222222222222222;
+    let r7 = s1 * r6;
+    let r8 = s1 * r1;
+    let r9 = c1 * r6;
+    let r11 = r3 + r4 - 0.2222222222222222;
+    let r12 = c1 * r11;
+    let r14 = 0.5555555555555556 * c2 + 0.4444444444444444;
+    let r15 = s1 * r14;
+    let r16 = s1 * r11;
+    let r17 = c1 * r14;
+    let r18 = 0.3333333333333333 * s2;
+    let r19 = 0.4444444444444444 * c2;
+    let r21 = r18 + r19 - 0.4444444444444444;
+    let r22 = s1 * r21;
+    let r23 = c1 * r21;
+    let r24 = r2 - r7;
+    let r26 = 0.9183673469387755 * c3 + 0.08163265306122448;
+    let r27 = r24 * r26;
+    let r28 = r12 + r15;
+    let r29 = 0.42857142857142855 * s3;
+    let r30 = 0.24489795918367346 * c3;
+    let r32 = r29 + r30 - 0.24489795918367346;
+    let r33 = r28 * r32;
+    let r34 = r9 + r22;
+    let r35 = 0.8571428571428571 * s3;
+    let r36 = 0.12244897959183673 * c3;
+    let r38 = r35 - r36 + 0.12244897959183673;
+    let r39 = r34 * r38;
+    let r40 = r8 + r9;
+    let r41 = r26 * r40;
+    let r42 = r16 - r17;
+    let r43 = r32 * r42;
+    let r44 = r7 - r23;
+    let r45 = r38 * r44;
+    let r46 = r11 * r26;
+    let r48 = r18 - r19 + 0.4444444444444444;
+    let r49 = r32 * r48;
+    let r50 = r14 * r38;
+    let r52 = r29 - r30 + 0.24489795918367346;
+    let r53 = r24 * r52;
+    let r55 = 0.2653061224489796 * c3 + 0.7346938775510204;
+    let r56 = r28 * r55;
+    let r57 = 0.2857142857142857 * s3;
+    let r58 = 0.3673469387755102 * c3;
+    let r60 = r57 + r58 - 0.3673469387755102;
+    let r61 = r34 * r60;
+    let r62 = r40 * r52;
+    let r63 = r42 * r55;
+    let r64 = r44 * r60;
+    let r65 = r11 * r52;
+    let r66 = r48 * r55;
+    let r67 = r14 * r60;
+    let r69 = r35 + r36 - 0.12244897959183673;
+    let r70 = r24 * r69;
+    let r72 = r57 - r58 + 0.3673469387755102;
+    let r73 = r28 * r72;
+    let r75 = 0.8163265306122449 * c3 + 0.1836734693877551;
+    let r76 = r34 * r75;
+    let r77 = r40 * r69;
+    let r78 = r42 * r72;
+    let r79 = r44 * r75;
+    let r80 = r11 * r69;
+    let r81 = r48 * r72;
+    let r82 = r14 * r75;
+    let r91 = 0.1 * c1 + 0.05 * s1 + 0.15 * r2 - 0.15 * r7 - 0.25 * r12;
+    let r99 = r91 - 0.25 * r15 + 0.3 * r9 + 0.3 * r22 - 0.25 * r27;
+    let r107 = r99 + 0.25 * r33 + 0.25 * r39 + 0.2 * r53 + 0.2 * r56;
+    let r115 = r107 + 0.2 * r61 - 0.6 * r70 + 0.6 * r73 - 0.6 * r76;
+    let r124 = 0.1 * s1 - 0.05 * c1 + 0.15 * r8 + 0.15 * r9 - 0.25 * r16;
+    let r132 = r124 + 0.25 * r17 + 0.3 * r7 - 0.3 * r23 - 0.25 * r41;
+    let r140 = r132 + 0.25 * r43 + 0.25 * r45 + 0.2 * r62 + 0.2 * r63;
+    let r148 = r140 + 0.2 * r64 - 0.6 * r77 + 0.6 * r78 - 0.6 * r79;
+    let r150 = r27 - r33 - r39;
+    let r152 = 0.5555555555555556 * c4 + 0.4444444444444444;
+    let r153 = r150 * r152;
+    let r155 = r61 + (r53 + r56);
+    let r156 = 0.6666666666666666 * s4;
+    let r157 = 0.2222222222222222 * c4;
+    let r159 = r156 + r157 - 0.2222222222222222;
+    let r160 = r155 * r159;
+    let r162 = r76 + (r70 - r73);
+    let r163 = 0.3333333333333333 * s4;
+    let r164 = 0.4444444444444444 * c4;
+    let r166 = r163 - r164 + 0.4444444444444444;
+    let r167 = r162 * r166;
+    let r169 = r41 - r43 - r45;
+    let r170 = r152 * r169;
+    let r172 = r64 + (r62 + r63);
+    let r173 = r159 * r172;
+    let r175 = r79 + (r77 - r78);
+    let r176 = r166 * r175;
+    let r178 = r50 + (r46 - r49);
+    let r179 = r152 * r178;
+    let r181 = r65 + r66 - r67;
+    let r182 = r159 * r181;
+    let r184 = r80 - r81 - r82;
+    let r185 = r166 * r184;
+    let r187 = r156 - r157 + 0.2222222222222222;
+    let r188 = r150 * r187;
+    let r190 = 0.8888888888888888 * c4 + 0.1111111111111111;
+    let r191 = r155 * r190;
+    let r192 = r159 * r162;
+    let r193 = r169 * r187;
+    let r194 = r172 * r190;
+    let r195 = r159 * r175;
+    let r196 = r178 * r187;
+    let r197 = r181 * r190;
+    let r198 = r159 * r184;
+    let r200 = r163 + r164 - 0.4444444444444444;
+    let r201 = r150 * r200;
+    let r202 = r155 * r187;
+    let r203 = r152 * r162;
+    let r204 = r169 * r200;
+    let r205 = r172 * r187;
+    let r206 = r152 * r175;
+    let r207 = r178 * r200;
+    let r208 = r181 * r187;
+    let r209 = r152 * r184;
+    let r217 = r115 + 0.6 * r27 - 0.6 * r33 - 0.6 * r39 - 0.25 * r53;
+    let r225 = r217 - 0.25 * r56 - 0.25 * r61 + 0.8 * r70 - 0.8 * r73;
+    let r228 = 0.6 * r153;
+    let r230 = 0.6 * r160;
+    let r232 = 0.6 * r167;
+    let r234 = 0.25 * r188;
+    let r236 = 0.25 * r191;
+    let r237 = r225 + 0.8 * r76 - r228 + r230 - r232 + r234 + r236;
+    let r238 = 0.25 * r192;
+    let r240 = 0.8 * r201;
+    let r242 = 0.8 * r202;
+    let r244 = 0.8 * r203;
+    let r253 = r148 + 0.6 * r41 - 0.6 * r43 - 0.6 * r45 - 0.25 * r62;
+    let r261 = r253 - 0.25 * r63 - 0.25 * r64 + 0.8 * r77 - 0.8 * r78;
+    let r264 = 0.6 * r170;
+    let r266 = 0.6 * r173;
+    let r268 = 0.6 * r176;
+    let r270 = 0.25 * r193;
+    let r272 = 0.25 * r194;
+    let r273 = r261 + 0.8 * r79 - r264 + r266 - r268 + r270 + r272;
+    let r274 = 0.25 * r195;
+    let r276 = 0.8 * r204;
+    let r278 = 0.8 * r205;
+    let r280 = 0.8 * r206;
+    let r284 = 0.016666666666666666 * s2 - 0.022222222222222223 * c2;
+    let r292 = r284 + 0.35 * r46 - 0.35 * r49 + 0.35 * r50 - 0.05 * r65;
+    let r300 = r292 - 0.05 * r66 + 0.05 * r67 + 0.2 * r80 - 0.2 * r81;
+    let r303 = 0.6 * r179;
+    let r305 = 0.6 * r182;
+    let r307 = 0.6 * r185;
+    let r309 = 0.25 * r196;
+    let r311 = 0.25 * r197;
+    let r312 = r300 - 0.2 * r82 - r303 + r305 - r307 + r309 + r311;
+    let r313 = 0.25 * r198;
+    let r315 = 0.8 * r207;
+    let r317 = 0.8 * r208;
+    let r319 = 0.8 * r209;
+    let r321 = 0.5777777777777777 - (r312 - r313 + r315 - r317 - r319);
+    let r323 = r167 + (r153 - r160);
+    let r325 = 0.5555555555555556 * c5 + 0.4444444444444444;
+    let r326 = r323 * r325;
+    let r328 = r188 + r191 - r192;
+    let r329 = 0.3333333333333333 * s5;
+    let r330 = 0.4444444444444444 * c5;
+    let r332 = r329 + r330 - 0.4444444444444444;
+    let r333 = r328 * r332;
+    let r335 = r201 - r202 - r203;
+    let r336 = 0.6666666666666666 * s5;
+    let r337 = 0.2222222222222222 * c5;
+    let r339 = r336 - r337 + 0.2222222222222222;
+    let r340 = r335 * r339;
+    let r342 = r176 + (r170 - r173);
+    let r343 = r325 * r342;
+    let r345 = r193 + r194 - r195;
+    let r346 = r332 * r345;
+    let r348 = r204 - r205 - r206;
+    let r349 = r339 * r348;
+    let r351 = r185 + (r179 - r182);
+    let r352 = r325 * r351;
+    let r354 = r196 + r197 - r198;
+    let r355 = r332 * r354;
+    let r357 = r207 - r208 - r209;
+    let r358 = r339 * r357;
+    let r360 = r329 - r330 + 0.4444444444444444;
+    let r361 = r323 * r360;
+    let r362 = r325 * r328;
+    let r364 = r336 + r337 - 0.2222222222222222;
+    let r365 = r335 * r364;
+    let r366 = r342 * r360;
+    let r367 = r325 * r345;
+    let r368 = r348 * r364;
+    let r369 = r351 * r360;
+    let r370 = r325 * r354;
+    let r371 = r357 * r364;
+    let r372 = r323 * r364;
+    let r373 = r328 * r339;
+    let r375 = 0.8888888888888888 * c5 + 0.1111111111111111;
+    let r376 = r335 * r375;
+    let r377 = r342 * r364;
+    let r378 = r339 * r345;
+    let r379 = r348 * r375;
+    let r380 = r351 * r364;
+    let r381 = r339 * r354;
+    let r382 = r357 * r375;
+    let r384 = r228 + (r237 - r238 + r240 - r242 - r244) - r230;
+    let r390 = r242 + (r238 + (r232 + r384 - r234 - r236) - r240);
+    let r392 = 0.6 * r326;
+    let r394 = 0.6 * r333;
+    let r396 = 0.6 * r340;
+    let r398 = 0.25 * r361;
+    let r400 = 0.25 * r362;
+    let r401 = r244 + r390 - r392 - r394 - r396 - r398 + r400;
+    let r402 = 0.25 * r365;
+    let r404 = 0.8 * r372;
+    let r406 = 0.8 * r373;
+    let r408 = 0.8 * r376;
+    let r411 = r264 + (r273 - r274 + r276 - r278 - r280) - r266;
+    let r417 = r278 + (r274 + (r268 + r411 - r270 - r272) - r276);
+    let r419 = 0.6 * r343;
+    let r421 = 0.6 * r346;
+    let r423 = 0.6 * r349;
+    let r425 = 0.25 * r366;
+    let r427 = 0.25 * r367;
+    let r428 = r280 + r417 - r419 - r421 - r423 - r425 + r427;
+    let r429 = 0.25 * r368;
+    let r431 = 0.8 * r377;
+    let r433 = 0.8 * r378;
+    let r435 = 0.8 * r379;
+    let r441 = r311 + (r309 + (r305 + (r321 - r303) - r307));
+    let r446 = 0.6 * r352;
+    let r448 = 0.6 * r355;
+    let r449 = r315 + (r441 - r313) - r317 - r319 + r446 + r448;
+    let r450 = 0.6 * r358;
+    let r452 = 0.25 * r369;
+    let r454 = 0.25 * r370;
+    let r456 = 0.25 * r371;
+    let r458 = 0.8 * r380;
+    let r460 = 0.8 * r381;
+    let r461 = r449 + r450 + r452 - r454 - r456 + r458 + r460;
+    let r462 = 0.8 * r382;
+    let r465 = r340 + (r326 + r333);
+    let r467 = 0.8888888888888888 * c6 + 0.1111111111111111;
+    let r468 = r465 * r467;
+    let r470 = r361 - r362 - r365;
+    let r471 = 0.6666666666666666 * s6;
+    let r472 = 0.2222222222222222 * c6;
+    let r474 = r471 + r472 - 0.2222222222222222;
+    let r475 = r470 * r474;
+    let r477 = r372 + r373 - r376;
+    let r479 = r471 - r472 + 0.2222222222222222;
+    let r480 = r477 * r479;
+    let r482 = r349 + (r343 + r346);
+    let r483 = r467 * r482;
+    let r485 = r366 - r367 - r368;
+    let r486 = r474 * r485;
+    let r488 = r377 + r378 - r379;
+    let r489 = r479 * r488;
+    let r491 = r358 + (r352 + r355);
+    let r492 = r467 * r491;
+    let r494 = r369 - r370 - r371;
+    let r495 = r474 * r494;
+    let r497 = r380 + r381 - r382;
+    let r498 = r479 * r497;
+    let r499 = r465 * r479;
+    let r501 = 0.5555555555555556 * c6 + 0.4444444444444444;
+    let r502 = r470 * r501;
+    let r503 = 0.3333333333333333 * s6;
+    let r504 = 0.4444444444444444 * c6;
+    let r506 = r503 + r504 - 0.4444444444444444;
+    let r507 = r477 * r506;
+    let r508 = r479 * r482;
+    let r509 = r485 * r501;
+    let r510 = r488 * r506;
+    let r511 = r479 * r491;
+    let r512 = r494 * r501;
+    let r513 = r497 * r506;
+    let r514 = r465 * r474;
+    let r516 = r503 - r504 + 0.4444444444444444;
+    let r517 = r470 * r516;
+    let r518 = r477 * r501;
+    let r519 = r474 * r482;
+    let r520 = r485 * r516;
+    let r521 = r488 * r501;
+    let r522 = r474 * r491;
+    let r523 = r494 * r516;
+    let r524 = r497 * r501;
+    let r526 = r394 + (r392 + (r401 + r402 - r404 - r406 + r408));
+    let r532 = r406 + (r404 + (r398 + (r396 + r526) - r400 - r402));
+    let r539 = r532 - r408 - 0.6 * r468 - 0.6 * r475 + 0.6 * r480;
+    let r545 = r539 + 0.25 * r499 - 0.25 * r502 + 0.25 * r507;
+    let r553 = r421 + (r419 + (r428 + r429 - r431 - r433 + r435));
+    let r559 = r433 + (r431 + (r425 + (r423 + r553) - r427 - r429));
+    let r566 = r559 - r435 - 0.6 * r483 - 0.6 * r486 + 0.6 * r489;
+    let r572 = r566 + 0.25 * r508 - 0.25 * r509 + 0.25 * r510;
+    let r583 = r454 + (r461 - r462 - r446 - r448 - r450 - r452);
+    let r589 = r462 + (r456 + r583 - r458 - r460) + 0.6 * r492;
+    let r597 = r589 + 0.6 * r495 - 0.6 * r498 - 0.25 * r511 + 0.25 * r512;
+    let r605 = r597 - 0.25 * r513 + 0.8 * r522 + 0.8 * r523 + 0.8 * r524;
+    let r611 = r605 - 0.72 * r492 - 0.72 * r495 + 0.72 * r498;
+    let r617 = r611 + 0.28 * r511 - 0.28 * r512 + 0.28 * r513;
+    let r623 = r617 - 0.95 * r522 - 0.95 * r523 - 0.95 * r524;
+    let r625 = r572 - 0.8 * r519 - 0.8 * r520 - 0.8 * r521 + 0.72 * r483;
+    let r631 = r625 + 0.72 * r486 - 0.72 * r489 - 0.28 * r508;
+    let r637 = r631 + 0.28 * r509 - 0.28 * r510 + 0.95 * r519;
+    let r643 = r545 - 0.8 * r514 - 0.8 * r517 - 0.8 * r518 + 0.72 * r468;
+    let r649 = r643 + 0.72 * r475 - 0.72 * r480 - 0.28 * r499;
+    let r655 = r649 + 0.28 * r502 - 0.28 * r507 + 0.95 * r514;
     [
-        r502,
-        r503,
-        r504,
-        r428,
-        r433,
-        r438,
-        r443,
-        r448,
-        r453,
-        r458,
-        r463,
-        r468,
+        r655 + 0.95 * r517 + 0.95 * r518,
+        r637 + 0.95 * r520 + 0.95 * r521,
+        r623,
+        r468 + r475 - r480,
+        r483 + r486 - r489,
+        r498 - (r492 + r495),
+        0.0 - (r507 + (r499 - r502)),
+        0.0 - (r510 + (r508 - r509)),
+        r513 + (r511 - r512),
+        r518 + (r514 + r517),
+        r521 + (r519 + r520),
+        0.0 - (r524 + (r522 + r523)),
     ]
 }
 
@@ -1428,187 +1751,483 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r5 = 0.3333333333333333 * c1 + 0.6666666666666666 * r1;
-    let r8 = 0.3333333333333333 * s1 + 0.6666666666666666 * c1;
-    let r9 = 0.6666666666666666 * r2;
-    let r12 = 0.1 * c1 + -0.05 * r1;
-    let r15 = 0.1 * s1 + -0.05 * c1;
-    let r16 = 0.3 * r2;
-    let r17 = 1.0 - c2;
-    let r19 = c2 + 0.1111111111111111 * r17;
-    let r20 = 0.2222222222222222 * r17;
-    let r22 = 0.6666666666666666 * s2 + r20;
-    let r24 = -0.6666666666666666 * s2 + r20;
-    let r25 = 0.4444444444444444 * r17;
-    let r26 = c2 + r25;
-    let r30 = -0.3333333333333333 * s2 + r25;
-    let r33 = c1 * r19 + r1 * r22;
-    let r35 = c1 * r22;
-    let r36 = s1 * r19 + r35;
-    let r37 = r2 * r24;
-    let r40 = c1 * r24 + r1 * r26;
-    let r43 = s1 * r24 + c1 * r26;
-    let r44 = r2 * (0.3333333333333333 * s2 + r25);
-    let r46 = r35 + r1 * r30;
-    let r49 = s1 * r22 + c1 * r30;
-    let r50 = r2 * r26;
-    let r71 = -0.2857142857142857 * r33 + 0.8571428571428571 * r40;
-    let r73 = r71 + 0.42857142857142855 * r46;
-    let r76 = -0.2857142857142857 * r36 + 0.8571428571428571 * r43;
-    let r78 = r76 + 0.42857142857142855 * r49;
-    let r81 = -0.2857142857142857 * r37 + 0.8571428571428571 * r44;
-    let r83 = r81 + 0.42857142857142855 * r50;
-    let r99 = r12 - (0.1 * r33 + -0.05 * r40 + 0.3 * r46) + (0.25 * r33 + 0.2 * r40 + 0.6 * r46);
-    let r100 = r15 - (0.1 * r36 + -0.05 * r43 + 0.3 * r49) + (0.25 * r36 + 0.2 * r43 + 0.6 * r49);
-    let r101 = r16 - (0.1 * r37 + -0.05 * r44 + 0.3 * r50) + (0.25 * r37 + 0.2 * r44 + 0.6 * r50);
-    let r102 = 1.0 - c3;
-    let r104 = c3 + 0.08163265306122448 * r102;
-    let r105 = -0.24489795918367346 * r102;
-    let r107 = 0.42857142857142855 * s3 + r105;
-    let r108 = -0.12244897959183673 * r102;
-    let r110 = -0.8571428571428571 * s3 + r108;
-    let r112 = -0.42857142857142855 * s3 + r105;
-    let r114 = c3 + 0.7346938775510204 * r102;
-    let r115 = 0.3673469387755102 * r102;
-    let r117 = -0.2857142857142857 * s3 + r115;
-    let r119 = 0.8571428571428571 * s3 + r108;
-    let r121 = 0.2857142857142857 * s3 + r115;
-    let r123 = c3 + 0.1836734693877551 * r102;
-    let r128 = r33 * r104 + r40 * r107 + r46 * r110;
-    let r133 = r36 * r104 + r43 * r107 + r49 * r110;
-    let r138 = r37 * r104 + r44 * r107 + r50 * r110;
-    let r143 = r33 * r112 + r40 * r114 + r46 * r117;
-    let r148 = r36 * r112 + r43 * r114 + r49 * r117;
-    let r153 = r37 * r112 + r44 * r114 + r50 * r117;
-    let r158 = r33 * r119 + r40 * r121 + r46 * r123;
-    let r163 = r36 * r119 + r43 * r121 + r49 * r123;
-    let r168 = r37 * r119 + r44 * r121 + r50 * r123;
-    let r184 = r99 - (0.25 * r128 + 0.2 * r143 + 0.6 * r158);
-    let r185 = r100 - (0.25 * r133 + 0.2 * r148 + 0.6 * r163);
-    let r186 = r101 - (0.25 * r138 + 0.2 * r153 + 0.6 * r168);
-    let r189 = 0.6666666666666666 * r128 + -0.3333333333333333 * r143;
-    let r191 = r189 + 0.6666666666666666 * r158;
-    let r194 = 0.6666666666666666 * r133 + -0.3333333333333333 * r148;
-    let r196 = r194 + 0.6666666666666666 * r163;
-    let r199 = 0.6666666666666666 * r138 + -0.3333333333333333 * r153;
-    let r201 = r199 + 0.6666666666666666 * r168;
-    let r217 = r184 + (0.6 * r128 + 0.25 * r143 + 0.8 * r158);
-    let r218 = r185 + (0.6 * r133 + 0.25 * r148 + 0.8 * r163);
-    let r219 = r186 + (0.6 * r138 + 0.25 * r153 + 0.8 * r168);
-    let r220 = 1.0 - c4;
-    let r221 = 0.4444444444444444 * r220;
-    let r222 = c4 + r221;
-    let r223 = -0.2222222222222222 * r220;
-    let r225 = 0.6666666666666666 * s4 + r223;
-    let r227 = 0.3333333333333333 * s4 + r221;
-    let r229 = -0.6666666666666666 * s4 + r223;
-    let r231 = c4 + 0.1111111111111111 * r220;
-    let r233 = -0.3333333333333333 * s4 + r221;
-    let r238 = r128 * r222 + r143 * r225 + r158 * r227;
-    let r243 = r133 * r222 + r148 * r225 + r163 * r227;
-    let r248 = r138 * r222 + r153 * r225 + r168 * r227;
-    let r253 = r128 * r229 + r143 * r231 + r158 * r225;
-    let r258 = r133 * r229 + r148 * r231 + r163 * r225;
-    let r263 = r138 * r229 + r153 * r231 + r168 * r225;
-    let r268 = r128 * r233 + r143 * r229 + r158 * r222;
-    let r273 = r133 * r233 + r148 * r229 + r163 * r222;
-    let r278 = r138 * r233 + r153 * r229 + r168 * r222;
-    let r283 = 0.6 * r238 + 0.25 * r253 + 0.8 * r268;
-    let r288 = 0.6 * r243 + 0.25 * r258 + 0.8 * r273;
-    let r293 = 0.6 * r248 + 0.25 * r263 + 0.8 * r278;
-    let r299 = 0.6666666666666666 * r238 + 0.6666666666666666 * r253;
-    let r301 = r299 + -0.3333333333333333 * r268;
-    let r304 = 0.6666666666666666 * r243 + 0.6666666666666666 * r258;
-    let r306 = r304 + -0.3333333333333333 * r273;
-    let r309 = 0.6666666666666666 * r248 + 0.6666666666666666 * r263;
-    let r311 = r309 + -0.3333333333333333 * r278;
-    let r312 = r217 - r283 + r283;
-    let r313 = r218 - r288 + r288;
-    let r314 = r219 - r293 + r293;
-    let r315 = 1.0 - c5;
-    let r316 = 0.4444444444444444 * r315;
-    let r317 = c5 + r316;
-    let r319 = -0.3333333333333333 * s5 + r316;
-    let r320 = -0.2222222222222222 * r315;
-    let r322 = -0.6666666666666666 * s5 + r320;
-    let r324 = 0.3333333333333333 * s5 + r316;
-    let r326 = 0.6666666666666666 * s5 + r320;
-    let r328 = c5 + 0.1111111111111111 * r315;
-    let r333 = r238 * r317 + r253 * r319 + r268 * r322;
-    let r338 = r243 * r317 + r258 * r319 + r273 * r322;
-    let r343 = r248 * r317 + r263 * r319 + r278 * r322;
-    let r348 = r238 * r324 + r253 * r317 + r268 * r326;
-    let r353 = r243 * r324 + r258 * r317 + r273 * r326;
-    let r358 = r248 * r324 + r263 * r317 + r278 * r326;
-    let r363 = r238 * r326 + r253 * r322 + r268 * r328;
-    let r368 = r243 * r326 + r258 * r322 + r273 * r328;
-    let r373 = r248 * r326 + r263 * r322 + r278 * r328;
-    let r378 = 0.6 * r333 + 0.25 * r348 + 0.8 * r363;
-    let r383 = 0.6 * r338 + 0.25 * r353 + 0.8 * r368;
-    let r388 = 0.6 * r343 + 0.25 * r358 + 0.8 * r373;
-    let r394 = -0.3333333333333333 * r333 + 0.6666666666666666 * r348;
-    let r396 = r394 + 0.6666666666666666 * r363;
-    let r399 = -0.3333333333333333 * r338 + 0.6666666666666666 * r353;
-    let r401 = r399 + 0.6666666666666666 * r368;
-    let r404 = -0.3333333333333333 * r343 + 0.6666666666666666 * r358;
-    let r406 = r404 + 0.6666666666666666 * r373;
-    let r407 = r312 - r378 + r378;
-    let r408 = r313 - r383 + r383;
-    let r409 = r314 - r388 + r388;
-    let r410 = 1.0 - c6;
-    let r412 = c6 + 0.1111111111111111 * r410;
-    let r413 = -0.2222222222222222 * r410;
-    let r415 = 0.6666666666666666 * s6 + r413;
-    let r417 = -0.6666666666666666 * s6 + r413;
-    let r418 = 0.4444444444444444 * r410;
-    let r419 = c6 + r418;
-    let r421 = -0.3333333333333333 * s6 + r418;
-    let r423 = 0.3333333333333333 * s6 + r418;
-    let r428 = r333 * r412 + r348 * r415 + r363 * r417;
-    let r433 = r338 * r412 + r353 * r415 + r368 * r417;
-    let r438 = r343 * r412 + r358 * r415 + r373 * r417;
-    let r443 = r333 * r417 + r348 * r419 + r363 * r421;
-    let r448 = r338 * r417 + r353 * r419 + r368 * r421;
-    let r453 = r343 * r417 + r358 * r419 + r373 * r421;
-    let r458 = r333 * r415 + r348 * r423 + r363 * r419;
-    let r463 = r338 * r415 + r353 * r423 + r368 * r419;
-    let r468 = r343 * r415 + r358 * r423 + r373 * r419;
-    let r484 = r407 - (0.6 * r428 + 0.25 * r443 + 0.8 * r458);
-    let r485 = r408 - (0.6 * r433 + 0.25 * r448 + 0.8 * r463);
-    let r486 = r409 - (0.6 * r438 + 0.25 * r453 + 0.8 * r468);
-    let r502 = r484 + (0.72 * r428 + 0.28 * r443 + 0.95 * r458);
-    let r503 = r485 + (0.72 * r433 + 0.28 * r448 + 0.95 * r463);
-    let r504 = r486 + (0.72 * r438 + 0.28 * r453 + 0.95 * r468);
-    let r506 = r502 - r12;
-    let r507 = r503 - r15;
-    let r508 = r504 - r16;
-    let r518 = r502 - r99;
-    let r519 = r503 - r100;
-    let r520 = r504 - r101;
-    let r530 = r502 - r217;
-    let r531 = r503 - r218;
-    let r532 = r504 - r219;
-    let r542 = r502 - r312;
-    let r543 = r503 - r313;
-    let r544 = r504 - r314;
-    let r554 = r502 - r407;
-    let r555 = r503 - r408;
-    let r556 = r504 - r409;
+    let r1 = 0.8888888888888888 * c2 + 0.1111111111111111;
+    let r2 = c1 * r1;
+    let r3 = 0.6666666666666666 * s2;
+    let r4 = 0.2222222222222222 * c2;
+    let r6 = r3 - r4 + 0.2222222222222222;
+    let r7 = s1 * r6;
+    let r8 = s1 * r1;
+    let r9 = c1 * r6;
+    let r11 = r3 + r4 - 0.2222222222222222;
+    let r12 = c1 * r11;
+    let r14 = 0.5555555555555556 * c2 + 0.4444444444444444;
+    let r15 = s1 * r14;
+    let r16 = s1 * r11;
+    let r17 = c1 * r14;
+    let r18 = 0.3333333333333333 * s2;
+    let r19 = 0.4444444444444444 * c2;
+    let r21 = r18 + r19 - 0.4444444444444444;
+    let r22 = s1 * r21;
+    let r23 = c1 * r21;
+    let r24 = r2 - r7;
+    let r26 = 0.9183673469387755 * c3 + 0.08163265306122448;
+    let r27 = r24 * r26;
+    let r28 = r12 + r15;
+    let r29 = 0.42857142857142855 * s3;
+    let r30 = 0.24489795918367346 * c3;
+    let r32 = r29 + r30 - 0.24489795918367346;
+    let r33 = r28 * r32;
+    let r34 = r9 + r22;
+    let r35 = 0.8571428571428571 * s3;
+    let r36 = 0.12244897959183673 * c3;
+    let r38 = r35 - r36 + 0.12244897959183673;
+    let r39 = r34 * r38;
+    let r40 = r8 + r9;
+    let r41 = r26 * r40;
+    let r42 = r16 - r17;
+    let r43 = r32 * r42;
+    let r44 = r7 - r23;
+    let r45 = r38 * r44;
+    let r46 = r11 * r26;
+    let r48 = r18 - r19 + 0.4444444444444444;
+    let r49 = r32 * r48;
+    let r50 = r14 * r38;
+    let r52 = r29 - r30 + 0.24489795918367346;
+    let r53 = r24 * r52;
+    let r55 = 0.2653061224489796 * c3 + 0.7346938775510204;
+    let r56 = r28 * r55;
+    let r57 = 0.2857142857142857 * s3;
+    let r58 = 0.3673469387755102 * c3;
+    let r60 = r57 + r58 - 0.3673469387755102;
+    let r61 = r34 * r60;
+    let r62 = r40 * r52;
+    let r63 = r42 * r55;
+    let r64 = r44 * r60;
+    let r65 = r11 * r52;
+    let r66 = r48 * r55;
+    let r67 = r14 * r60;
+    let r69 = r35 + r36 - 0.12244897959183673;
+    let r70 = r24 * r69;
+    let r72 = r57 - r58 + 0.3673469387755102;
+    let r73 = r28 * r72;
+    let r75 = 0.8163265306122449 * c3 + 0.1836734693877551;
+    let r76 = r34 * r75;
+    let r77 = r40 * r69;
+    let r78 = r42 * r72;
+    let r79 = r44 * r75;
+    let r80 = r11 * r69;
+    let r81 = r48 * r72;
+    let r82 = r14 * r75;
+    let r83 = 0.1 * c1;
+    let r84 = 0.05 * s1;
+    let r86 = 0.15 * r2;
+    let r88 = 0.15 * r7;
+    let r90 = 0.25 * r12;
+    let r92 = 0.25 * r15;
+    let r94 = 0.3 * r9;
+    let r96 = 0.3 * r22;
+    let r97 = r83 + r84 + r86 - r88 - r90 - r92 + r94 + r96;
+    let r105 = r97 - 0.25 * r27 + 0.25 * r33 + 0.25 * r39 + 0.2 * r53;
+    let r113 = r105 + 0.2 * r56 + 0.2 * r61 - 0.6 * r70 + 0.6 * r73;
+    let r115 = r113 - 0.6 * r76;
+    let r116 = 0.1 * s1;
+    let r117 = 0.05 * c1;
+    let r119 = 0.15 * r8;
+    let r121 = 0.15 * r9;
+    let r123 = 0.25 * r16;
+    let r125 = 0.25 * r17;
+    let r127 = 0.3 * r7;
+    let r128 = r116 - r117 + r119 + r121 - r123 + r125 + r127;
+    let r129 = 0.3 * r23;
+    let r136 = r128 - r129 - 0.25 * r41 + 0.25 * r43 + 0.25 * r45;
+    let r144 = r136 + 0.2 * r62 + 0.2 * r63 + 0.2 * r64 - 0.6 * r77;
+    let r148 = r144 + 0.6 * r78 - 0.6 * r79;
+    let r150 = r27 - r33 - r39;
+    let r152 = 0.5555555555555556 * c4 + 0.4444444444444444;
+    let r153 = r150 * r152;
+    let r155 = r61 + (r53 + r56);
+    let r156 = 0.6666666666666666 * s4;
+    let r157 = 0.2222222222222222 * c4;
+    let r159 = r156 + r157 - 0.2222222222222222;
+    let r160 = r155 * r159;
+    let r162 = r76 + (r70 - r73);
+    let r163 = 0.3333333333333333 * s4;
+    let r164 = 0.4444444444444444 * c4;
+    let r166 = r163 - r164 + 0.4444444444444444;
+    let r167 = r162 * r166;
+    let r169 = r41 - r43 - r45;
+    let r170 = r152 * r169;
+    let r172 = r64 + (r62 + r63);
+    let r173 = r159 * r172;
+    let r175 = r79 + (r77 - r78);
+    let r176 = r166 * r175;
+    let r178 = r50 + (r46 - r49);
+    let r179 = r152 * r178;
+    let r181 = r65 + r66 - r67;
+    let r182 = r159 * r181;
+    let r184 = r80 - r81 - r82;
+    let r185 = r166 * r184;
+    let r187 = r156 - r157 + 0.2222222222222222;
+    let r188 = r150 * r187;
+    let r190 = 0.8888888888888888 * c4 + 0.1111111111111111;
+    let r191 = r155 * r190;
+    let r192 = r159 * r162;
+    let r193 = r169 * r187;
+    let r194 = r172 * r190;
+    let r195 = r159 * r175;
+    let r196 = r178 * r187;
+    let r197 = r181 * r190;
+    let r198 = r159 * r184;
+    let r200 = r163 + r164 - 0.4444444444444444;
+    let r201 = r150 * r200;
+    let r202 = r155 * r187;
+    let r203 = r152 * r162;
+    let r204 = r169 * r200;
+    let r205 = r172 * r187;
+    let r206 = r152 * r175;
+    let r207 = r178 * r200;
+    let r208 = r181 * r187;
+    let r209 = r152 * r184;
+    let r210 = 0.6 * r27;
+    let r212 = 0.6 * r33;
+    let r214 = 0.6 * r39;
+    let r216 = 0.25 * r53;
+    let r218 = 0.25 * r56;
+    let r220 = 0.25 * r61;
+    let r221 = r115 + r210 - r212 - r214 - r216 - r218 - r220;
+    let r222 = 0.8 * r70;
+    let r224 = 0.8 * r73;
+    let r226 = 0.8 * r76;
+    let r228 = 0.6 * r153;
+    let r230 = 0.6 * r160;
+    let r232 = 0.6 * r167;
+    let r233 = r221 + r222 - r224 + r226 - r228 + r230 - r232;
+    let r234 = 0.25 * r188;
+    let r236 = 0.25 * r191;
+    let r238 = 0.25 * r192;
+    let r240 = 0.8 * r201;
+    let r242 = 0.8 * r202;
+    let r244 = 0.8 * r203;
+    let r245 = r233 + r234 + r236 - r238 + r240 - r242 - r244;
+    let r246 = 0.6 * r41;
+    let r248 = 0.6 * r43;
+    let r250 = 0.6 * r45;
+    let r252 = 0.25 * r62;
+    let r254 = 0.25 * r63;
+    let r256 = 0.25 * r64;
+    let r257 = r148 + r246 - r248 - r250 - r252 - r254 - r256;
+    let r258 = 0.8 * r77;
+    let r260 = 0.8 * r78;
+    let r262 = 0.8 * r79;
+    let r264 = 0.6 * r170;
+    let r266 = 0.6 * r173;
+    let r268 = 0.6 * r176;
+    let r269 = r257 + r258 - r260 + r262 - r264 + r266 - r268;
+    let r270 = 0.25 * r193;
+    let r272 = 0.25 * r194;
+    let r274 = 0.25 * r195;
+    let r276 = 0.8 * r204;
+    let r278 = 0.8 * r205;
+    let r280 = 0.8 * r206;
+    let r281 = r269 + r270 + r272 - r274 + r276 - r278 - r280;
+    let r282 = 0.016666666666666666 * s2;
+    let r283 = 0.022222222222222223 * c2;
+    let r285 = 0.35 * r46;
+    let r287 = 0.35 * r49;
+    let r289 = 0.35 * r50;
+    let r291 = 0.05 * r65;
+    let r293 = 0.05 * r66;
+    let r294 = r282 - r283 + r285 - r287 + r289 - r291 - r293;
+    let r295 = 0.05 * r67;
+    let r297 = 0.2 * r80;
+    let r299 = 0.2 * r81;
+    let r301 = 0.2 * r82;
+    let r303 = 0.6 * r179;
+    let r305 = 0.6 * r182;
+    let r306 = r294 + r295 + r297 - r299 - r301 - r303 + r305;
+    let r307 = 0.6 * r185;
+    let r309 = 0.25 * r196;
+    let r311 = 0.25 * r197;
+    let r313 = 0.25 * r198;
+    let r315 = 0.8 * r207;
+    let r317 = 0.8 * r208;
+    let r318 = r306 - r307 + r309 + r311 - r313 + r315 - r317;
+    let r319 = 0.8 * r209;
+    let r321 = 0.5777777777777777 - (r318 - r319);
+    let r323 = r167 + (r153 - r160);
+    let r325 = 0.5555555555555556 * c5 + 0.4444444444444444;
+    let r326 = r323 * r325;
+    let r328 = r188 + r191 - r192;
+    let r329 = 0.3333333333333333 * s5;
+    let r330 = 0.4444444444444444 * c5;
+    let r332 = r329 + r330 - 0.4444444444444444;
+    let r333 = r328 * r332;
+    let r335 = r201 - r202 - r203;
+    let r336 = 0.6666666666666666 * s5;
+    let r337 = 0.2222222222222222 * c5;
+    let r339 = r336 - r337 + 0.2222222222222222;
+    let r340 = r335 * r339;
+    let r342 = r176 + (r170 - r173);
+    let r343 = r325 * r342;
+    let r345 = r193 + r194 - r195;
+    let r346 = r332 * r345;
+    let r348 = r204 - r205 - r206;
+    let r349 = r339 * r348;
+    let r351 = r185 + (r179 - r182);
+    let r352 = r325 * r351;
+    let r354 = r196 + r197 - r198;
+    let r355 = r332 * r354;
+    let r357 = r207 - r208 - r209;
+    let r358 = r339 * r357;
+    let r360 = r329 - r330 + 0.4444444444444444;
+    let r361 = r323 * r360;
+    let r362 = r325 * r328;
+    let r364 = r336 + r337 - 0.2222222222222222;
+    let r365 = r335 * r364;
+    let r366 = r342 * r360;
+    let r367 = r325 * r345;
+    let r368 = r348 * r364;
+    let r369 = r351 * r360;
+    let r370 = r325 * r354;
+    let r371 = r357 * r364;
+    let r372 = r323 * r364;
+    let r373 = r328 * r339;
+    let r375 = 0.8888888888888888 * c5 + 0.1111111111111111;
+    let r376 = r335 * r375;
+    let r377 = r342 * r364;
+    let r378 = r339 * r345;
+    let r379 = r348 * r375;
+    let r380 = r351 * r364;
+    let r381 = r339 * r354;
+    let r382 = r357 * r375;
+    let r388 = r238 + (r232 + (r228 + r245 - r230) - r234 - r236);
+    let r392 = 0.6 * r326;
+    let r394 = 0.6 * r333;
+    let r396 = 0.6 * r340;
+    let r397 = r244 + (r242 + (r388 - r240)) - r392 - r394 - r396;
+    let r398 = 0.25 * r361;
+    let r400 = 0.25 * r362;
+    let r402 = 0.25 * r365;
+    let r404 = 0.8 * r372;
+    let r406 = 0.8 * r373;
+    let r408 = 0.8 * r376;
+    let r409 = r397 - r398 + r400 + r402 - r404 - r406 + r408;
+    let r415 = r274 + (r268 + (r264 + r281 - r266) - r270 - r272);
+    let r419 = 0.6 * r343;
+    let r421 = 0.6 * r346;
+    let r423 = 0.6 * r349;
+    let r424 = r280 + (r278 + (r415 - r276)) - r419 - r421 - r423;
+    let r425 = 0.25 * r366;
+    let r427 = 0.25 * r367;
+    let r429 = 0.25 * r368;
+    let r431 = 0.8 * r377;
+    let r433 = 0.8 * r378;
+    let r435 = 0.8 * r379;
+    let r436 = r424 - r425 + r427 + r429 - r431 - r433 + r435;
+    let r441 = r311 + (r309 + (r305 + (r321 - r303) - r307));
+    let r446 = 0.6 * r352;
+    let r448 = 0.6 * r355;
+    let r449 = r315 + (r441 - r313) - r317 - r319 + r446 + r448;
+    let r450 = 0.6 * r358;
+    let r452 = 0.25 * r369;
+    let r454 = 0.25 * r370;
+    let r456 = 0.25 * r371;
+    let r458 = 0.8 * r380;
+    let r460 = 0.8 * r381;
+    let r461 = r449 + r450 + r452 - r454 - r456 + r458 + r460;
+    let r462 = 0.8 * r382;
+    let r463 = r461 - r462;
+    let r465 = r340 + (r326 + r333);
+    let r467 = 0.8888888888888888 * c6 + 0.1111111111111111;
+    let r468 = r465 * r467;
+    let r470 = r361 - r362 - r365;
+    let r471 = 0.6666666666666666 * s6;
+    let r472 = 0.2222222222222222 * c6;
+    let r474 = r471 + r472 - 0.2222222222222222;
+    let r475 = r470 * r474;
+    let r477 = r372 + r373 - r376;
+    let r479 = r471 - r472 + 0.2222222222222222;
+    let r480 = r477 * r479;
+    let r482 = r349 + (r343 + r346);
+    let r483 = r467 * r482;
+    let r485 = r366 - r367 - r368;
+    let r486 = r474 * r485;
+    let r488 = r377 + r378 - r379;
+    let r489 = r479 * r488;
+    let r491 = r358 + (r352 + r355);
+    let r492 = r467 * r491;
+    let r494 = r369 - r370 - r371;
+    let r495 = r474 * r494;
+    let r497 = r380 + r381 - r382;
+    let r498 = r479 * r497;
+    let r499 = r465 * r479;
+    let r501 = 0.5555555555555556 * c6 + 0.4444444444444444;
+    let r502 = r470 * r501;
+    let r503 = 0.3333333333333333 * s6;
+    let r504 = 0.4444444444444444 * c6;
+    let r506 = r503 + r504 - 0.4444444444444444;
+    let r507 = r477 * r506;
+    let r508 = r479 * r482;
+    let r509 = r485 * r501;
+    let r510 = r488 * r506;
+    let r511 = r479 * r491;
+    let r512 = r494 * r501;
+    let r513 = r497 * r506;
+    let r514 = r465 * r474;
+    let r516 = r503 - r504 + 0.4444444444444444;
+    let r517 = r470 * r516;
+    let r518 = r477 * r501;
+    let r519 = r474 * r482;
+    let r520 = r485 * r516;
+    let r521 = r488 * r501;
+    let r522 = r474 * r491;
+    let r523 = r494 * r516;
+    let r524 = r497 * r501;
+    let r529 = r398 + (r396 + (r394 + (r392 + r409))) - r400;
+    let r535 = r406 + (r404 + (r529 - r402)) - r408 - 0.6 * r468;
+    let r543 = r535 - 0.6 * r475 + 0.6 * r480 + 0.25 * r499 - 0.25 * r502;
+    let r551 = r543 + 0.25 * r507 - 0.8 * r514 - 0.8 * r517 - 0.8 * r518;
+    let r556 = r425 + (r423 + (r421 + (r419 + r436))) - r427;
+    let r562 = r433 + (r431 + (r556 - r429)) - r435 - 0.6 * r483;
+    let r570 = r562 - 0.6 * r486 + 0.6 * r489 + 0.25 * r508 - 0.25 * r509;
+    let r578 = r570 + 0.25 * r510 - 0.8 * r519 - 0.8 * r520 - 0.8 * r521;
+    let r584 = r456 + (r454 + (r463 - r446 - r448 - r450 - r452));
+    let r591 = r462 + (r584 - r458 - r460) + 0.6 * r492 + 0.6 * r495;
+    let r597 = r591 - 0.6 * r498 - 0.25 * r511 + 0.25 * r512;
+    let r605 = r597 - 0.25 * r513 + 0.8 * r522 + 0.8 * r523 + 0.8 * r524;
+    let r611 = r605 - 0.72 * r492 - 0.72 * r495 + 0.72 * r498;
+    let r617 = r611 + 0.28 * r511 - 0.28 * r512 + 0.28 * r513;
+    let r623 = r617 - 0.95 * r522 - 0.95 * r523 - 0.95 * r524;
+    let r629 = r578 + 0.72 * r483 + 0.72 * r486 - 0.72 * r489;
+    let r635 = r629 - 0.28 * r508 + 0.28 * r509 - 0.28 * r510;
+    let r641 = r635 + 0.95 * r519 + 0.95 * r520 + 0.95 * r521;
+    let r647 = r551 + 0.72 * r468 + 0.72 * r475 - 0.72 * r480;
+    let r653 = r647 - 0.28 * r499 + 0.28 * r502 - 0.28 * r507;
+    let r659 = r653 + 0.95 * r514 + 0.95 * r517 + 0.95 * r518;
+    let r664 = r483 + r486;
+    let r665 = r664 - r489;
+    let r667 = r468 + r475 - r480;
+    let r673 = r513 + (r511 - r512);
+    let r675 = r510 + (r508 - r509);
+    let r677 = r507 + (r499 - r502);
+    let r684 = r524 + (r522 + r523);
+    let r686 = r521 + (r519 + r520);
+    let r688 = r518 + (r514 + r517);
+    let r695 = 0.3333333333333333 * s1 + 0.6666666666666666 * c1;
+    let r696 = r623 - 0.3;
+    let r701 = r695 * r696 - 0.6666666666666666 * r578 - 0.48 * r483;
+    let r707 = r701 - 0.48 * r486 + 0.48 * r489 + 0.18666666666666668 * r508;
+    let r711 = r707 - 0.18666666666666668 * r509 + 0.18666666666666668 * r510;
+    let r715 = r711 - 0.6333333333333333 * r519 - 0.6333333333333333 * r520;
+    let r719 = r715 - 0.6333333333333333 * r521 + 0.06666666666666667 * s1;
+    let r724 = 0.3333333333333333 * c1 - 0.6666666666666666 * s1;
+    let r730 = 0.6666666666666666 * r551 + 0.48 * r468 + 0.48 * r475;
+    let r734 = r730 - 0.48 * r480 - 0.18666666666666668 * r499;
+    let r738 = r734 + 0.18666666666666668 * r502 - 0.18666666666666668 * r507;
+    let r742 = r738 + 0.6333333333333333 * r514 + 0.6333333333333333 * r517;
+    let r746 = r742 + 0.6333333333333333 * r518 - 0.06666666666666667 * c1;
+    let r749 = r746 - 0.03333333333333333 * s1 - r696 * r724;
+    let r751 = r117 + (r641 - r116);
+    let r754 = r659 - r83 - r84;
+    let r761 = r92 + (r90 + (r88 + (r754 - r86))) - r94 - r96;
+    let r767 = r129 + (r123 + (r751 - r119 - r121) - r125 - r127);
+    let r770 = 0.2857142857142857 * r8 + 0.2857142857142857 * r9;
+    let r774 = r770 + 0.8571428571428571 * r16 - 0.8571428571428571 * r17;
+    let r778 = r774 - 0.42857142857142855 * r7 + 0.42857142857142855 * r23;
+    let r780 = r282 + r623 - r283;
+    let r781 = r780 - 0.5777777777777777;
+    let r785 = 0.47619047619047616 * s2 - 0.07936507936507936 * c2;
+    let r786 = r785 + 0.5079365079365079;
+    let r791 = 0.2857142857142857 * r2 - 0.2857142857142857 * r7;
+    let r795 = r791 + 0.8571428571428571 * r12 + 0.8571428571428571 * r15;
+    let r799 = r795 - 0.42857142857142855 * r9 - 0.42857142857142855 * r22;
+    let r807 = r216 + (r214 + (r212 + (r659 - r115 - r210)));
+    let r812 = r224 + (r220 + (r218 + r807) - r222) - r226;
+    let r817 = r252 + (r250 + (r248 + (r641 - r148 - r246)));
+    let r822 = r260 + (r256 + (r254 + r817) - r258) - r262;
+    let r828 = r295 + (r289 + (r285 + r780 - r287) - r291 - r293);
+    let r832 = r297 + r828 - r299 - r301 - 0.5777777777777777;
+    let r835 = 0.6666666666666666 * r41 - 0.6666666666666666 * r43;
+    let r839 = r835 - 0.6666666666666666 * r45 + 0.3333333333333333 * r62;
+    let r843 = r839 + 0.3333333333333333 * r63 + 0.3333333333333333 * r64;
+    let r847 = r843 + 0.6666666666666666 * r77 - 0.6666666666666666 * r78;
+    let r849 = r847 + 0.6666666666666666 * r79;
+    let r853 = 0.6666666666666666 * r46 - 0.6666666666666666 * r49;
+    let r857 = r853 + 0.6666666666666666 * r50 + 0.3333333333333333 * r65;
+    let r861 = r857 + 0.3333333333333333 * r66 - 0.3333333333333333 * r67;
+    let r865 = r861 + 0.6666666666666666 * r80 - 0.6666666666666666 * r81;
+    let r867 = r865 - 0.6666666666666666 * r82;
+    let r872 = 0.6666666666666666 * r27 - 0.6666666666666666 * r33;
+    let r876 = r872 - 0.6666666666666666 * r39 + 0.3333333333333333 * r53;
+    let r880 = r876 + 0.3333333333333333 * r56 + 0.3333333333333333 * r61;
+    let r884 = r880 + 0.6666666666666666 * r70 - 0.6666666666666666 * r73;
+    let r886 = r884 + 0.6666666666666666 * r76;
+    let r895 = r236 + (r234 + (r230 + (r659 - r245 - r228) - r232));
+    let r899 = r240 + (r895 - r238) - r242 - r244;
+    let r905 = r272 + (r270 + (r266 + (r641 - r281 - r264) - r268));
+    let r909 = r276 + (r905 - r274) - r278 - r280;
+    let r915 = r307 + (r303 + (r623 - r321) - r305) - r309 - r311;
+    let r919 = r319 + (r317 + (r313 + r915 - r315));
+    let r922 = 0.6666666666666666 * r170 - 0.6666666666666666 * r173;
+    let r926 = r922 + 0.6666666666666666 * r176 - 0.6666666666666666 * r193;
+    let r930 = r926 - 0.6666666666666666 * r194 + 0.6666666666666666 * r195;
+    let r934 = r930 + 0.3333333333333333 * r204 - 0.3333333333333333 * r205;
+    let r936 = r934 - 0.3333333333333333 * r206;
+    let r940 = 0.6666666666666666 * r179 - 0.6666666666666666 * r182;
+    let r944 = r940 + 0.6666666666666666 * r185 - 0.6666666666666666 * r196;
+    let r948 = r944 - 0.6666666666666666 * r197 + 0.6666666666666666 * r198;
+    let r952 = r948 + 0.3333333333333333 * r207 - 0.3333333333333333 * r208;
+    let r954 = r952 - 0.3333333333333333 * r209;
+    let r959 = 0.6666666666666666 * r153 - 0.6666666666666666 * r160;
+    let r963 = r959 + 0.6666666666666666 * r167 - 0.6666666666666666 * r188;
+    let r967 = r963 - 0.6666666666666666 * r191 + 0.6666666666666666 * r192;
+    let r971 = r967 + 0.3333333333333333 * r201 - 0.3333333333333333 * r202;
+    let r973 = r971 - 0.3333333333333333 * r203;
+    let r982 = r400 + (r659 - r409 - r392 - r394 - r396 - r398);
+    let r986 = r408 + (r402 + r982 - r404 - r406);
+    let r992 = r427 + (r641 - r436 - r419 - r421 - r423 - r425);
+    let r996 = r435 + (r429 + r992 - r431 - r433);
+    let r1001 = r452 + (r450 + (r448 + (r446 + (r623 - r463))));
+    let r1006 = r460 + (r458 + (r1001 - r454 - r456)) - r462;
+    let r1009 = 0.3333333333333333 * r343 + 0.3333333333333333 * r346;
+    let r1013 = r1009 + 0.3333333333333333 * r349 - 0.6666666666666666 * r366;
+    let r1017 = r1013 + 0.6666666666666666 * r367 + 0.6666666666666666 * r368;
+    let r1021 = r1017 - 0.6666666666666666 * r377 - 0.6666666666666666 * r378;
+    let r1023 = r1021 + 0.6666666666666666 * r379;
+    let r1027 = 0.3333333333333333 * r352 + 0.3333333333333333 * r355;
+    let r1031 = r1027 + 0.3333333333333333 * r358 - 0.6666666666666666 * r369;
+    let r1035 = r1031 + 0.6666666666666666 * r370 + 0.6666666666666666 * r371;
+    let r1039 = r1035 - 0.6666666666666666 * r380 - 0.6666666666666666 * r381;
+    let r1041 = r1039 + 0.6666666666666666 * r382;
+    let r1046 = 0.3333333333333333 * r326 + 0.3333333333333333 * r333;
+    let r1050 = r1046 + 0.3333333333333333 * r340 - 0.6666666666666666 * r361;
+    let r1054 = r1050 + 0.6666666666666666 * r362 + 0.6666666666666666 * r365;
+    let r1058 = r1054 - 0.6666666666666666 * r372 - 0.6666666666666666 * r373;
+    let r1060 = r1058 + 0.6666666666666666 * r376;
+    let r1082 = r492 + r495 - r498;
+    let r1115 = r695 * r1082 + 0.6666666666666666 * r483 + 0.6666666666666666 * r486;
+    let r1124 = 0.6666666666666666 * r468 + 0.6666666666666666 * r475;
+    let r1127 = r724 * r1082 + (r1124 - 0.6666666666666666 * r480);
+    let r1168 = r695 * r673 + 0.6666666666666666 * r508 - 0.6666666666666666 * r509;
+    let r1177 = 0.6666666666666666 * r499 - 0.6666666666666666 * r502;
+    let r1180 = r724 * r673 + (r1177 + 0.6666666666666666 * r507);
+    let r1223 = r695 * r684 + 0.6666666666666666 * r519 + 0.6666666666666666 * r520;
+    let r1233 = 0.6666666666666666 * r514 + 0.6666666666666666 * r517;
+    let r1236 = r724 * r684 + (r1233 + 0.6666666666666666 * r518);
     [
-        [0.0 - r503, r8 * r508 - r9 * r507, r78 * r520 - r83 * r519, r196 * r532 - r201 * r531, r306 * r544 - r311 * r543, r401 * r556 - r406 * r555],
-        [r502, r9 * r506 - r5 * r508, r83 * r518 - r73 * r520, r201 * r530 - r191 * r532, r311 * r542 - r301 * r544, r406 * r554 - r396 * r556],
-        [0.0, r5 * r507 - r8 * r506, r73 * r519 - r78 * r518, r191 * r531 - r196 * r530, r301 * r543 - r306 * r542, r396 * r555 - r401 * r554],
-        [0.0 - r433, r8 * r438 - r9 * r433, r78 * r438 - r83 * r433, r196 * r438 - r201 * r433, r306 * r438 - r311 * r433, r401 * r438 - r406 * r433],
-        [r428, r9 * r428 - r5 * r438, r83 * r428 - r73 * r438, r201 * r428 - r191 * r438, r311 * r428 - r301 * r438, r406 * r428 - r396 * r438],
-        [0.0, r5 * r433 - r8 * r428, r73 * r433 - r78 * r428, r191 * r433 - r196 * r428, r301 * r433 - r306 * r428, r396 * r433 - r401 * r428],
-        [0.0 - r448, r8 * r453 - r9 * r448, r78 * r453 - r83 * r448, r196 * r453 - r201 * r448, r306 * r453 - r311 * r448, r401 * r453 - r406 * r448],
-        [r443, r9 * r443 - r5 * r453, r83 * r443 - r73 * r453, r201 * r443 - r191 * r453, r311 * r443 - r301 * r453, r406 * r443 - r396 * r453],
-        [0.0, r5 * r448 - r8 * r443, r73 * r448 - r78 * r443, r191 * r448 - r196 * r443, r301 * r448 - r306 * r443, r396 * r448 - r401 * r443],
-        [0.0 - r463, r8 * r468 - r9 * r463, r78 * r468 - r83 * r463, r196 * r468 - r201 * r463, r306 * r468 - r311 * r463, r401 * r468 - r406 * r463],
-        [r458, r9 * r458 - r5 * r468, r83 * r458 - r73 * r468, r201 * r458 - r191 * r468, r311 * r458 - r301 * r468, r406 * r458 - r396 * r468],
-        [0.0, r5 * r463 - r8 * r458, r73 * r463 - r78 * r458, r191 * r463 - r196 * r458, r301 * r463 - r306 * r458, r396 * r463 - r401 * r458],
+        [0.0 - r641, r719 - 0.03333333333333333 * c1, 0.0 - (r778 * r781 + r767 * r786), r832 * r849 + r822 * r867, r919 * r936 + r909 * r954, 0.0 - (r1006 * r1023 + r996 * r1041)],
+        [r659, r749, r761 * r786 + r781 * r799, 0.0 - (r812 * r867 + r832 * r886), 0.0 - (r899 * r954 + r919 * r973), r986 * r1041 + r1006 * r1060],
+        [0.0, r724 * r751 - r695 * r754, r761 * r778 - r767 * r799, r822 * r886 - r812 * r849, r909 * r973 - r899 * r936, r986 * r1023 - r996 * r1060],
+        [r489 - r664, 0.6666666666666666 * r489 - r1115, r778 * r1082 - r786 * r665, r867 * r665 - r849 * r1082, r954 * r665 - r936 * r1082, r1023 * r1082 - r1041 * r665],
+        [r667, r1127, r786 * r667 - r799 * r1082, r886 * r1082 - r867 * r667, r973 * r1082 - r954 * r667, r1041 * r667 - r1060 * r1082],
+        [0.0, r724 * r665 - r695 * r667, r778 * r667 - r799 * r665, r886 * r665 - r849 * r667, r973 * r665 - r936 * r667, r1023 * r667 - r1060 * r665],
+        [r675, r1168 + 0.6666666666666666 * r510, r786 * r675 - r778 * r673, r849 * r673 - r867 * r675, r936 * r673 - r954 * r675, r1041 * r675 - r1023 * r673],
+        [0.0 - r677, 0.0 - r1180, r799 * r673 - r786 * r677, r867 * r677 - r886 * r673, r954 * r677 - r973 * r673, r1060 * r673 - r1041 * r677],
+        [0.0, r695 * r677 - r724 * r675, r799 * r675 - r778 * r677, r849 * r677 - r886 * r675, r936 * r677 - r973 * r675, r1060 * r675 - r1023 * r677],
+        [0.0 - r686, 0.0 - (r1223 + 0.6666666666666666 * r521), r778 * r684 - r786 * r686, r867 * r686 - r849 * r684, r954 * r686 - r936 * r684, r1023 * r684 - r1041 * r686],
+        [r688, r1236, r786 * r688 - r799 * r684, r886 * r684 - r867 * r688, r973 * r684 - r954 * r688, r1041 * r688 - r1060 * r684],
+        [0.0, r724 * r686 - r695 * r688, r778 * r688 - r799 * r686, r886 * r686 - r849 * r688, r973 * r686 - r936 * r688, r1023 * r688 - r1060 * r686],
     ]
 }
 

@@ -316,35 +316,24 @@ static Parameters parameters(const double *target)
 static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], c4 = cos(q[3]);
-    const double s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r2 = c1 + (1.0 - c1), r3 = 0.66 * r2, r7 = c2 + (1.0 - c2), r9 = c1 * r7, r10 = (0.0 - s1) * r7;
-    const double r11 = s1 * s2, r12 = r2 * c2, r13 = c1 * s2, r14 = s1 * c2, r15 = r2 * (0.0 - s2);
-    const double r16 = c1 * c2, r34 = 0.66 - r3 + r3 - 0.66 * r12 + r12 * d3 + 0.86 * r12, r37 = 0.0 - s4;
-    const double r38 = c4 + (1.0 - c4), r46 = r11 * r38, r47 = r12 * r38, r48 = r13 * r38;
-    const double r51 = r9 * s4 + r14 * c4, r52 = r15 * c4, r55 = r10 * s4 + r16 * c4, r56 = 0.86 * r46;
-    const double r57 = 0.86 * r47, r58 = 0.86 * r48, r59 = 0.0 - 0.66 * r11 + r11 * d3 + 0.86 * r11 - r56;
-    const double r61 = 0.0 - 0.66 * r13 + r13 * d3 + 0.86 * r13 - r58, r66 = c5 + (1.0 - c5), r67 = 0.0 - s5;
-    const double r68 = (r9 * c4 + r14 * r37) * r66, r69 = r15 * r37 * r66, r70 = (r10 * c4 + r16 * r37) * r66;
-    const double r73 = r46 * c5 + r51 * s5, r76 = r47 * c5 + r52 * s5, r79 = r48 * c5 + r55 * s5;
-    const double r89 = 0.86 * r73, r90 = 0.86 * r76, r91 = 0.86 * r79, r99 = 0.0 - s6, r100 = c6 + (1.0 - c6);
-    const double r112 = r68 * r99 + r73 * c6, r115 = r69 * r99 + r76 * c6, r118 = r70 * r99 + r79 * c6;
-    const double r119 = (r46 * r67 + r51 * c5) * r100, r120 = (r47 * r67 + r52 * c5) * r100;
-    const double r121 = (r48 * r67 + r55 * c5) * r100, r122 = 0.86 * r112, r123 = 0.86 * r115;
-    const double r124 = 0.86 * r118, r134 = r59 + r56 - r89 + r89 - r122 + (r122 + 0.2 * r119);
-    const double r135 = r34 - r57 + r57 - r90 + r90 - r123 + (r123 + 0.2 * r120);
-    const double r136 = r61 + r58 - r91 + r91 - r124 + (r124 + 0.2 * r121);
-    reached[0] = r134;
-    reached[1] = r135;
-    reached[2] = r136;
-    reached[3] = r68 * c6 + r73 * s6;
-    reached[4] = r69 * c6 + r76 * s6;
-    reached[5] = r70 * c6 + r79 * s6;
-    reached[6] = r112;
-    reached[7] = r115;
-    reached[8] = r118;
-    reached[9] = r119;
-    reached[10] = r120;
-    reached[11] = r121;
+    const double s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]), r0 = s1 * s2;
+    const double r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2, r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2;
+    const double r24 = s1 * s4 - c4 * r3, r26 = s5 * r0, r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15;
+    const double r30 = s5 * r1, r31 = c5 * r24, r32 = c1 * c4 - s4 * r2, r34 = c5 * r0 + s5 * r19;
+    const double r37 = c2 * c5 - s5 * r15, r39 = s1 * c4 + s4 * r3, r41 = c5 * r1 - s5 * r24;
+    const double r71 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29 + 0.66;
+    reached[0] = d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27;
+    reached[1] = r71;
+    reached[2] = d3 * r1 + 0.2 * r1 - 0.2 * r30 - 0.2 * r31;
+    reached[3] = c6 * r32 + s6 * r34;
+    reached[4] = c6 * r10 + s6 * r37;
+    reached[5] = s6 * r41 - c6 * r39;
+    reached[6] = c6 * r34 - s6 * r32;
+    reached[7] = c6 * r37 - s6 * r10;
+    reached[8] = s6 * r39 + c6 * r41;
+    reached[9] = r27 - r26;
+    reached[10] = 0.0 - (r28 + r29);
+    reached[11] = 0.0 - (r30 + r31);
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -357,7 +346,7 @@ static Equations equations(const Parameters *p, const double *q)
 {
     double reached[TIP];
     tip(q, reached);
-    const double d3 = q[2], r137 = fabs(d3) + 1.06;
+    const double d3 = q[2], r49 = fabs(d3) + 1.06;
     const Equations result = {
         {
             reached[0] - p->px,
@@ -374,9 +363,9 @@ static Equations equations(const Parameters *p, const double *q)
             reached[11] - p->r33_,
         },
         {
-            r137,
-            r137,
-            r137,
+            r49,
+            r49,
+            r49,
             1.0,
             1.0,
             1.0,
@@ -400,41 +389,32 @@ static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], c4 = cos(q[3]);
-    const double s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]), r1 = 0.0 - s1;
-    const double r2 = c1 + (1.0 - c1), r3 = 0.66 * r2, r5 = 0.66 - r3 + r3, r7 = c2 + (1.0 - c2), r9 = c1 * r7;
-    const double r10 = r1 * r7, r11 = s1 * s2, r12 = r2 * c2, r13 = c1 * s2, r14 = s1 * c2;
-    const double r15 = r2 * (0.0 - s2), r16 = c1 * c2, r33 = 0.0 - 0.66 * r11 + r11 * d3 + 0.86 * r11;
-    const double r34 = r5 - 0.66 * r12 + r12 * d3 + 0.86 * r12, r35 = 0.0 - 0.66 * r13 + r13 * d3 + 0.86 * r13;
-    const double r37 = 0.0 - s4, r38 = c4 + (1.0 - c4), r41 = r9 * c4 + r14 * r37, r42 = r15 * r37;
-    const double r45 = r10 * c4 + r16 * r37, r46 = r11 * r38, r47 = r12 * r38, r48 = r13 * r38;
-    const double r51 = r9 * s4 + r14 * c4, r52 = r15 * c4, r55 = r10 * s4 + r16 * c4, r56 = 0.86 * r46;
-    const double r57 = 0.86 * r47, r58 = 0.86 * r48, r62 = r33 - r56 + r56, r63 = r34 - r57 + r57;
-    const double r64 = r35 - r58 + r58, r66 = c5 + (1.0 - c5), r67 = 0.0 - s5, r68 = r41 * r66, r69 = r42 * r66;
-    const double r70 = r45 * r66, r73 = r46 * c5 + r51 * s5, r76 = r47 * c5 + r52 * s5;
-    const double r79 = r48 * c5 + r55 * s5, r82 = r46 * r67 + r51 * c5, r85 = r47 * r67 + r52 * c5;
-    const double r88 = r48 * r67 + r55 * c5, r89 = 0.86 * r73, r90 = 0.86 * r76, r91 = 0.86 * r79;
-    const double r95 = r62 - r89 + r89, r96 = r63 - r90 + r90, r97 = r64 - r91 + r91, r99 = 0.0 - s6;
-    const double r100 = c6 + (1.0 - c6), r103 = r68 * c6 + r73 * s6, r106 = r69 * c6 + r76 * s6;
-    const double r109 = r70 * c6 + r79 * s6, r112 = r68 * r99 + r73 * c6, r115 = r69 * r99 + r76 * c6;
-    const double r118 = r70 * r99 + r79 * c6, r119 = r82 * r100, r120 = r85 * r100, r121 = r88 * r100;
-    const double r122 = 0.86 * r112, r123 = 0.86 * r115, r124 = 0.86 * r118;
-    const double r134 = r95 - r122 + (r122 + 0.2 * r119), r135 = r96 - r123 + (r123 + 0.2 * r120);
-    const double r136 = r97 - r124 + (r124 + 0.2 * r121), r140 = r135 - r5, r147 = r134 - r33, r148 = r135 - r34;
-    const double r149 = r136 - r35, r159 = r134 - r62, r160 = r135 - r63, r161 = r136 - r64, r171 = r134 - r95;
-    const double r172 = r135 - r96, r173 = r136 - r97;
+    const double s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]), r0 = s1 * s2;
+    const double r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2, r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2;
+    const double r24 = s1 * s4 - c4 * r3, r26 = s5 * r0, r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15;
+    const double r30 = s5 * r1, r31 = c5 * r24, r32 = c1 * c4 - s4 * r2, r34 = c5 * r0 + s5 * r19;
+    const double r37 = c2 * c5 - s5 * r15, r39 = s1 * c4 + s4 * r3, r40 = c6 * r39, r41 = c5 * r1 - s5 * r24;
+    const double r42 = s6 * r41, r55 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29;
+    const double r61 = d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27;
+    const double r67 = d3 * r1 + 0.2 * r1 - 0.2 * r30 - 0.2 * r31, r68 = r30 + r31, r69 = r28 + r29;
+    const double r74 = c6 * r10 + s6 * r37, r75 = c6 * r32 + s6 * r34, r80 = s6 * r39 + c6 * r41, r96 = c2 * r68;
+    const double r97 = r1 * r69, r98 = r26 - r27, r99 = r1 * r98, r100 = r0 * r68, r101 = r0 * r69;
+    const double r102 = c2 * r98, r107 = r32 * r69, r108 = r10 * r98, r112 = r10 * r68 + r39 * r69;
+    const double r120 = r39 * r98 + r32 * r68, r131 = r40 - r42, r165 = s6 * r10 - c6 * r37;
+    const double r167 = s6 * r32 - c6 * r34;
     const Jacobian result = { {
-        {r136, 0.0 - r1 * r140, r11, r12 * r149 - r13 * r148, r42 * r161 - r45 * r160, r85 * r173 - r88 * r172},
-        {0.0, r1 * r134 - c1 * r136, r12, r13 * r147 - r11 * r149, r45 * r159 - r41 * r161, r88 * r171 - r82 * r173},
-        {0.0 - r134, c1 * r140, r13, r11 * r148 - r12 * r147, r41 * r160 - r42 * r159, r82 * r172 - r85 * r171},
-        {r109, 0.0 - r1 * r106, 0.0, r12 * r109 - r13 * r106, r42 * r109 - r45 * r106, r85 * r109 - r88 * r106},
-        {0.0, r1 * r103 - c1 * r109, 0.0, r13 * r103 - r11 * r109, r45 * r103 - r41 * r109, r88 * r103 - r82 * r109},
-        {0.0 - r103, c1 * r106, 0.0, r11 * r106 - r12 * r103, r41 * r106 - r42 * r103, r82 * r106 - r85 * r103},
-        {r118, 0.0 - r1 * r115, 0.0, r12 * r118 - r13 * r115, r42 * r118 - r45 * r115, r85 * r118 - r88 * r115},
-        {0.0, r1 * r112 - c1 * r118, 0.0, r13 * r112 - r11 * r118, r45 * r112 - r41 * r118, r88 * r112 - r82 * r118},
-        {0.0 - r112, c1 * r115, 0.0, r11 * r115 - r12 * r112, r41 * r115 - r42 * r112, r82 * r115 - r85 * r112},
-        {r121, 0.0 - r1 * r120, 0.0, r12 * r121 - r13 * r120, r42 * r121 - r45 * r120, r85 * r121 - r88 * r120},
-        {0.0, r1 * r119 - c1 * r121, 0.0, r13 * r119 - r11 * r121, r45 * r119 - r41 * r121, r88 * r119 - r82 * r121},
-        {0.0 - r119, c1 * r120, 0.0, r11 * r120 - r12 * r119, r41 * r120 - r42 * r119, r82 * r120 - r85 * r119},
+        {r67, s1 * r55, r0, 0.0 - 0.2 * (r96 - r97), 0.0 - 0.2 * r112, 0.0},
+        {0.0, 0.0 - (s1 * r61 + c1 * r67), c2, 0.0 - 0.2 * (r99 - r100), 0.2 * r120, 0.0},
+        {0.0 - r61, c1 * r55, r1, 0.0 - 0.2 * (r101 - r102), 0.0 - 0.2 * (r107 - r108), 0.0},
+        {r42 - r40, s1 * r74, 0.0, 0.0 - (c2 * r131 + r1 * r74), r39 * r74 - r10 * r131, r69 * r131 + r68 * r74},
+        {0.0, c1 * r131 - s1 * r75, 0.0, r1 * r75 + r0 * r131, r32 * r131 - r39 * r75, 0.0 - (r68 * r75 + r98 * r131)},
+        {0.0 - r75, c1 * r74, 0.0, r0 * r74 - c2 * r75, r32 * r74 - r10 * r75, r69 * r75 - r98 * r74},
+        {r80, 0.0 - s1 * r165, 0.0, c2 * r80 + r1 * r165, r10 * r80 - r39 * r165, 0.0 - (r69 * r80 + r68 * r165)},
+        {0.0, s1 * r167 - c1 * r80, 0.0, 0.0 - (r1 * r167 + r0 * r80), r39 * r167 - r32 * r80, r68 * r167 + r98 * r80},
+        {r167, 0.0 - c1 * r165, 0.0, c2 * r167 - r0 * r165, r10 * r167 - r32 * r165, r98 * r165 - r69 * r167},
+        {0.0 - r68, 0.0 - s1 * r69, 0.0, r97 - r96, 0.0 - r112, 0.0},
+        {0.0, s1 * r98 + c1 * r68, 0.0, r100 - r99, r120, 0.0},
+        {r98, 0.0 - c1 * r69, 0.0, r102 - r101, r108 - r107, 0.0},
     } };
     return result;
 }
@@ -1166,16 +1146,17 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r76;
-    double r77;
+    double r8;
+    double r10;
+    double r22;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r79 = 0.0 - shared->r77, r81 = 0.0 - (-0.0 - shared->r76);
-    const double r85 = sqrt(fmax(r81 * r81 + r79 * r79, 0.0)), c6 = r81 / r85, s6 = r79 / r85;
+    const double r23 = shared->r10 - shared->r8, r27 = sqrt(fmax(shared->r22 * shared->r22 + r23 * r23, 0.0));
+    const double c6 = shared->r22 / r27, s6 = r23 / r27;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1190,33 +1171,29 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: WristRoll. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r12_ * known->c1 + (0.0 - p->r32_) * known->s1;
-    const double r10 = p->r32_ * known->c1 + (0.0 - (0.0 - p->r12_)) * known->s1;
-    const double r15 = 0.0 - (p->r22_ + (p->r22_ - p->r22_) * known->c1);
-    const double r29 = (0.0 - (r10 * known->c2 + r15 * known->s2)) * known->s4;
-    const double r30 = (r6 + (r6 - r6) * known->c2) * known->c4 + r29, r37 = 0.0 - p->r11_, r38 = 0.0 - p->r21_;
-    const double r39 = 0.0 - p->r31_, r46 = r37 * known->c1 + (0.0 - r39) * known->s1;
-    const double r50 = r39 * known->c1 + (0.0 - (0.0 - r37)) * known->s1;
-    const double r61 = (0.0 - (r38 + (r38 - r38) * known->c1)) * known->s2;
-    const double r70 = (r46 + (r46 - r46) * known->c2) * known->c4 + (0.0 - (r50 * known->c2 + r61)) * known->s4;
-    const double r76 = 0.0 - r70, r77 = 0.0 - (0.0 - r30);
-    const Shared6 own = { r76, r77 };
+    const double r5 = known->c2 * (p->r32_ * known->c1 + p->r12_ * known->s1);
+    const double r8 = known->c4 * (p->r12_ * known->c1 - p->r32_ * known->s1);
+    const double r10 = known->s4 * (r5 - p->r22_ * known->s2);
+    const double r16 = known->c2 * (p->r31_ * known->c1 + p->r11_ * known->s1);
+    const double r19 = known->c4 * (p->r11_ * known->c1 - p->r31_ * known->s1);
+    const double r22 = r19 - known->s4 * (r16 - p->r21_ * known->s2);
+    const Shared6 own = { r8, r10, r22 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r38;
-    double r39;
+    double r13;
+    double r14;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r41 = 0.0 - shared->r38, r43 = 0.0 - (-0.0 - shared->r39);
-    const double r47 = sqrt(fmax(r43 * r43 + r41 * r41, 0.0)), c5 = r43 / r47, s5 = r41 / r47;
+    const double r17 = shared->r14 * shared->r14 + shared->r13 * shared->r13, r18 = sqrt(fmax(r17, 0.0));
+    const double c5 = shared->r14 / r18, s5 = 0.0 - shared->r13 / r18;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1228,22 +1205,19 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: WristPitch. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - p->r33_) * known->s1;
-    const double r10 = p->r33_ * known->c1 + (0.0 - (0.0 - p->r13_)) * known->s1;
-    const double r11 = p->r23_ + (p->r23_ - p->r23_) * known->c1;
-    const double r19 = r11 * known->c2 + (0.0 - (0.0 - r10)) * known->s2;
-    const double r33 = (r10 * known->c2 + (0.0 - r11) * known->s2) * known->c4;
-    const double r34 = (0.0 - (0.0 - (r6 + (r6 - r6) * known->c2))) * known->s4, r38 = 0.0 - (0.0 - r19);
-    const double r39 = 0.0 - (0.0 - (r33 + r34));
-    const Shared5 own = { r38, r39 };
+    const double r5 = p->r33_ * known->c1 + p->r13_ * known->s1;
+    const double r11 = known->c4 * (known->c2 * r5 - p->r23_ * known->s2);
+    const double r12 = known->s4 * (p->r13_ * known->c1 - p->r33_ * known->s1);
+    const double r13 = p->r23_ * known->c2 + known->s2 * r5, r14 = r11 + r12;
+    const Shared5 own = { r13, r14 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r25;
-    double r28;
+    double r7;
+    double r8;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1251,16 +1225,15 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r30 = shared->r25 * shared->r25, r31 = shared->r28 * shared->r28, r32 = r30 + r31;
-    if (!is_away(r32, 610000.0)) {
+    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8, r11 = r9 + r10;
+    if (!is_away(r11, 610000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r30 - r31, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r9 - r10, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, known->f2 * (7.810249675906654 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r40 = (0.0 - (0.0 - shared->r25 * w4)) / r32;
-        const double r43 = (0.0 - shared->r28 * w4) / r32, r47 = sqrt(fmax(r43 * r43 + r40 * r40, 0.0));
-        const double c4 = r43 / r47, s4 = r40 / r47;
+        const double w4 = roots0.values[i0], r17 = w4 * shared->r7 / r11, r19 = w4 * shared->r8 / r11;
+        const double r23 = sqrt(fmax(r19 * r19 + r17 * r17, 0.0)), c4 = 0.0 - r19 / r23, s4 = r17 / r23;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1276,8 +1249,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r32 = shared->r25 * shared->r25 + shared->r28 * shared->r28;
-    if (!is_near(r32, 6.100000000000001e-6)) {
+    const double r11 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
+    if (!is_near(r11, 6.100000000000001e-6)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1295,12 +1268,9 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: WristYaw. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->r13_ * known->c1 + (0.0 - p->r33_) * known->s1;
-    const double r10 = p->r33_ * known->c1 + (0.0 - (0.0 - p->r13_)) * known->s1;
-    const double r15 = 0.0 - (p->r23_ + (p->r23_ - p->r23_) * known->c1);
-    const double r25 = 0.0 - (r6 + (r6 - r6) * known->c2);
-    const double r28 = 0.0 - (0.0 - (r10 * known->c2 + r15 * known->s2));
-    const Shared4 own = { r25, r28 };
+    const double r5 = known->c2 * (p->r33_ * known->c1 + p->r13_ * known->s1);
+    const double r7 = p->r33_ * known->s1 - p->r13_ * known->c1, r8 = r5 - p->r23_ * known->s2;
+    const Shared4 own = { r7, r8 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1308,14 +1278,14 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r34;
+    double r13;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double d3 = 0.0 - shared->r34;
+    const double d3 = shared->r13;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1326,21 +1296,19 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Slide. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->py + -0.2 * p->r23_ - 0.66, r16 = (0.0 - (0.0 - (p->px + -0.2 * p->r13_))) * known->s1;
-    const double r22 = 0.0 - ((p->pz + -0.2 * p->r33_) * known->c1 + r16);
-    const double r26 = (r6 + (r6 - r6) * known->c1 + 0.66 - 0.66) * known->c2;
-    const double r34 = 0.86 - (r26 + (0.0 - r22) * known->s2 + 0.66);
-    const Shared3 own = { r34 };
+    const double r10 = known->c1 * (p->pz - 0.2 * p->r33_) + known->s1 * (p->px - 0.2 * p->r13_);
+    const double r12 = known->c2 * (p->py - 0.2 * p->r23_ - 0.66) + known->s2 * r10, r13 = r12 - 0.2;
+    const Shared3 own = { r13 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r23;
-    double r26;
-    double r35;
-    double r36;
+    double r6;
+    double r9;
+    double r14;
+    double r15;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1348,18 +1316,17 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r37 = shared->r23 * shared->r23, r38 = shared->r26 * shared->r26, r39 = r37 + r38;
-    const double r42 = shared->r35 * shared->r35 + shared->r36 * shared->r36;
-    if (!is_away(r39, 10000.0 * r42)) {
+    const double r16 = shared->r6 * shared->r6, r17 = shared->r9 * shared->r9, r18 = r16 + r17;
+    const double r21 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
+    if (!is_away(r18, 10000.0 * r21)) {
         return;
     }
     const double f2 = 1.0;
-    const double choice0_0[3] = {0.0 - r37 - r38, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->f1 * sqrt(fmax(r42, 0.0)));
+    const double choice0_0[3] = {0.0 - r16 - r17, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, known->f1 * sqrt(fmax(r21, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r51 = (0.0 - (0.0 - shared->r23 * w2)) / r39;
-        const double r54 = (0.0 - shared->r26 * w2) / r39, r58 = sqrt(fmax(r54 * r54 + r51 * r51, 0.0));
-        const double c2 = r54 / r58, s2 = r51 / r58;
+        const double w2 = roots0.values[i0], r28 = w2 * shared->r6 / r18, r30 = w2 * shared->r9 / r18;
+        const double r34 = sqrt(fmax(r30 * r30 + r28 * r28, 0.0)), c2 = 0.0 - r30 / r34, s2 = r28 / r34;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1376,9 +1343,9 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r39 = shared->r23 * shared->r23 + shared->r26 * shared->r26;
-    const double r42 = shared->r35 * shared->r35 + shared->r36 * shared->r36;
-    if (!is_near(r39, 1.0000000000000001e-7 * r42)) {
+    const double r18 = shared->r6 * shared->r6 + shared->r9 * shared->r9;
+    const double r21 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
+    if (!is_near(r18, 1.0000000000000001e-7 * r21)) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1398,12 +1365,10 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: ShoulderPitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r6 = p->py + -0.2 * p->r23_ - 0.66, r16 = (0.0 - (0.0 - (p->px + -0.2 * p->r13_))) * known->s1;
-    const double r22 = 0.0 - ((p->pz + -0.2 * p->r33_) * known->c1 + r16), r23 = 0.0 - r22;
-    const double r24 = 0.0 - (r6 + (r6 - r6) * known->c1 + 0.66 - 0.66), r26 = 0.0 - (0.0 - r24);
-    const double r27 = p->magnitude + 1.92, r28 = r27 + 0.66, r35 = fabs(r27 + r27);
-    const double r36 = fabs(r28 + (r28 + r28) + 0.66 + 0.66);
-    const Shared2 own = { r23, r26, r35, r36 };
+    const double r6 = known->c1 * (p->pz - 0.2 * p->r33_) + known->s1 * (p->px - 0.2 * p->r13_);
+    const double r9 = 0.66 - (p->py - 0.2 * p->r23_), r14 = fabs(2.0 * p->magnitude + 3.84);
+    const double r15 = fabs(3.0 * p->magnitude + 9.06);
+    const Shared2 own = { r6, r9, r14, r15 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -1411,9 +1376,9 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r8;
-    double r12;
-    double r17;
+    double r1;
+    double r3;
+    double r5;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
@@ -1421,18 +1386,17 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r18 = shared->r8 * shared->r8, r19 = shared->r12 * shared->r12, r20 = r18 + r19;
-    const double r21 = shared->r17 * shared->r17, r22 = r21 + r21;
-    if (!is_away(r20, 10000.0 * r22)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 10000.0 * r10)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r18 - r19, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r22, 0.0)));
+    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r30 = (0.0 - (0.0 - shared->r8 * w1)) / r20;
-        const double r33 = (0.0 - shared->r12 * w1) / r20, r37 = sqrt(fmax(r33 * r33 + r30 * r30, 0.0));
-        const double c1 = r33 / r37, s1 = r30 / r37;
+        const double w1 = roots0.values[i0], r16 = w1 * shared->r1 / r8, r18 = w1 * shared->r3 / r8;
+        const double r22 = sqrt(fmax(r18 * r18 + r16 * r16, 0.0)), c1 = 0.0 - r18 / r22, s1 = r16 / r22;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1449,8 +1413,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
  */
 static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r20 = shared->r8 * shared->r8 + shared->r12 * shared->r12, r21 = shared->r17 * shared->r17;
-    if (!is_near(r20, 1.0000000000000001e-7 * (r21 + r21))) {
+    const double r8 = shared->r1 * shared->r1 + shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
+    if (!is_near(r8, 1.0000000000000001e-7 * (r9 + r9))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1470,9 +1434,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: ShoulderYaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r8 = 0.0 - (p->px + -0.2 * p->r13_), r12 = 0.0 - (0.0 - (p->pz + -0.2 * p->r33_));
-    const double r17 = fabs(p->magnitude + 1.92);
-    const Shared1 own = { r8, r12, r17 };
+    const double r1 = 0.2 * p->r13_ - p->px, r3 = p->pz - 0.2 * p->r33_, r5 = fabs(p->magnitude + 1.92);
+    const Shared1 own = { r1, r3, r5 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);

@@ -440,40 +440,40 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: ShoulderYaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r8 = 0.0 - (p.px + -0.2 * p.r13_);
-    let r12 = 0.0 - (0.0 - (p.pz + -0.2 * p.r33_));
-    let r17 = f64::abs(p.magnitude + 1.92);
-    let shared = &Shared1 { r8, r12, r17 };
+    let r1 = 0.2 * p.r13_ - p.px;
+    let r3 = p.pz - 0.2 * p.r33_;
+    let r5 = f64::abs(p.magnitude + 1.92);
+    let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r8: f64,
-    r12: f64,
-    r17: f64,
+    r1: f64,
+    r3: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r18 = shared.r8 * shared.r8;
-    let r19 = shared.r12 * shared.r12;
-    let r20 = r18 + r19;
-    let r21 = shared.r17 * shared.r17;
-    let r22 = r21 + r21;
-    if !is_away(r20, 10000.0 * r22) {
+    let r6 = shared.r1 * shared.r1;
+    let r7 = shared.r3 * shared.r3;
+    let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5;
+    let r10 = r9 + r9;
+    if !is_away(r8, 10000.0 * r10) {
         return;
     }
     let f1 = 1.0;
-    let roots0 = real_roots(&[0.0 - r18 - r19, 0.0, 1.0], f64::max(r22, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r6 - r7, 0.0, 1.0], f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r30 = (0.0 - (0.0 - shared.r8 * w1)) / r20;
-        let r33 = (0.0 - shared.r12 * w1) / r20;
-        let r37 = f64::max(r33 * r33 + r30 * r30, 0.0).sqrt();
-        let c1 = r33 / r37;
-        let s1 = r30 / r37;
+        let r16 = w1 * shared.r1 / r8;
+        let r18 = w1 * shared.r3 / r8;
+        let r22 = f64::max(r18 * r18 + r16 * r16, 0.0).sqrt();
+        let c1 = 0.0 - r18 / r22;
+        let s1 = r16 / r22;
         let next = Known { branch: i0, last: 2, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -483,9 +483,9 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderYaw.
 fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r20 = shared.r8 * shared.r8 + shared.r12 * shared.r12;
-    let r21 = shared.r17 * shared.r17;
-    if !is_near(r20, 1.0000000000000001e-7 * (r21 + r21)) {
+    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
+    let r9 = shared.r5 * shared.r5;
+    if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9)) {
         return;
     }
     let f1 = 1000000.0;
@@ -497,47 +497,41 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: ShoulderPitch.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.py + -0.2 * p.r23_ - 0.66;
-    let r16 = (0.0 - (0.0 - (p.px + -0.2 * p.r13_))) * known.s1;
-    let r22 = 0.0 - ((p.pz + -0.2 * p.r33_) * known.c1 + r16);
-    let r23 = 0.0 - r22;
-    let r24 = 0.0 - (r6 + (r6 - r6) * known.c1 + 0.66 - 0.66);
-    let r26 = 0.0 - (0.0 - r24);
-    let r27 = p.magnitude + 1.92;
-    let r28 = r27 + 0.66;
-    let r35 = f64::abs(r27 + r27);
-    let r36 = f64::abs(r28 + (r28 + r28) + 0.66 + 0.66);
-    let shared = &Shared2 { r23, r26, r35, r36 };
+    let r6 = known.c1 * (p.pz - 0.2 * p.r33_) + known.s1 * (p.px - 0.2 * p.r13_);
+    let r9 = 0.66 - (p.py - 0.2 * p.r23_);
+    let r14 = f64::abs(2.0 * p.magnitude + 3.84);
+    let r15 = f64::abs(3.0 * p.magnitude + 9.06);
+    let shared = &Shared2 { r6, r9, r14, r15 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r23: f64,
-    r26: f64,
-    r35: f64,
-    r36: f64,
+    r6: f64,
+    r9: f64,
+    r14: f64,
+    r15: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r37 = shared.r23 * shared.r23;
-    let r38 = shared.r26 * shared.r26;
-    let r39 = r37 + r38;
-    let r42 = shared.r35 * shared.r35 + shared.r36 * shared.r36;
-    if !is_away(r39, 10000.0 * r42) {
+    let r16 = shared.r6 * shared.r6;
+    let r17 = shared.r9 * shared.r9;
+    let r18 = r16 + r17;
+    let r21 = shared.r14 * shared.r14 + shared.r15 * shared.r15;
+    if !is_away(r18, 10000.0 * r21) {
         return;
     }
     let f2 = 1.0;
-    let roots0 = real_roots(&[0.0 - r37 - r38, 0.0, 1.0], known.f1 * f64::max(r42, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0 - r16 - r17, 0.0, 1.0], known.f1 * f64::max(r21, 0.0).sqrt());
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let r51 = (0.0 - (0.0 - shared.r23 * w2)) / r39;
-        let r54 = (0.0 - shared.r26 * w2) / r39;
-        let r58 = f64::max(r54 * r54 + r51 * r51, 0.0).sqrt();
-        let c2 = r54 / r58;
-        let s2 = r51 / r58;
+        let r28 = w2 * shared.r6 / r18;
+        let r30 = w2 * shared.r9 / r18;
+        let r34 = f64::max(r30 * r30 + r28 * r28, 0.0).sqrt();
+        let c2 = 0.0 - r30 / r34;
+        let s2 = r28 / r34;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c2, s2, f2, ..*known };
         block_3(p, &next, answers);
     }
@@ -547,9 +541,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderPitch.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r39 = shared.r23 * shared.r23 + shared.r26 * shared.r26;
-    let r42 = shared.r35 * shared.r35 + shared.r36 * shared.r36;
-    if !is_near(r39, 1.0000000000000001e-7 * r42) {
+    let r18 = shared.r6 * shared.r6 + shared.r9 * shared.r9;
+    let r21 = shared.r14 * shared.r14 + shared.r15 * shared.r15;
+    if !is_near(r18, 1.0000000000000001e-7 * r21) {
         return;
     }
     let f2 = 1000000.0;
@@ -561,65 +555,57 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Slide.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.py + -0.2 * p.r23_ - 0.66;
-    let r16 = (0.0 - (0.0 - (p.px + -0.2 * p.r13_))) * known.s1;
-    let r22 = 0.0 - ((p.pz + -0.2 * p.r33_) * known.c1 + r16);
-    let r26 = (r6 + (r6 - r6) * known.c1 + 0.66 - 0.66) * known.c2;
-    let r34 = 0.86 - (r26 + (0.0 - r22) * known.s2 + 0.66);
-    let shared = &Shared3 { r34 };
+    let r10 = known.c1 * (p.pz - 0.2 * p.r33_) + known.s1 * (p.px - 0.2 * p.r13_);
+    let r12 = known.c2 * (p.py - 0.2 * p.r23_ - 0.66) + known.s2 * r10;
+    let r13 = r12 - 0.2;
+    let shared = &Shared3 { r13 };
     chart_3_1(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r34: f64,
+    r13: f64,
 }
 
 /// Chart 1 of block 3: generic.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let d3 = 0.0 - shared.r34;
+    let d3 = shared.r13;
     let next = Known { branch: known.branch, last: known.last, d3, ..*known };
     block_4(p, &next, answers);
 }
 
 /// Block 4: WristYaw.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - p.r33_) * known.s1;
-    let r10 = p.r33_ * known.c1 + (0.0 - (0.0 - p.r13_)) * known.s1;
-    let r15 = 0.0 - (p.r23_ + (p.r23_ - p.r23_) * known.c1);
-    let r25 = 0.0 - (r6 + (r6 - r6) * known.c2);
-    let r28 = 0.0 - (0.0 - (r10 * known.c2 + r15 * known.s2));
-    let shared = &Shared4 { r25, r28 };
+    let r5 = known.c2 * (p.r33_ * known.c1 + p.r13_ * known.s1);
+    let r7 = p.r33_ * known.s1 - p.r13_ * known.c1;
+    let r8 = r5 - p.r23_ * known.s2;
+    let shared = &Shared4 { r7, r8 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r25: f64,
-    r28: f64,
+    r7: f64,
+    r8: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r30 = shared.r25 * shared.r25;
-    let r31 = shared.r28 * shared.r28;
-    let r32 = r30 + r31;
-    if !is_away(r32, 610000.0) {
+    let r9 = shared.r7 * shared.r7;
+    let r10 = shared.r8 * shared.r8;
+    let r11 = r9 + r10;
+    if !is_away(r11, 610000.0) {
         return;
     }
-    let roots0 = real_roots(&[
-        0.0 - r30 - r31,
-        0.0,
-        1.0,
-    ], known.f2 * (7.810249675906654 * known.f1));
+    let roots0 = real_roots(&[0.0 - r9 - r10, 0.0, 1.0], known.f2 * (7.810249675906654 * known.f1));
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r40 = (0.0 - (0.0 - shared.r25 * w4)) / r32;
-        let r43 = (0.0 - shared.r28 * w4) / r32;
-        let r47 = f64::max(r43 * r43 + r40 * r40, 0.0).sqrt();
-        let c4 = r43 / r47;
-        let s4 = r40 / r47;
+        let r17 = w4 * shared.r7 / r11;
+        let r19 = w4 * shared.r8 / r11;
+        let r23 = f64::max(r19 * r19 + r17 * r17, 0.0).sqrt();
+        let c4 = 0.0 - r19 / r23;
+        let s4 = r17 / r23;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -629,8 +615,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: WristYaw.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r32 = shared.r25 * shared.r25 + shared.r28 * shared.r28;
-    if !is_near(r32, 6.100000000000001e-6) {
+    let r11 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
+    if !is_near(r11, 6.100000000000001e-6) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -641,68 +627,56 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: WristPitch.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r13_ * known.c1 + (0.0 - p.r33_) * known.s1;
-    let r10 = p.r33_ * known.c1 + (0.0 - (0.0 - p.r13_)) * known.s1;
-    let r11 = p.r23_ + (p.r23_ - p.r23_) * known.c1;
-    let r19 = r11 * known.c2 + (0.0 - (0.0 - r10)) * known.s2;
-    let r33 = (r10 * known.c2 + (0.0 - r11) * known.s2) * known.c4;
-    let r34 = (0.0 - (0.0 - (r6 + (r6 - r6) * known.c2))) * known.s4;
-    let r38 = 0.0 - (0.0 - r19);
-    let r39 = 0.0 - (0.0 - (r33 + r34));
-    let shared = &Shared5 { r38, r39 };
+    let r5 = p.r33_ * known.c1 + p.r13_ * known.s1;
+    let r11 = known.c4 * (known.c2 * r5 - p.r23_ * known.s2);
+    let r12 = known.s4 * (p.r13_ * known.c1 - p.r33_ * known.s1);
+    let r13 = p.r23_ * known.c2 + known.s2 * r5;
+    let r14 = r11 + r12;
+    let shared = &Shared5 { r13, r14 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r38: f64,
-    r39: f64,
+    r13: f64,
+    r14: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r41 = 0.0 - shared.r38;
-    let r43 = 0.0 - (-0.0 - shared.r39);
-    let r47 = f64::max(r43 * r43 + r41 * r41, 0.0).sqrt();
-    let c5 = r43 / r47;
-    let s5 = r41 / r47;
+    let r17 = shared.r14 * shared.r14 + shared.r13 * shared.r13;
+    let r18 = f64::max(r17, 0.0).sqrt();
+    let c5 = shared.r14 / r18;
+    let s5 = 0.0 - shared.r13 / r18;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: WristRoll.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.r12_ * known.c1 + (0.0 - p.r32_) * known.s1;
-    let r10 = p.r32_ * known.c1 + (0.0 - (0.0 - p.r12_)) * known.s1;
-    let r15 = 0.0 - (p.r22_ + (p.r22_ - p.r22_) * known.c1);
-    let r29 = (0.0 - (r10 * known.c2 + r15 * known.s2)) * known.s4;
-    let r36 = 0.0 - ((r6 + (r6 - r6) * known.c2) * known.c4 + r29);
-    let r37 = 0.0 - p.r11_;
-    let r38 = 0.0 - p.r21_;
-    let r39 = 0.0 - p.r31_;
-    let r46 = r37 * known.c1 + (0.0 - r39) * known.s1;
-    let r50 = r39 * known.c1 + (0.0 - (0.0 - r37)) * known.s1;
-    let r61 = (0.0 - (r38 + (r38 - r38) * known.c1)) * known.s2;
-    let r70 = (r46 + (r46 - r46) * known.c2) * known.c4 + (0.0 - (r50 * known.c2 + r61)) * known.s4;
-    let r76 = 0.0 - r70;
-    let r77 = 0.0 - r36;
-    let shared = &Shared6 { r76, r77 };
+    let r5 = known.c2 * (p.r32_ * known.c1 + p.r12_ * known.s1);
+    let r8 = known.c4 * (p.r12_ * known.c1 - p.r32_ * known.s1);
+    let r10 = known.s4 * (r5 - p.r22_ * known.s2);
+    let r16 = known.c2 * (p.r31_ * known.c1 + p.r11_ * known.s1);
+    let r19 = known.c4 * (p.r11_ * known.c1 - p.r31_ * known.s1);
+    let r22 = r19 - known.s4 * (r16 - p.r21_ * known.s2);
+    let shared = &Shared6 { r8, r10, r22 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r76: f64,
-    r77: f64,
+    r8: f64,
+    r10: f64,
+    r22: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r79 = 0.0 - shared.r77;
-    let r81 = 0.0 - (-0.0 - shared.r76);
-    let r85 = f64::max(r81 * r81 + r79 * r79, 0.0).sqrt();
-    let c6 = r81 / r85;
-    let s6 = r79 / r85;
+    let r23 = shared.r10 - shared.r8;
+    let r27 = f64::max(shared.r22 * shared.r22 + r23 * r23, 0.0).sqrt();
+    let c6 = shared.r22 / r27;
+    let s6 = r23 / r27;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -730,69 +704,39 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.66 * r2;
-    let r7 = c2 + (1.0 - c2);
-    let r9 = c1 * r7;
-    let r10 = (0.0 - s1) * r7;
-    let r11 = s1 * s2;
-    let r12 = r2 * c2;
-    let r13 = c1 * s2;
-    let r14 = s1 * c2;
-    let r15 = r2 * (0.0 - s2);
-    let r16 = c1 * c2;
-    let r34 = 0.66 - r3 + r3 - 0.66 * r12 + r12 * d3 + 0.86 * r12;
-    let r37 = 0.0 - s4;
-    let r38 = c4 + (1.0 - c4);
-    let r46 = r11 * r38;
-    let r47 = r12 * r38;
-    let r48 = r13 * r38;
-    let r51 = r9 * s4 + r14 * c4;
-    let r52 = r15 * c4;
-    let r55 = r10 * s4 + r16 * c4;
-    let r56 = 0.86 * r46;
-    let r57 = 0.86 * r47;
-    let r58 = 0.86 * r48;
-    let r59 = 0.0 - 0.66 * r11 + r11 * d3 + 0.86 * r11 - r56;
-    let r61 = 0.0 - 0.66 * r13 + r13 * d3 + 0.86 * r13 - r58;
-    let r66 = c5 + (1.0 - c5);
-    let r67 = 0.0 - s5;
-    let r68 = (r9 * c4 + r14 * r37) * r66;
-    let r69 = r15 * r37 * r66;
-    let r70 = (r10 * c4 + r16 * r37) * r66;
-    let r73 = r46 * c5 + r51 * s5;
-    let r76 = r47 * c5 + r52 * s5;
-    let r79 = r48 * c5 + r55 * s5;
-    let r89 = 0.86 * r73;
-    let r90 = 0.86 * r76;
-    let r91 = 0.86 * r79;
-    let r99 = 0.0 - s6;
-    let r100 = c6 + (1.0 - c6);
-    let r112 = r68 * r99 + r73 * c6;
-    let r115 = r69 * r99 + r76 * c6;
-    let r118 = r70 * r99 + r79 * c6;
-    let r119 = (r46 * r67 + r51 * c5) * r100;
-    let r120 = (r47 * r67 + r52 * c5) * r100;
-    let r121 = (r48 * r67 + r55 * c5) * r100;
-    let r122 = 0.86 * r112;
-    let r123 = 0.86 * r115;
-    let r124 = 0.86 * r118;
-    let r134 = r59 + r56 - r89 + r89 - r122 + (r122 + 0.2 * r119);
-    let r135 = r34 - r57 + r57 - r90 + r90 - r123 + (r123 + 0.2 * r120);
-    let r136 = r61 + r58 - r91 + r91 - r124 + (r124 + 0.2 * r121);
+    let r0 = s1 * s2;
+    let r1 = c1 * s2;
+    let r2 = s1 * c2;
+    let r3 = c1 * c2;
+    let r10 = s2 * s4;
+    let r15 = s2 * c4;
+    let r19 = c1 * s4 + c4 * r2;
+    let r24 = s1 * s4 - c4 * r3;
+    let r26 = s5 * r0;
+    let r27 = c5 * r19;
+    let r28 = c2 * s5;
+    let r29 = c5 * r15;
+    let r30 = s5 * r1;
+    let r31 = c5 * r24;
+    let r32 = c1 * c4 - s4 * r2;
+    let r34 = c5 * r0 + s5 * r19;
+    let r37 = c2 * c5 - s5 * r15;
+    let r39 = s1 * c4 + s4 * r3;
+    let r41 = c5 * r1 - s5 * r24;
+    let r71 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29 + 0.66;
     [
-        r134,
-        r135,
-        r136,
-        r68 * c6 + r73 * s6,
-        r69 * c6 + r76 * s6,
-        r70 * c6 + r79 * s6,
-        r112,
-        r115,
-        r118,
-        r119,
-        r120,
-        r121,
+        d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27,
+        r71,
+        d3 * r1 + 0.2 * r1 - 0.2 * r30 - 0.2 * r31,
+        c6 * r32 + s6 * r34,
+        c6 * r10 + s6 * r37,
+        s6 * r41 - c6 * r39,
+        c6 * r34 - s6 * r32,
+        c6 * r37 - s6 * r10,
+        s6 * r39 + c6 * r41,
+        r27 - r26,
+        0.0 - (r28 + r29),
+        0.0 - (r30 + r31),
     ]
 }
 
@@ -805,7 +749,7 @@ struct Equations {
 fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
     let reached = tip(q);
     let d3 = q[2];
-    let r137 = f64::abs(d3) + 1.06;
+    let r49 = f64::abs(d3) + 1.06;
     Equations {
         value: [
             reached[0] - p.px,
@@ -822,9 +766,9 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
             reached[11] - p.r33_,
         ],
         size: [
-            r137,
-            r137,
-            r137,
+            r49,
+            r49,
+            r49,
             1.0,
             1.0,
             1.0,
@@ -851,96 +795,62 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.66 * r2;
-    let r5 = 0.66 - r3 + r3;
-    let r7 = c2 + (1.0 - c2);
-    let r9 = c1 * r7;
-    let r10 = r1 * r7;
-    let r11 = s1 * s2;
-    let r12 = r2 * c2;
-    let r13 = c1 * s2;
-    let r14 = s1 * c2;
-    let r15 = r2 * (0.0 - s2);
-    let r16 = c1 * c2;
-    let r33 = 0.0 - 0.66 * r11 + r11 * d3 + 0.86 * r11;
-    let r34 = r5 - 0.66 * r12 + r12 * d3 + 0.86 * r12;
-    let r35 = 0.0 - 0.66 * r13 + r13 * d3 + 0.86 * r13;
-    let r37 = 0.0 - s4;
-    let r38 = c4 + (1.0 - c4);
-    let r41 = r9 * c4 + r14 * r37;
-    let r42 = r15 * r37;
-    let r45 = r10 * c4 + r16 * r37;
-    let r46 = r11 * r38;
-    let r47 = r12 * r38;
-    let r48 = r13 * r38;
-    let r51 = r9 * s4 + r14 * c4;
-    let r52 = r15 * c4;
-    let r55 = r10 * s4 + r16 * c4;
-    let r56 = 0.86 * r46;
-    let r57 = 0.86 * r47;
-    let r58 = 0.86 * r48;
-    let r62 = r33 - r56 + r56;
-    let r63 = r34 - r57 + r57;
-    let r64 = r35 - r58 + r58;
-    let r66 = c5 + (1.0 - c5);
-    let r67 = 0.0 - s5;
-    let r68 = r41 * r66;
-    let r69 = r42 * r66;
-    let r70 = r45 * r66;
-    let r73 = r46 * c5 + r51 * s5;
-    let r76 = r47 * c5 + r52 * s5;
-    let r79 = r48 * c5 + r55 * s5;
-    let r82 = r46 * r67 + r51 * c5;
-    let r85 = r47 * r67 + r52 * c5;
-    let r88 = r48 * r67 + r55 * c5;
-    let r89 = 0.86 * r73;
-    let r90 = 0.86 * r76;
-    let r91 = 0.86 * r79;
-    let r95 = r62 - r89 + r89;
-    let r96 = r63 - r90 + r90;
-    let r97 = r64 - r91 + r91;
-    let r99 = 0.0 - s6;
-    let r100 = c6 + (1.0 - c6);
-    let r103 = r68 * c6 + r73 * s6;
-    let r106 = r69 * c6 + r76 * s6;
-    let r109 = r70 * c6 + r79 * s6;
-    let r112 = r68 * r99 + r73 * c6;
-    let r115 = r69 * r99 + r76 * c6;
-    let r118 = r70 * r99 + r79 * c6;
-    let r119 = r82 * r100;
-    let r120 = r85 * r100;
-    let r121 = r88 * r100;
-    let r122 = 0.86 * r112;
-    let r123 = 0.86 * r115;
-    let r124 = 0.86 * r118;
-    let r134 = r95 - r122 + (r122 + 0.2 * r119);
-    let r135 = r96 - r123 + (r123 + 0.2 * r120);
-    let r136 = r97 - r124 + (r124 + 0.2 * r121);
-    let r140 = r135 - r5;
-    let r147 = r134 - r33;
-    let r148 = r135 - r34;
-    let r149 = r136 - r35;
-    let r159 = r134 - r62;
-    let r160 = r135 - r63;
-    let r161 = r136 - r64;
-    let r171 = r134 - r95;
-    let r172 = r135 - r96;
-    let r173 = r136 - r97;
+    let r0 = s1 * s2;
+    let r1 = c1 * s2;
+    let r2 = s1 * c2;
+    let r3 = c1 * c2;
+    let r10 = s2 * s4;
+    let r15 = s2 * c4;
+    let r19 = c1 * s4 + c4 * r2;
+    let r24 = s1 * s4 - c4 * r3;
+    let r26 = s5 * r0;
+    let r27 = c5 * r19;
+    let r28 = c2 * s5;
+    let r29 = c5 * r15;
+    let r30 = s5 * r1;
+    let r31 = c5 * r24;
+    let r32 = c1 * c4 - s4 * r2;
+    let r34 = c5 * r0 + s5 * r19;
+    let r37 = c2 * c5 - s5 * r15;
+    let r39 = s1 * c4 + s4 * r3;
+    let r40 = c6 * r39;
+    let r41 = c5 * r1 - s5 * r24;
+    let r42 = s6 * r41;
+    let r55 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29;
+    let r61 = d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27;
+    let r67 = d3 * r1 + 0.2 * r1 - 0.2 * r30 - 0.2 * r31;
+    let r68 = r30 + r31;
+    let r69 = r28 + r29;
+    let r74 = c6 * r10 + s6 * r37;
+    let r75 = c6 * r32 + s6 * r34;
+    let r80 = s6 * r39 + c6 * r41;
+    let r96 = c2 * r68;
+    let r97 = r1 * r69;
+    let r98 = r26 - r27;
+    let r99 = r1 * r98;
+    let r100 = r0 * r68;
+    let r101 = r0 * r69;
+    let r102 = c2 * r98;
+    let r107 = r32 * r69;
+    let r108 = r10 * r98;
+    let r112 = r10 * r68 + r39 * r69;
+    let r120 = r39 * r98 + r32 * r68;
+    let r131 = r40 - r42;
+    let r165 = s6 * r10 - c6 * r37;
+    let r167 = s6 * r32 - c6 * r34;
     [
-        [r136, 0.0 - r1 * r140, r11, r12 * r149 - r13 * r148, r42 * r161 - r45 * r160, r85 * r173 - r88 * r172],
-        [0.0, r1 * r134 - c1 * r136, r12, r13 * r147 - r11 * r149, r45 * r159 - r41 * r161, r88 * r171 - r82 * r173],
-        [0.0 - r134, c1 * r140, r13, r11 * r148 - r12 * r147, r41 * r160 - r42 * r159, r82 * r172 - r85 * r171],
-        [r109, 0.0 - r1 * r106, 0.0, r12 * r109 - r13 * r106, r42 * r109 - r45 * r106, r85 * r109 - r88 * r106],
-        [0.0, r1 * r103 - c1 * r109, 0.0, r13 * r103 - r11 * r109, r45 * r103 - r41 * r109, r88 * r103 - r82 * r109],
-        [0.0 - r103, c1 * r106, 0.0, r11 * r106 - r12 * r103, r41 * r106 - r42 * r103, r82 * r106 - r85 * r103],
-        [r118, 0.0 - r1 * r115, 0.0, r12 * r118 - r13 * r115, r42 * r118 - r45 * r115, r85 * r118 - r88 * r115],
-        [0.0, r1 * r112 - c1 * r118, 0.0, r13 * r112 - r11 * r118, r45 * r112 - r41 * r118, r88 * r112 - r82 * r118],
-        [0.0 - r112, c1 * r115, 0.0, r11 * r115 - r12 * r112, r41 * r115 - r42 * r112, r82 * r115 - r85 * r112],
-        [r121, 0.0 - r1 * r120, 0.0, r12 * r121 - r13 * r120, r42 * r121 - r45 * r120, r85 * r121 - r88 * r120],
-        [0.0, r1 * r119 - c1 * r121, 0.0, r13 * r119 - r11 * r121, r45 * r119 - r41 * r121, r88 * r119 - r82 * r121],
-        [0.0 - r119, c1 * r120, 0.0, r11 * r120 - r12 * r119, r41 * r120 - r42 * r119, r82 * r120 - r85 * r119],
+        [r67, s1 * r55, r0, 0.0 - 0.2 * (r96 - r97), 0.0 - 0.2 * r112, 0.0],
+        [0.0, 0.0 - (s1 * r61 + c1 * r67), c2, 0.0 - 0.2 * (r99 - r100), 0.2 * r120, 0.0],
+        [0.0 - r61, c1 * r55, r1, 0.0 - 0.2 * (r101 - r102), 0.0 - 0.2 * (r107 - r108), 0.0],
+        [r42 - r40, s1 * r74, 0.0, 0.0 - (c2 * r131 + r1 * r74), r39 * r74 - r10 * r131, r69 * r131 + r68 * r74],
+        [0.0, c1 * r131 - s1 * r75, 0.0, r1 * r75 + r0 * r131, r32 * r131 - r39 * r75, 0.0 - (r68 * r75 + r98 * r131)],
+        [0.0 - r75, c1 * r74, 0.0, r0 * r74 - c2 * r75, r32 * r74 - r10 * r75, r69 * r75 - r98 * r74],
+        [r80, 0.0 - s1 * r165, 0.0, c2 * r80 + r1 * r165, r10 * r80 - r39 * r165, 0.0 - (r69 * r80 + r68 * r165)],
+        [0.0, s1 * r167 - c1 * r80, 0.0, 0.0 - (r1 * r167 + r0 * r80), r39 * r167 - r32 * r80, r68 * r167 + r98 * r80],
+        [r167, 0.0 - c1 * r165, 0.0, c2 * r167 - r0 * r165, r10 * r167 - r32 * r165, r98 * r165 - r69 * r167],
+        [0.0 - r68, 0.0 - s1 * r69, 0.0, r97 - r96, 0.0 - r112, 0.0],
+        [0.0, s1 * r98 + c1 * r68, 0.0, r100 - r99, r120, 0.0],
+        [r98, 0.0 - c1 * r69, 0.0, r102 - r101, r108 - r107, 0.0],
     ]
 }
 

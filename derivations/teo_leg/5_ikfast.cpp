@@ -284,47 +284,31 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.146 * r1, r4 = 0.146 * c1, r5 = -0.092 * r2;
-    const double r13 = c2 + (1.0 - c2), r14 = 0.0 - s2, r15 = c1 * r13, r16 = s1 * r13, r17 = r1 * c2;
-    const double r18 = c1 * c2, r19 = r2 * s2, r20 = r1 * r14, r21 = c1 * r14, r22 = r2 * c2;
-    const double r25 = 0.146 * r17 + -0.092 * r20, r28 = 0.146 * r18 + -0.092 * r21;
-    const double r31 = 0.146 * r19 + -0.092 * r22, r39 = 0.0 - s3, r40 = c3 + (1.0 - c3);
-    const double r43 = r15 * c3 + r20 * r39, r46 = r16 * c3 + r21 * r39, r47 = r22 * r39, r48 = r17 * r40;
-    const double r49 = r18 * r40, r50 = r19 * r40, r53 = r15 * s3 + r20 * c3, r56 = r16 * s3 + r21 * c3;
-    const double r57 = r22 * c3, r58 = 0.146 * r48, r61 = 0.146 * r49, r64 = 0.146 * r50;
-    const double r67 = 0.0 - r3 + r3 - r25 + r25 - (r58 + -0.092 * r53);
-    const double r68 = 0.146 - r4 + r4 - r28 + r28 - (r61 + -0.092 * r56);
-    const double r69 = -0.092 - r5 + r5 - r31 + r31 - (r64 + -0.092 * r57), r80 = 0.0 - s4;
-    const double r81 = c4 + (1.0 - c4), r84 = r43 * c4 + r53 * r80, r87 = r46 * c4 + r56 * r80;
-    const double r90 = r47 * c4 + r57 * r80, r91 = r48 * r81, r92 = r49 * r81, r93 = r50 * r81;
-    const double r96 = r43 * s4 + r53 * c4, r99 = r46 * s4 + r56 * c4, r102 = r47 * s4 + r57 * c4;
-    const double r112 = r67 + (r58 + -0.422 * r53) - (0.146 * r91 + -0.422 * r96);
-    const double r113 = r68 + (r61 + -0.422 * r56) - (0.146 * r92 + -0.422 * r99);
-    const double r114 = r69 + (r64 + -0.422 * r57) - (0.146 * r93 + -0.422 * r102), r128 = 0.0 - s5;
-    const double r129 = c5 + (1.0 - c5), r139 = r91 * r129, r140 = r92 * r129, r141 = r93 * r129;
-    const double r144 = r84 * s5 + r96 * c5, r147 = r87 * s5 + r99 * c5, r150 = r90 * s5 + r102 * c5;
-    const double r153 = 0.1285 * r139 + -0.722 * r144, r156 = 0.1285 * r140 + -0.722 * r147;
-    const double r159 = 0.1285 * r141 + -0.722 * r150, r163 = r112 + (0.1285 * r91 + -0.722 * r96) - r153 + r153;
-    const double r164 = r113 + (0.1285 * r92 + -0.722 * r99) - r156 + r156;
-    const double r165 = r114 + (0.1285 * r93 + -0.722 * r102) - r159 + r159, r167 = c6 + (1.0 - c6);
-    const double r168 = 0.0 - s6, r174 = r139 * c6 + r144 * s6, r177 = r140 * c6 + r147 * s6;
-    const double r180 = r141 * c6 + r150 * s6, r183 = r139 * r168 + r144 * c6, r186 = r140 * r168 + r147 * c6;
-    const double r189 = r141 * r168 + r150 * c6, r190 = 0.1285 * r174, r193 = 0.1285 * r177;
-    const double r196 = 0.1285 * r180, r208 = r163 - (r190 + -0.722 * r183) + (r190 + -0.845005 * r183);
-    const double r209 = r164 - (r193 + -0.722 * r186) + (r193 + -0.845005 * r186);
-    const double r210 = r165 - (r196 + -0.722 * r189) + (r196 + -0.845005 * r189);
-    reached[0] = r208;
-    reached[1] = r209;
-    reached[2] = r210;
-    reached[3] = (r84 * c5 + r96 * r128) * r167;
-    reached[4] = (r87 * c5 + r99 * r128) * r167;
-    reached[5] = (r90 * c5 + r102 * r128) * r167;
-    reached[6] = r174;
-    reached[7] = r177;
-    reached[8] = r180;
-    reached[9] = r183;
-    reached[10] = r186;
-    reached[11] = r189;
+    const double r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2, r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3;
+    const double r10 = c3 * r2, r11 = s1 * s3, r12 = c3 * r3, r13 = c2 * c3, r14 = c1 * c3 - s3 * r2;
+    const double r16 = r9 + r10, r18 = s1 * c3 + s3 * r3, r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16;
+    const double r26 = s4 * r18, r27 = c4 * r20, r28 = s4 * r8, r29 = c4 * r13, r30 = c4 * r14 - s4 * r16;
+    const double r32 = r24 + r25, r34 = c4 * r18 - s4 * r20, r36 = r26 + r27, r38 = c4 * r8 + s4 * r13;
+    const double r40 = r28 - r29, r49 = s5 * r30 + c5 * r32, r52 = s5 * r34 + c5 * r36;
+    const double r55 = s5 * r38 + c5 * r40, r57 = s6 * r0, r58 = c6 * r49, r59 = s6 * r1, r60 = c6 * r52;
+    const double r61 = s2 * s6, r62 = c6 * r55, r69 = 0.33 * r13 + 0.0175 * s2 - 0.3 * r28 + 0.3 * r29;
+    const double r80 = 0.33 * r11 - 0.33 * r12 + 0.0175 * r1 + 0.3 * r26;
+    const double r86 = r80 + 0.3 * r27 - 0.123005 * r59 + 0.123005 * r60;
+    const double r93 = 0.33 * r9 + 0.33 * r10 - 0.0175 * r0 + 0.3 * r24;
+    const double r99 = r93 + 0.3 * r25 + 0.123005 * r57 + 0.123005 * r58;
+    const double r108 = r69 - 0.123005 * r61 - 0.123005 * r62 + 0.092;
+    reached[0] = 0.0 - r99;
+    reached[1] = 0.146 - r86;
+    reached[2] = 0.0 - r108;
+    reached[3] = c5 * r30 - s5 * r32;
+    reached[4] = c5 * r34 - s5 * r36;
+    reached[5] = s5 * r40 - c5 * r38;
+    reached[6] = s6 * r49 - c6 * r0;
+    reached[7] = c6 * r1 + s6 * r52;
+    reached[8] = s2 * c6 - s6 * r55;
+    reached[9] = r57 + r58;
+    reached[10] = r60 - r59;
+    reached[11] = 0.0 - (r61 + r62);
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -380,53 +364,42 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.146 * r1, r4 = 0.146 * c1, r5 = -0.092 * r2;
-    const double r9 = 0.0 - r3 + r3, r10 = 0.146 - r4 + r4, r11 = -0.092 - r5 + r5, r13 = c2 + (1.0 - c2);
-    const double r14 = 0.0 - s2, r15 = c1 * r13, r16 = s1 * r13, r17 = r1 * c2, r18 = c1 * c2, r19 = r2 * s2;
-    const double r20 = r1 * r14, r21 = c1 * r14, r22 = r2 * c2, r25 = 0.146 * r17 + -0.092 * r20;
-    const double r28 = 0.146 * r18 + -0.092 * r21, r31 = 0.146 * r19 + -0.092 * r22, r35 = r9 - r25 + r25;
-    const double r36 = r10 - r28 + r28, r37 = r11 - r31 + r31, r39 = 0.0 - s3, r40 = c3 + (1.0 - c3);
-    const double r43 = r15 * c3 + r20 * r39, r46 = r16 * c3 + r21 * r39, r47 = r22 * r39, r48 = r17 * r40;
-    const double r49 = r18 * r40, r50 = r19 * r40, r53 = r15 * s3 + r20 * c3, r56 = r16 * s3 + r21 * c3;
-    const double r57 = r22 * c3, r58 = 0.146 * r48, r61 = 0.146 * r49, r64 = 0.146 * r50;
-    const double r76 = r35 - (r58 + -0.092 * r53) + (r58 + -0.422 * r53);
-    const double r77 = r36 - (r61 + -0.092 * r56) + (r61 + -0.422 * r56);
-    const double r78 = r37 - (r64 + -0.092 * r57) + (r64 + -0.422 * r57), r80 = 0.0 - s4, r81 = c4 + (1.0 - c4);
-    const double r84 = r43 * c4 + r53 * r80, r87 = r46 * c4 + r56 * r80, r90 = r47 * c4 + r57 * r80;
-    const double r91 = r48 * r81, r92 = r49 * r81, r93 = r50 * r81, r96 = r43 * s4 + r53 * c4;
-    const double r99 = r46 * s4 + r56 * c4, r102 = r47 * s4 + r57 * c4;
-    const double r124 = r76 - (0.146 * r91 + -0.422 * r96) + (0.1285 * r91 + -0.722 * r96);
-    const double r125 = r77 - (0.146 * r92 + -0.422 * r99) + (0.1285 * r92 + -0.722 * r99);
-    const double r126 = r78 - (0.146 * r93 + -0.422 * r102) + (0.1285 * r93 + -0.722 * r102), r128 = 0.0 - s5;
-    const double r129 = c5 + (1.0 - c5), r132 = r84 * c5 + r96 * r128, r135 = r87 * c5 + r99 * r128;
-    const double r138 = r90 * c5 + r102 * r128, r139 = r91 * r129, r140 = r92 * r129, r141 = r93 * r129;
-    const double r144 = r84 * s5 + r96 * c5, r147 = r87 * s5 + r99 * c5, r150 = r90 * s5 + r102 * c5;
-    const double r153 = 0.1285 * r139 + -0.722 * r144, r156 = 0.1285 * r140 + -0.722 * r147;
-    const double r159 = 0.1285 * r141 + -0.722 * r150, r163 = r124 - r153 + r153, r164 = r125 - r156 + r156;
-    const double r165 = r126 - r159 + r159, r167 = c6 + (1.0 - c6), r168 = 0.0 - s6, r169 = r132 * r167;
-    const double r170 = r135 * r167, r171 = r138 * r167, r174 = r139 * c6 + r144 * s6;
-    const double r177 = r140 * c6 + r147 * s6, r180 = r141 * c6 + r150 * s6, r183 = r139 * r168 + r144 * c6;
-    const double r186 = r140 * r168 + r147 * c6, r189 = r141 * r168 + r150 * c6, r190 = 0.1285 * r174;
-    const double r193 = 0.1285 * r177, r196 = 0.1285 * r180;
-    const double r208 = r163 - (r190 + -0.722 * r183) + (r190 + -0.845005 * r183);
-    const double r209 = r164 - (r193 + -0.722 * r186) + (r193 + -0.845005 * r186);
-    const double r210 = r165 - (r196 + -0.722 * r189) + (r196 + -0.845005 * r189), r216 = r210 - r11;
-    const double r223 = r208 - r35, r224 = r209 - r36, r225 = r210 - r37, r235 = r208 - r76, r236 = r209 - r77;
-    const double r237 = r210 - r78, r247 = r208 - r124, r248 = r209 - r125, r249 = r210 - r126;
-    const double r259 = r208 - r163, r260 = r209 - r164, r261 = r210 - r165;
+    const double r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2, r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3;
+    const double r10 = c3 * r2, r11 = s1 * s3, r12 = c3 * r3, r13 = c2 * c3, r14 = c1 * c3 - s3 * r2;
+    const double r16 = r9 + r10, r18 = s1 * c3 + s3 * r3, r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16;
+    const double r26 = s4 * r18, r27 = c4 * r20, r28 = s4 * r8, r29 = c4 * r13, r30 = c4 * r14 - s4 * r16;
+    const double r32 = r24 + r25, r34 = c4 * r18 - s4 * r20, r35 = c5 * r34, r36 = r26 + r27, r37 = s5 * r36;
+    const double r38 = c4 * r8 + s4 * r13, r40 = r28 - r29, r48 = c6 * r0, r49 = s5 * r30 + c5 * r32;
+    const double r50 = s6 * r49, r52 = s5 * r34 + c5 * r36, r55 = s5 * r38 + c5 * r40, r57 = s6 * r0;
+    const double r58 = c6 * r49, r59 = s6 * r1, r60 = c6 * r52, r61 = s2 * s6, r62 = c6 * r55, r64 = 0.0175 * s2;
+    const double r66 = 0.3 * r28, r68 = 0.3 * r29, r70 = 0.123005 * r61, r72 = 0.123005 * r62;
+    const double r73 = 0.33 * r13 + r64 - r66 + r68 - r70 - r72, r77 = 0.0175 * r1, r79 = 0.3 * r26;
+    const double r81 = 0.3 * r27, r83 = 0.123005 * r59, r84 = 0.33 * r11 - 0.33 * r12 + r77 + r79 + r81 - r83;
+    const double r85 = 0.123005 * r60, r86 = r84 + r85, r90 = 0.0175 * r0, r92 = 0.3 * r24, r94 = 0.3 * r25;
+    const double r96 = 0.123005 * r57, r97 = 0.33 * r9 + 0.33 * r10 - r90 + r92 + r94 + r96;
+    const double r98 = 0.123005 * r58, r99 = r97 + r98, r100 = r61 + r62, r101 = r57 + r58, r102 = r35 - r37;
+    const double r103 = c5 * r30 - s5 * r32, r115 = s2 * c6 - s6 * r55, r116 = c6 * r1 + s6 * r52;
+    const double r139 = r68 + (r64 - r66) - r70 - r72, r144 = r85 + (r81 + (r77 + r79) - r83);
+    const double r149 = r90 - r92 - r94 - r96 - r98, r154 = r1 * r100, r155 = r59 - r60, r156 = s2 * r155;
+    const double r162 = c5 * r38 - s5 * r40, r164 = r101 * r162, r165 = r100 * r103;
+    const double r173 = r100 * r102 + r155 * r162, r178 = s2 * r101 - r0 * r100, r186 = r0 * r155 - r1 * r101;
+    const double r189 = r155 * r103 + r101 * r102, r204 = 0.0 - (r1 * r162 + s2 * r102);
+    const double r205 = s2 * r103 - r0 * r162, r208 = 0.0 - (r0 * r102 + r1 * r103), r212 = r48 - r50;
+    const double r227 = r1 * r115 - s2 * r116, r230 = r0 * r115 - s2 * r212, r233 = r1 * r212 - r0 * r116;
+    const double r240 = r156 - r154;
     const Jacobian result = { {
-        {0.0 - (r209 - 0.146), s1 * r216, r18 * r225 - r19 * r224, r49 * r237 - r50 * r236, r92 * r249 - r93 * r248, r135 * r261 - r138 * r260},
-        {r208, 0.0 - c1 * r216, r19 * r223 - r17 * r225, r50 * r235 - r48 * r237, r93 * r247 - r91 * r249, r138 * r259 - r132 * r261},
-        {0.0, c1 * (r209 - r10) - s1 * (r208 - r9), r17 * r224 - r18 * r223, r48 * r236 - r49 * r235, r91 * r248 - r92 * r247, r132 * r260 - r135 * r259},
-        {0.0 - r170, s1 * r171, r18 * r171 - r19 * r170, r49 * r171 - r50 * r170, r92 * r171 - r93 * r170, r135 * r171 - r138 * r170},
-        {r169, 0.0 - c1 * r171, r19 * r169 - r17 * r171, r50 * r169 - r48 * r171, r93 * r169 - r91 * r171, r138 * r169 - r132 * r171},
-        {0.0, c1 * r170 - s1 * r169, r17 * r170 - r18 * r169, r48 * r170 - r49 * r169, r91 * r170 - r92 * r169, r132 * r170 - r135 * r169},
-        {0.0 - r177, s1 * r180, r18 * r180 - r19 * r177, r49 * r180 - r50 * r177, r92 * r180 - r93 * r177, r135 * r180 - r138 * r177},
-        {r174, 0.0 - c1 * r180, r19 * r174 - r17 * r180, r50 * r174 - r48 * r180, r93 * r174 - r91 * r180, r138 * r174 - r132 * r180},
-        {0.0, c1 * r177 - s1 * r174, r17 * r177 - r18 * r174, r48 * r177 - r49 * r174, r91 * r177 - r92 * r174, r132 * r177 - r135 * r174},
-        {0.0 - r186, s1 * r189, r18 * r189 - r19 * r186, r49 * r189 - r50 * r186, r92 * r189 - r93 * r186, r135 * r189 - r138 * r186},
-        {r183, 0.0 - c1 * r189, r19 * r183 - r17 * r189, r50 * r183 - r48 * r189, r93 * r183 - r91 * r189, r138 * r183 - r132 * r189},
-        {0.0, c1 * r186 - s1 * r183, r17 * r186 - r18 * r183, r48 * r186 - r49 * r183, r91 * r186 - r92 * r183, r132 * r186 - r135 * r183},
+        {r86, 0.0 - s1 * r73, s2 * r86 - r1 * r73, s2 * r144 - r1 * r139, 0.123005 * (r154 - r156), 0.123005 * r173},
+        {0.0 - r99, c1 * r73, 0.0 - (s2 * r99 + r0 * r73), s2 * r149 - r0 * r139, 0.0 - 0.123005 * r178, 0.123005 * (r164 - r165)},
+        {0.0, s1 * r99 - c1 * r86, r0 * r86 + r1 * r99, r0 * r144 - r1 * r149, 0.0 - 0.123005 * r186, 0.123005 * r189},
+        {r37 - r35, 0.0 - s1 * r162, r204, r204, r204, 0.0},
+        {r103, c1 * r162, r205, r205, r205, 0.0},
+        {0.0, c1 * r102 - s1 * r103, r208, r208, r208, 0.0},
+        {0.0 - r116, s1 * r115, r227, r227, r227, r102 * r115 + r162 * r116},
+        {r50 - r48, 0.0 - c1 * r115, r230, r230, r230, r162 * r212 - r103 * r115},
+        {0.0, c1 * r116 + s1 * r212, r233, r233, r233, r103 * r116 + r102 * r212},
+        {r155, 0.0 - s1 * r100, r240, r240, r240, 0.0 - r173},
+        {r101, c1 * r100, r178, r178, r178, r165 - r164},
+        {0.0, 0.0 - (c1 * r155 + s1 * r101), r186, r186, r186, 0.0 - r189},
     } };
     return result;
 }
@@ -1159,17 +1132,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r100;
-    double r101;
+    double r46;
+    double r48;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r115 = (0.0 - 0.33 * shared->r100) / 0.10890000000000001;
-    const double r119 = (0.0 - (-0.0 - 0.33 * shared->r101)) / 0.10890000000000001;
-    const double r123 = sqrt(fmax(r119 * r119 + r115 * r115, 0.0)), c3 = r119 / r123, s3 = r115 / r123;
+    const double r50 = 0.33 * shared->r46 / 0.10890000000000001, r52 = 0.33 * shared->r48 / 0.10890000000000001;
+    const double r56 = sqrt(fmax(r52 * r52 + r50 * r50, 0.0)), c3 = r52 / r56, s3 = 0.0 - r50 / r56;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1184,36 +1156,33 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: HipPitch. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = -0.3 * known->s5, r3 = 0.3 * known->c5 - 0.722 + 0.722;
-    const double r10 = 0.0175 * known->c6 + (0.0 - (0.0 - r3)) * known->s6, r14 = r0 + (r0 - r0) * known->c6;
-    const double r17 = r10 + 0.1285 - 0.1285, r18 = r3 * known->c6 + -0.0175 * known->s6 - 0.722 + 0.845005;
-    const double r23 = r14 * p->r11_ + r17 * p->r12_ + r18 * p->r13_;
-    const double r28 = r14 * p->r21_ + r17 * p->r22_ + r18 * p->r23_;
-    const double r44 = (0.0 - (0.0 - (p->py + r28 - 0.146))) * known->s1, r54 = 0.0 - known->c4;
-    const double r55 = 0.0 - known->s4, r61 = r54 * known->c5 + (0.0 - r55) * known->s5;
-    const double r64 = r55 * known->c5 + (0.0 - (0.0 - r54)) * known->s5, r69 = (0.0 - (0.0 - r64)) * known->s6;
-    const double r70 = r64 * known->c6, r71 = r61 + (r61 - r61) * known->c6;
-    const double r76 = r71 * p->r11_ + r69 * p->r12_ + r70 * p->r13_;
-    const double r81 = r71 * p->r21_ + r69 * p->r22_ + r70 * p->r23_;
-    const double r93 = r76 * known->c1 + (0.0 - (0.0 - r81)) * known->s1;
-    const double r100 = 0.0 - (0.0 - ((p->px + r23) * known->c1 + r44)), r101 = 0.33 * (0.0 - r93);
-    const Shared6 own = { r100, r101 };
+    const double r5 = 0.0175 * known->c6 + 0.3 * (known->c5 * known->s6);
+    const double r9 = 0.3 * (known->c5 * known->c6) - 0.0175 * known->s6, r10 = r9 + 0.123005;
+    const double r17 = p->r12_ * r5 + (p->px - 0.3 * (p->r11_ * known->s5));
+    const double r22 = p->r22_ * r5 + (p->py - 0.3 * (p->r21_ * known->s5));
+    const double r30 = known->s4 * known->c5 + known->c4 * known->s5, r31 = known->s6 * r30;
+    const double r32 = known->c6 * r30, r33 = known->c4 * known->c5 - known->s4 * known->s5;
+    const double r41 = p->r13_ * r32 + (p->r11_ * r33 + p->r12_ * r31);
+    const double r44 = p->r23_ * r32 + (p->r21_ * r33 + p->r22_ * r31);
+    const double r46 = known->c1 * (p->r13_ * r10 + r17) + known->s1 * (p->r23_ * r10 + r22 - 0.146);
+    const double r48 = 0.33 * (known->c1 * r41 + known->s1 * r44);
+    const Shared6 own = { r46, r48 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r25;
-    double r26;
+    double r10;
+    double r11;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r28 = 0.0 - (0.0 - shared->r25), r31 = 0.0 - (-0.0 - (0.0 - shared->r26));
-    const double r35 = sqrt(fmax(r31 * r31 + r28 * r28, 0.0)), c2 = r31 / r35, s2 = r28 / r35;
+    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r15 = sqrt(fmax(r14, 0.0));
+    const double c2 = shared->r11 / r15, s2 = shared->r10 / r15;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1225,19 +1194,18 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: HipRoll. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - known->s6, r18 = (known->c6 * p->r22_ + r0 * p->r23_) * known->c1;
-    const double r19 = (0.0 - (known->c6 * p->r12_ + r0 * p->r13_)) * known->s1;
-    const double r25 = 0.0 - (0.0 - (known->c6 * p->r32_ + r0 * p->r33_));
-    const double r26 = 0.0 - (0.0 - (0.0 - (r18 + r19)));
-    const Shared5 own = { r25, r26 };
+    const double r8 = known->c1 * (p->r22_ * known->c6 - p->r23_ * known->s6);
+    const double r9 = known->s1 * (p->r12_ * known->c6 - p->r13_ * known->s6);
+    const double r10 = p->r32_ * known->c6 - p->r33_ * known->s6, r11 = r8 - r9;
+    const Shared5 own = { r10, r11 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r13;
-    double r14;
+    double r4;
+    double r5;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
@@ -1245,16 +1213,15 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
-    if (!is_away(r17, 80000.0)) {
+    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
+    if (!is_away(r8, 80000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r15 - r16, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 2.8284271247461903 * known->f5);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r24 = (0.0 - (0.0 - shared->r13 * w1)) / r17;
-        const double r27 = (0.0 - shared->r14 * w1) / r17, r31 = sqrt(fmax(r27 * r27 + r24 * r24, 0.0));
-        const double c1 = r27 / r31, s1 = r24 / r31;
+        const double w1 = roots0.values[i0], r13 = w1 * shared->r4 / r8, r15 = w1 * shared->r5 / r8;
+        const double r19 = sqrt(fmax(r15 * r15 + r13 * r13, 0.0)), c1 = 0.0 - r15 / r19, s1 = r13 / r19;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1270,8 +1237,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
-    if (!is_near(r17, 8.000000000000001e-7)) {
+    const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5;
+    if (!is_near(r8, 8.000000000000001e-7)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1289,9 +1256,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYaw. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - known->s6, r12 = 0.0 - (0.0 - (known->c6 * p->r22_ + r0 * p->r23_));
-    const double r13 = 0.0 - (known->c6 * p->r12_ + r0 * p->r13_), r14 = 0.0 - r12;
-    const Shared4 own = { r13, r14 };
+    const double r4 = p->r13_ * known->s6 - p->r12_ * known->c6, r5 = p->r23_ * known->s6 - p->r22_ * known->c6;
+    const Shared4 own = { r4, r5 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
@@ -1299,11 +1265,11 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r22;
-    double r39;
-    double r53;
-    double r61;
-    double r62;
+    double r13;
+    double r20;
+    double r25;
+    double r29;
+    double r30;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
@@ -1311,14 +1277,14 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r65 = shared->r22 * shared->r22 + shared->r53 * shared->r53;
-    const double r68 = shared->r61 * shared->r61 + shared->r62 * shared->r62;
-    if (!is_away(r65, 10000.0 * r68)) {
+    const double r33 = shared->r13 * shared->r13 + shared->r20 * shared->r20;
+    const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
+    if (!is_away(r33, 10000.0 * r36)) {
         return;
     }
-    const double r72 = -0.0175 * shared->r53 - shared->r22 * shared->r39, r74 = (0.0 - r72) / r65;
-    const double r78 = 0.0 - -0.0175 * shared->r22 - shared->r53 * shared->r39, r80 = (0.0 - r78) / r65;
-    const double r84 = sqrt(fmax(r80 * r80 + r74 * r74, 0.0)), c6 = r80 / r84, s6 = r74 / r84;
+    const double r40 = 0.0175 * shared->r20 - shared->r13 * shared->r25, r41 = r40 / r33;
+    const double r44 = 0.0175 * shared->r13 + shared->r20 * shared->r25, r45 = r44 / r33;
+    const double r49 = sqrt(fmax(r45 * r45 + r41 * r41, 0.0)), c6 = 0.0 - r45 / r49, s6 = r41 / r49;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1330,26 +1296,24 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnkleRoll. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = 0.0 - p->r23_, r2 = 0.0 - p->r33_;
-    const double r11 = p->px * p->r12_ + p->py * p->r22_ + p->pz * p->r32_;
-    const double r12 = p->px * (0.0 - p->r13_) + p->py * r1 + p->pz * r2;
-    const double r22 = 0.0 - (0.146 * p->r22_ + -0.092 * p->r32_ - r11);
-    const double r23 = 0.0 - (0.146 * r1 + -0.092 * r2 - (r12 - 0.123005)), r25 = 0.0 - known->c5;
-    const double r33 = r25 * known->c4 + (0.0 - (0.0 - known->s5)) * known->s4;
-    const double r39 = -0.092 * r33 - (-0.722 * r25 - -0.422 * r25 + -0.422 * r33), r53 = 0.0 - r23;
-    const double r55 = p->magnitude + p->magnitude + p->magnitude, r61 = fabs(r55 + 0.257 + 0.238);
-    const double r62 = fabs(0.0 - (r55 + 1.567005 + 0.238));
-    const Shared3 own = { r22, r39, r53, r61, r62 };
+    const double r11 = 0.146 * p->r22_ - 0.092 * p->r32_ - p->px * p->r12_;
+    const double r13 = p->pz * p->r32_ - (r11 - p->py * p->r22_);
+    const double r17 = 0.146 * p->r23_ - 0.092 * p->r33_ - p->px * p->r13_;
+    const double r20 = 0.123005 - (r17 - p->py * p->r23_ - p->pz * p->r33_);
+    const double r23 = 0.33 * (known->c4 * known->c5) - 0.33 * (known->s4 * known->s5);
+    const double r25 = r23 + 0.3 * known->c5, r26 = 3.0 * p->magnitude, r29 = fabs(r26 + 0.495);
+    const double r30 = fabs(r26 + 1.805005);
+    const Shared3 own = { r13, r20, r25, r29, r30 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r7;
-    double r8;
-    double r18;
-    double r22;
+    double r3;
+    double r5;
+    double r11;
+    double r14;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1357,17 +1321,17 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r23 = shared->r7 * shared->r7, r24 = shared->r8 * shared->r8, r25 = r23 + r24;
-    if (!is_away(r25, 30131.599999999995)) {
+    const double r15 = shared->r3 * shared->r3, r16 = shared->r5 * shared->r5, r17 = r15 + r16;
+    if (!is_away(r17, 30131.599999999995)) {
         return;
     }
     const double f5 = 1.0;
-    const double choice0_0[3] = {shared->r18 * shared->r18 - r23 - r24, 0.0, 1.0};
+    const double choice0_0[3] = {shared->r11 * shared->r11 - r15 - r16, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.7358456152549973);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w5 = roots0.values[i0], r32 = 0.0 - (shared->r8 * shared->r18 - shared->r7 * w5);
-        const double r33 = r32 / r25, r37 = 0.0 - (shared->r8 * w5 + shared->r7 * shared->r18), r38 = r37 / r25;
-        const double r42 = sqrt(fmax(r38 * r38 + r33 * r33, 0.0)), c5 = r38 / r42, s5 = r33 / r42;
+        const double w5 = roots0.values[i0], r24 = (shared->r5 * shared->r11 - w5 * shared->r3) / r17;
+        const double r28 = shared->r3 * shared->r11 - (0.0 - w5 * shared->r5), r29 = r28 / r17;
+        const double r33 = sqrt(fmax(r29 * r29 + r24 * r24, 0.0)), c5 = r29 / r33, s5 = r24 / r33;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1384,8 +1348,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r25 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
-    if (!(is_near(r25, 3.01316e-7) && is_near(shared->r18, 0.01 * shared->r22))) {
+    const double r17 = shared->r3 * shared->r3 + shared->r5 * shared->r5;
+    if (!(is_near(r17, 3.01316e-7) && is_near(shared->r11, 0.01 * shared->r14))) {
         return;
     }
     const double f5 = 1000000.0;
@@ -1405,12 +1369,10 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: AnklePitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = 0.0 - known->s4, r1 = 0.0 - known->c4, r7 = -0.092 * r0 - -0.422 * r0;
-    const double r8 = -0.092 * r1 - (-0.422 * r1 + 0.3);
-    const double r13 = p->px * p->r11_ + p->py * p->r21_ + p->pz * p->r31_;
-    const double r18 = 0.0 - (0.146 * p->r21_ + -0.092 * p->r31_ - r13);
-    const double r21 = p->magnitude + p->magnitude + p->magnitude + 0.238, r22 = fabs(r21);
-    const Shared2 own = { r7, r8, r18, r22 };
+    const double r3 = 0.33 * known->s4, r5 = 0.33 * known->c4 + 0.3;
+    const double r9 = 0.146 * p->r21_ - 0.092 * p->r31_ - p->px * p->r11_;
+    const double r11 = p->pz * p->r31_ - (r9 - p->py * p->r21_), r14 = fabs(3.0 * p->magnitude + 0.238);
+    const Shared2 own = { r3, r5, r11, r14 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -1418,19 +1380,18 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r30;
+    double r28;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double choice0_0[3] = {shared->r30 * shared->r30 - 0.039204, 0.0, 1.0};
+    const double choice0_0[3] = {shared->r28 * shared->r28 - 0.039204, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r36 = (0.0 - (0.0 - 0.198 * w4)) / 0.039204;
-        const double r39 = (0.0 - 0.198 * shared->r30) / 0.039204, r43 = sqrt(fmax(r39 * r39 + r36 * r36, 0.0));
-        const double c4 = r39 / r43, s4 = r36 / r43;
+        const double w4 = roots0.values[i0], r32 = 0.198 * w4 / 0.039204, r34 = 0.198 * shared->r28 / 0.039204;
+        const double r38 = sqrt(fmax(r34 * r34 + r32 * r32, 0.0)), c4 = 0.0 - r34 / r38, s4 = r32 / r38;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1443,13 +1404,12 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: KneePitch. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r4 = p->py + 0.123005 * p->r23_, r5 = p->pz + 0.123005 * p->r33_;
-    const double r9 = p->px * (p->px + 0.123005 * p->r13_) + p->py * r4, r10 = r9 + p->pz * r5;
-    const double r16 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r24 = 0.146 * (0.146 - r4) + -0.092 * (-0.092 - r5);
-    const double r29 = r10 + r10 - r16 + 0.015130230025 + r24 - (0.146 * r4 + -0.092 * r5);
-    const double r30 = 0.19920625 - r29;
-    const Shared1 own = { r30 };
+    const double r14 = 2.0 * (p->px * (p->px + 0.123005 * p->r13_)) + 2.0 * (p->py * (p->py + 0.123005 * p->r23_));
+    const double r16 = r14 + 2.0 * (p->pz * (p->pz + 0.123005 * p->r33_));
+    const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
+    const double r25 = r19 - 0.292 * p->py - 0.03591746 * p->r23_ + 0.184 * p->pz;
+    const double r28 = 0.154296019975 - (r25 + 0.02263292 * p->r33_);
+    const Shared1 own = { r28 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

@@ -440,32 +440,29 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: KneePitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r4 = p.py + 0.123005 * p.r23_;
-    let r5 = p.pz + 0.123005 * p.r33_;
-    let r9 = p.px * (p.px + 0.123005 * p.r13_) + p.py * r4;
-    let r10 = r9 + p.pz * r5;
-    let r17 = r10 + r10 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r24 = 0.146 * (0.146 - r4) + -0.092 * (-0.092 - r5);
-    let r29 = r17 + 0.015130230025 + r24 - (0.146 * r4 + -0.092 * r5);
-    let r30 = 0.19920625 - r29;
-    let shared = &Shared1 { r30 };
+    let r14 = 2.0 * (p.px * (p.px + 0.123005 * p.r13_)) + 2.0 * (p.py * (p.py + 0.123005 * p.r23_));
+    let r16 = r14 + 2.0 * (p.pz * (p.pz + 0.123005 * p.r33_));
+    let r19 = r16 - p.px * p.px - p.py * p.py - p.pz * p.pz;
+    let r25 = r19 - 0.292 * p.py - 0.03591746 * p.r23_ + 0.184 * p.pz;
+    let r28 = 0.154296019975 - (r25 + 0.02263292 * p.r33_);
+    let shared = &Shared1 { r28 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r30: f64,
+    r28: f64,
 }
 
 /// Chart 1 of block 1: generic.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let roots0 = real_roots(&[shared.r30 * shared.r30 - 0.039204, 0.0, 1.0], 1.4142135623730951);
+    let roots0 = real_roots(&[shared.r28 * shared.r28 - 0.039204, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r36 = (0.0 - (0.0 - 0.198 * w4)) / 0.039204;
-        let r39 = (0.0 - 0.198 * shared.r30) / 0.039204;
-        let r43 = f64::max(r39 * r39 + r36 * r36, 0.0).sqrt();
-        let c4 = r39 / r43;
-        let s4 = r36 / r43;
+        let r32 = 0.198 * w4 / 0.039204;
+        let r34 = 0.198 * shared.r28 / 0.039204;
+        let r38 = f64::max(r34 * r34 + r32 * r32, 0.0).sqrt();
+        let c4 = 0.0 - r34 / r38;
+        let s4 = r32 / r38;
         let next = Known { branch: i0, last: 2, c4, s4, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -473,46 +470,42 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: AnklePitch.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - known.s4;
-    let r1 = 0.0 - known.c4;
-    let r7 = -0.092 * r0 - -0.422 * r0;
-    let r8 = -0.092 * r1 - (-0.422 * r1 + 0.3);
-    let r13 = p.px * p.r11_ + p.py * p.r21_ + p.pz * p.r31_;
-    let r18 = 0.0 - (0.146 * p.r21_ + -0.092 * p.r31_ - r13);
-    let r21 = p.magnitude + p.magnitude + p.magnitude + 0.238;
-    let r22 = f64::abs(r21);
-    let shared = &Shared2 { r7, r8, r18, r22 };
+    let r3 = 0.33 * known.s4;
+    let r5 = 0.33 * known.c4 + 0.3;
+    let r9 = 0.146 * p.r21_ - 0.092 * p.r31_ - p.px * p.r11_;
+    let r11 = p.pz * p.r31_ - (r9 - p.py * p.r21_);
+    let r14 = f64::abs(3.0 * p.magnitude + 0.238);
+    let shared = &Shared2 { r3, r5, r11, r14 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r7: f64,
-    r8: f64,
-    r18: f64,
-    r22: f64,
+    r3: f64,
+    r5: f64,
+    r11: f64,
+    r14: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r23 = shared.r7 * shared.r7;
-    let r24 = shared.r8 * shared.r8;
-    let r25 = r23 + r24;
-    if !is_away(r25, 30131.599999999995) {
+    let r15 = shared.r3 * shared.r3;
+    let r16 = shared.r5 * shared.r5;
+    let r17 = r15 + r16;
+    if !is_away(r17, 30131.599999999995) {
         return;
     }
     let f5 = 1.0;
-    let roots0 = real_roots(&[shared.r18 * shared.r18 - r23 - r24, 0.0, 1.0], 1.7358456152549973);
+    let roots0 = real_roots(&[shared.r11 * shared.r11 - r15 - r16, 0.0, 1.0], 1.7358456152549973);
     for (i0, &w5) in roots0.as_slice().iter().enumerate() {
-        let r32 = 0.0 - (shared.r8 * shared.r18 - shared.r7 * w5);
-        let r33 = r32 / r25;
-        let r37 = 0.0 - (shared.r8 * w5 + shared.r7 * shared.r18);
-        let r38 = r37 / r25;
-        let r42 = f64::max(r38 * r38 + r33 * r33, 0.0).sqrt();
-        let c5 = r38 / r42;
-        let s5 = r33 / r42;
+        let r24 = (shared.r5 * shared.r11 - w5 * shared.r3) / r17;
+        let r28 = shared.r3 * shared.r11 - (0.0 - w5 * shared.r5);
+        let r29 = r28 / r17;
+        let r33 = f64::max(r29 * r29 + r24 * r24, 0.0).sqrt();
+        let c5 = r29 / r33;
+        let s5 = r24 / r33;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c5, s5, f5, ..*known };
         block_3(p, &next, answers);
     }
@@ -522,8 +515,8 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: AnklePitch.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r25 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
-    if !(is_near(r25, 3.01316e-7) && is_near(shared.r18, 0.01 * shared.r22)) {
+    let r17 = shared.r3 * shared.r3 + shared.r5 * shared.r5;
+    if !(is_near(r17, 3.01316e-7) && is_near(shared.r11, 0.01 * shared.r14)) {
         return;
     }
     let f5 = 1000000.0;
@@ -535,84 +528,78 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: AnkleRoll.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - p.r23_;
-    let r2 = 0.0 - p.r33_;
-    let r11 = p.px * p.r12_ + p.py * p.r22_ + p.pz * p.r32_;
-    let r12 = p.px * (0.0 - p.r13_) + p.py * r1 + p.pz * r2;
-    let r22 = 0.0 - (0.146 * p.r22_ + -0.092 * p.r32_ - r11);
-    let r23 = 0.0 - (0.146 * r1 + -0.092 * r2 - (r12 - 0.123005));
-    let r25 = 0.0 - known.c5;
-    let r33 = r25 * known.c4 + (0.0 - (0.0 - known.s5)) * known.s4;
-    let r39 = -0.092 * r33 - (-0.722 * r25 - -0.422 * r25 + -0.422 * r33);
-    let r53 = 0.0 - r23;
-    let r55 = p.magnitude + p.magnitude + p.magnitude;
-    let r61 = f64::abs(r55 + 0.257 + 0.238);
-    let r62 = f64::abs(0.0 - (r55 + 1.567005 + 0.238));
-    let shared = &Shared3 { r22, r39, r53, r61, r62 };
+    let r11 = 0.146 * p.r22_ - 0.092 * p.r32_ - p.px * p.r12_;
+    let r13 = p.pz * p.r32_ - (r11 - p.py * p.r22_);
+    let r17 = 0.146 * p.r23_ - 0.092 * p.r33_ - p.px * p.r13_;
+    let r20 = 0.123005 - (r17 - p.py * p.r23_ - p.pz * p.r33_);
+    let r23 = 0.33 * (known.c4 * known.c5) - 0.33 * (known.s4 * known.s5);
+    let r25 = r23 + 0.3 * known.c5;
+    let r26 = 3.0 * p.magnitude;
+    let r29 = f64::abs(r26 + 0.495);
+    let r30 = f64::abs(r26 + 1.805005);
+    let shared = &Shared3 { r13, r20, r25, r29, r30 };
     chart_3_1(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r22: f64,
-    r39: f64,
-    r53: f64,
-    r61: f64,
-    r62: f64,
+    r13: f64,
+    r20: f64,
+    r25: f64,
+    r29: f64,
+    r30: f64,
 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r65 = shared.r22 * shared.r22 + shared.r53 * shared.r53;
-    let r68 = shared.r61 * shared.r61 + shared.r62 * shared.r62;
-    if !is_away(r65, 10000.0 * r68) {
+    let r33 = shared.r13 * shared.r13 + shared.r20 * shared.r20;
+    let r36 = shared.r29 * shared.r29 + shared.r30 * shared.r30;
+    if !is_away(r33, 10000.0 * r36) {
         return;
     }
-    let r72 = -0.0175 * shared.r53 - shared.r22 * shared.r39;
-    let r74 = (0.0 - r72) / r65;
-    let r78 = 0.0 - -0.0175 * shared.r22 - shared.r53 * shared.r39;
-    let r80 = (0.0 - r78) / r65;
-    let r84 = f64::max(r80 * r80 + r74 * r74, 0.0).sqrt();
-    let c6 = r80 / r84;
-    let s6 = r74 / r84;
+    let r40 = 0.0175 * shared.r20 - shared.r13 * shared.r25;
+    let r41 = r40 / r33;
+    let r44 = 0.0175 * shared.r13 + shared.r20 * shared.r25;
+    let r45 = r44 / r33;
+    let r49 = f64::max(r45 * r45 + r41 * r41, 0.0).sqrt();
+    let c6 = 0.0 - r45 / r49;
+    let s6 = r41 / r49;
     let next = Known { branch: known.branch, last: known.last, c6, s6, ..*known };
     block_4(p, &next, answers);
 }
 
 /// Block 4: HipYaw.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - known.s6;
-    let r12 = 0.0 - (0.0 - (known.c6 * p.r22_ + r0 * p.r23_));
-    let r13 = 0.0 - (known.c6 * p.r12_ + r0 * p.r13_);
-    let r14 = 0.0 - r12;
-    let shared = &Shared4 { r13, r14 };
+    let r4 = p.r13_ * known.s6 - p.r12_ * known.c6;
+    let r5 = p.r23_ * known.s6 - p.r22_ * known.c6;
+    let shared = &Shared4 { r4, r5 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r13: f64,
-    r14: f64,
+    r4: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r15 = shared.r13 * shared.r13;
-    let r16 = shared.r14 * shared.r14;
-    let r17 = r15 + r16;
-    if !is_away(r17, 80000.0) {
+    let r6 = shared.r4 * shared.r4;
+    let r7 = shared.r5 * shared.r5;
+    let r8 = r6 + r7;
+    if !is_away(r8, 80000.0) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r15 - r16, 0.0, 1.0], 2.8284271247461903 * known.f5);
+    let roots0 = real_roots(&[0.0 - r6 - r7, 0.0, 1.0], 2.8284271247461903 * known.f5);
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r24 = (0.0 - (0.0 - shared.r13 * w1)) / r17;
-        let r27 = (0.0 - shared.r14 * w1) / r17;
-        let r31 = f64::max(r27 * r27 + r24 * r24, 0.0).sqrt();
-        let c1 = r27 / r31;
-        let s1 = r24 / r31;
+        let r13 = w1 * shared.r4 / r8;
+        let r15 = w1 * shared.r5 / r8;
+        let r19 = f64::max(r15 * r15 + r13 * r13, 0.0).sqrt();
+        let c1 = 0.0 - r15 / r19;
+        let s1 = r13 / r19;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c1, s1, ..*known };
         block_5(p, &next, answers);
     }
@@ -622,8 +609,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipYaw.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
-    if !is_near(r17, 8.000000000000001e-7) {
+    let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5;
+    if !is_near(r8, 8.000000000000001e-7) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -634,71 +621,62 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: HipRoll.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = 0.0 - known.s6;
-    let r19 = (0.0 - (known.c6 * p.r12_ + r0 * p.r13_)) * known.s1;
-    let r20 = (known.c6 * p.r22_ + r0 * p.r23_) * known.c1 + r19;
-    let r25 = 0.0 - (0.0 - (known.c6 * p.r32_ + r0 * p.r33_));
-    let r26 = 0.0 - (0.0 - (0.0 - r20));
-    let shared = &Shared5 { r25, r26 };
+    let r8 = known.c1 * (p.r22_ * known.c6 - p.r23_ * known.s6);
+    let r9 = known.s1 * (p.r12_ * known.c6 - p.r13_ * known.s6);
+    let r10 = p.r32_ * known.c6 - p.r33_ * known.s6;
+    let r11 = r8 - r9;
+    let shared = &Shared5 { r10, r11 };
     chart_5_1(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r25: f64,
-    r26: f64,
+    r10: f64,
+    r11: f64,
 }
 
 /// Chart 1 of block 5: generic.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r28 = 0.0 - (0.0 - shared.r25);
-    let r31 = 0.0 - (-0.0 - (0.0 - shared.r26));
-    let r35 = f64::max(r31 * r31 + r28 * r28, 0.0).sqrt();
-    let c2 = r31 / r35;
-    let s2 = r28 / r35;
+    let r14 = shared.r11 * shared.r11 + shared.r10 * shared.r10;
+    let r15 = f64::max(r14, 0.0).sqrt();
+    let c2 = shared.r11 / r15;
+    let s2 = shared.r10 / r15;
     let next = Known { branch: known.branch, last: known.last, c2, s2, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: HipPitch.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = -0.3 * known.s5;
-    let r3 = 0.3 * known.c5 - 0.722 + 0.722;
-    let r10 = 0.0175 * known.c6 + (0.0 - (0.0 - r3)) * known.s6;
-    let r14 = r0 + (r0 - r0) * known.c6;
-    let r17 = r10 + 0.1285 - 0.1285;
-    let r18 = r3 * known.c6 + -0.0175 * known.s6 - 0.722 + 0.845005;
-    let r34 = p.px + (r14 * p.r11_ + r17 * p.r12_ + r18 * p.r13_);
-    let r35 = p.py + (r14 * p.r21_ + r17 * p.r22_ + r18 * p.r23_);
-    let r45 = r34 * known.c1 + (0.0 - (0.0 - (r35 - 0.146))) * known.s1;
-    let r54 = 0.0 - known.c4;
-    let r55 = 0.0 - known.s4;
-    let r61 = r54 * known.c5 + (0.0 - r55) * known.s5;
-    let r64 = r55 * known.c5 + (0.0 - (0.0 - r54)) * known.s5;
-    let r69 = (0.0 - (0.0 - r64)) * known.s6;
-    let r70 = r64 * known.c6;
-    let r71 = r61 + (r61 - r61) * known.c6;
-    let r88 = 0.0 - (r71 * p.r21_ + r69 * p.r22_ + r70 * p.r23_);
-    let r91 = (r71 * p.r11_ + r69 * p.r12_ + r70 * p.r13_) * known.c1;
-    let r100 = 0.0 - (0.0 - r45);
-    let r101 = 0.33 * (0.0 - (r91 + (0.0 - r88) * known.s1));
-    let shared = &Shared6 { r100, r101 };
+    let r5 = 0.0175 * known.c6 + 0.3 * (known.c5 * known.s6);
+    let r9 = 0.3 * (known.c5 * known.c6) - 0.0175 * known.s6;
+    let r10 = r9 + 0.123005;
+    let r17 = p.r12_ * r5 + (p.px - 0.3 * (p.r11_ * known.s5));
+    let r22 = p.r22_ * r5 + (p.py - 0.3 * (p.r21_ * known.s5));
+    let r30 = known.s4 * known.c5 + known.c4 * known.s5;
+    let r31 = known.s6 * r30;
+    let r32 = known.c6 * r30;
+    let r33 = known.c4 * known.c5 - known.s4 * known.s5;
+    let r42 = known.c1 * (p.r13_ * r32 + (p.r11_ * r33 + p.r12_ * r31));
+    let r45 = known.s1 * (p.r23_ * r32 + (p.r21_ * r33 + p.r22_ * r31));
+    let r46 = known.c1 * (p.r13_ * r10 + r17) + known.s1 * (p.r23_ * r10 + r22 - 0.146);
+    let r48 = 0.33 * (r42 + r45);
+    let shared = &Shared6 { r46, r48 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r100: f64,
-    r101: f64,
+    r46: f64,
+    r48: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r115 = (0.0 - 0.33 * shared.r100) / 0.10890000000000001;
-    let r119 = (0.0 - (-0.0 - 0.33 * shared.r101)) / 0.10890000000000001;
-    let r123 = f64::max(r119 * r119 + r115 * r115, 0.0).sqrt();
-    let c3 = r119 / r123;
-    let s3 = r115 / r123;
+    let r50 = 0.33 * shared.r46 / 0.10890000000000001;
+    let r52 = 0.33 * shared.r48 / 0.10890000000000001;
+    let r56 = f64::max(r52 * r52 + r50 * r50, 0.0).sqrt();
+    let c3 = r52 / r56;
+    let s3 = 0.0 - r50 / r56;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -727,96 +705,60 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.146 * r1;
-    let r4 = 0.146 * c1;
-    let r5 = -0.092 * r2;
-    let r13 = c2 + (1.0 - c2);
-    let r14 = 0.0 - s2;
-    let r15 = c1 * r13;
-    let r16 = s1 * r13;
-    let r17 = r1 * c2;
-    let r18 = c1 * c2;
-    let r19 = r2 * s2;
-    let r20 = r1 * r14;
-    let r21 = c1 * r14;
-    let r22 = r2 * c2;
-    let r25 = 0.146 * r17 + -0.092 * r20;
-    let r28 = 0.146 * r18 + -0.092 * r21;
-    let r31 = 0.146 * r19 + -0.092 * r22;
-    let r39 = 0.0 - s3;
-    let r40 = c3 + (1.0 - c3);
-    let r43 = r15 * c3 + r20 * r39;
-    let r46 = r16 * c3 + r21 * r39;
-    let r47 = r22 * r39;
-    let r48 = r17 * r40;
-    let r49 = r18 * r40;
-    let r50 = r19 * r40;
-    let r53 = r15 * s3 + r20 * c3;
-    let r56 = r16 * s3 + r21 * c3;
-    let r57 = r22 * c3;
-    let r58 = 0.146 * r48;
-    let r61 = 0.146 * r49;
-    let r64 = 0.146 * r50;
-    let r67 = 0.0 - r3 + r3 - r25 + r25 - (r58 + -0.092 * r53);
-    let r68 = 0.146 - r4 + r4 - r28 + r28 - (r61 + -0.092 * r56);
-    let r69 = -0.092 - r5 + r5 - r31 + r31 - (r64 + -0.092 * r57);
-    let r80 = 0.0 - s4;
-    let r81 = c4 + (1.0 - c4);
-    let r84 = r43 * c4 + r53 * r80;
-    let r87 = r46 * c4 + r56 * r80;
-    let r90 = r47 * c4 + r57 * r80;
-    let r91 = r48 * r81;
-    let r92 = r49 * r81;
-    let r93 = r50 * r81;
-    let r96 = r43 * s4 + r53 * c4;
-    let r99 = r46 * s4 + r56 * c4;
-    let r102 = r47 * s4 + r57 * c4;
-    let r112 = r67 + (r58 + -0.422 * r53) - (0.146 * r91 + -0.422 * r96);
-    let r113 = r68 + (r61 + -0.422 * r56) - (0.146 * r92 + -0.422 * r99);
-    let r114 = r69 + (r64 + -0.422 * r57) - (0.146 * r93 + -0.422 * r102);
-    let r128 = 0.0 - s5;
-    let r129 = c5 + (1.0 - c5);
-    let r139 = r91 * r129;
-    let r140 = r92 * r129;
-    let r141 = r93 * r129;
-    let r144 = r84 * s5 + r96 * c5;
-    let r147 = r87 * s5 + r99 * c5;
-    let r150 = r90 * s5 + r102 * c5;
-    let r153 = 0.1285 * r139 + -0.722 * r144;
-    let r156 = 0.1285 * r140 + -0.722 * r147;
-    let r159 = 0.1285 * r141 + -0.722 * r150;
-    let r163 = r112 + (0.1285 * r91 + -0.722 * r96) - r153 + r153;
-    let r164 = r113 + (0.1285 * r92 + -0.722 * r99) - r156 + r156;
-    let r165 = r114 + (0.1285 * r93 + -0.722 * r102) - r159 + r159;
-    let r167 = c6 + (1.0 - c6);
-    let r168 = 0.0 - s6;
-    let r174 = r139 * c6 + r144 * s6;
-    let r177 = r140 * c6 + r147 * s6;
-    let r180 = r141 * c6 + r150 * s6;
-    let r183 = r139 * r168 + r144 * c6;
-    let r186 = r140 * r168 + r147 * c6;
-    let r189 = r141 * r168 + r150 * c6;
-    let r190 = 0.1285 * r174;
-    let r193 = 0.1285 * r177;
-    let r196 = 0.1285 * r180;
-    let r208 = r163 - (r190 + -0.722 * r183) + (r190 + -0.845005 * r183);
-    let r209 = r164 - (r193 + -0.722 * r186) + (r193 + -0.845005 * r186);
-    let r210 = r165 - (r196 + -0.722 * r189) + (r196 + -0.845005 * r189);
+    let r0 = s1 * c2;
+    let r1 = c1 * c2;
+    let r2 = s1 * s2;
+    let r3 = c1 * s2;
+    let r8 = c2 * s3;
+    let r9 = c1 * s3;
+    let r10 = c3 * r2;
+    let r11 = s1 * s3;
+    let r12 = c3 * r3;
+    let r13 = c2 * c3;
+    let r14 = c1 * c3 - s3 * r2;
+    let r16 = r9 + r10;
+    let r18 = s1 * c3 + s3 * r3;
+    let r20 = r11 - r12;
+    let r24 = s4 * r14;
+    let r25 = c4 * r16;
+    let r26 = s4 * r18;
+    let r27 = c4 * r20;
+    let r28 = s4 * r8;
+    let r29 = c4 * r13;
+    let r30 = c4 * r14 - s4 * r16;
+    let r32 = r24 + r25;
+    let r34 = c4 * r18 - s4 * r20;
+    let r36 = r26 + r27;
+    let r38 = c4 * r8 + s4 * r13;
+    let r40 = r28 - r29;
+    let r49 = s5 * r30 + c5 * r32;
+    let r52 = s5 * r34 + c5 * r36;
+    let r55 = s5 * r38 + c5 * r40;
+    let r57 = s6 * r0;
+    let r58 = c6 * r49;
+    let r59 = s6 * r1;
+    let r60 = c6 * r52;
+    let r61 = s2 * s6;
+    let r62 = c6 * r55;
+    let r69 = 0.33 * r13 + 0.0175 * s2 - 0.3 * r28 + 0.3 * r29;
+    let r80 = 0.33 * r11 - 0.33 * r12 + 0.0175 * r1 + 0.3 * r26;
+    let r86 = r80 + 0.3 * r27 - 0.123005 * r59 + 0.123005 * r60;
+    let r93 = 0.33 * r9 + 0.33 * r10 - 0.0175 * r0 + 0.3 * r24;
+    let r99 = r93 + 0.3 * r25 + 0.123005 * r57 + 0.123005 * r58;
+    let r108 = r69 - 0.123005 * r61 - 0.123005 * r62 + 0.092;
     [
-        r208,
-        r209,
-        r210,
-        (r84 * c5 + r96 * r128) * r167,
-        (r87 * c5 + r99 * r128) * r167,
-        (r90 * c5 + r102 * r128) * r167,
-        r174,
-        r177,
-        r180,
-        r183,
-        r186,
-        r189,
+        0.0 - r99,
+        0.146 - r86,
+        0.0 - r108,
+        c5 * r30 - s5 * r32,
+        c5 * r34 - s5 * r36,
+        s5 * r40 - c5 * r38,
+        s6 * r49 - c6 * r0,
+        c6 * r1 + s6 * r52,
+        s2 * c6 - s6 * r55,
+        r57 + r58,
+        r60 - r59,
+        0.0 - (r61 + r62),
     ]
 }
 
@@ -874,121 +816,105 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.146 * r1;
-    let r4 = 0.146 * c1;
-    let r5 = -0.092 * r2;
-    let r9 = 0.0 - r3 + r3;
-    let r10 = 0.146 - r4 + r4;
-    let r11 = -0.092 - r5 + r5;
-    let r13 = c2 + (1.0 - c2);
-    let r14 = 0.0 - s2;
-    let r15 = c1 * r13;
-    let r16 = s1 * r13;
-    let r17 = r1 * c2;
-    let r18 = c1 * c2;
-    let r19 = r2 * s2;
-    let r20 = r1 * r14;
-    let r21 = c1 * r14;
-    let r22 = r2 * c2;
-    let r25 = 0.146 * r17 + -0.092 * r20;
-    let r28 = 0.146 * r18 + -0.092 * r21;
-    let r31 = 0.146 * r19 + -0.092 * r22;
-    let r35 = r9 - r25 + r25;
-    let r36 = r10 - r28 + r28;
-    let r37 = r11 - r31 + r31;
-    let r39 = 0.0 - s3;
-    let r40 = c3 + (1.0 - c3);
-    let r43 = r15 * c3 + r20 * r39;
-    let r46 = r16 * c3 + r21 * r39;
-    let r47 = r22 * r39;
-    let r48 = r17 * r40;
-    let r49 = r18 * r40;
-    let r50 = r19 * r40;
-    let r53 = r15 * s3 + r20 * c3;
-    let r56 = r16 * s3 + r21 * c3;
-    let r57 = r22 * c3;
-    let r58 = 0.146 * r48;
-    let r61 = 0.146 * r49;
-    let r64 = 0.146 * r50;
-    let r76 = r35 - (r58 + -0.092 * r53) + (r58 + -0.422 * r53);
-    let r77 = r36 - (r61 + -0.092 * r56) + (r61 + -0.422 * r56);
-    let r78 = r37 - (r64 + -0.092 * r57) + (r64 + -0.422 * r57);
-    let r80 = 0.0 - s4;
-    let r81 = c4 + (1.0 - c4);
-    let r84 = r43 * c4 + r53 * r80;
-    let r87 = r46 * c4 + r56 * r80;
-    let r90 = r47 * c4 + r57 * r80;
-    let r91 = r48 * r81;
-    let r92 = r49 * r81;
-    let r93 = r50 * r81;
-    let r96 = r43 * s4 + r53 * c4;
-    let r99 = r46 * s4 + r56 * c4;
-    let r102 = r47 * s4 + r57 * c4;
-    let r124 = r76 - (0.146 * r91 + -0.422 * r96) + (0.1285 * r91 + -0.722 * r96);
-    let r125 = r77 - (0.146 * r92 + -0.422 * r99) + (0.1285 * r92 + -0.722 * r99);
-    let r126 = r78 - (0.146 * r93 + -0.422 * r102) + (0.1285 * r93 + -0.722 * r102);
-    let r128 = 0.0 - s5;
-    let r129 = c5 + (1.0 - c5);
-    let r132 = r84 * c5 + r96 * r128;
-    let r135 = r87 * c5 + r99 * r128;
-    let r138 = r90 * c5 + r102 * r128;
-    let r139 = r91 * r129;
-    let r140 = r92 * r129;
-    let r141 = r93 * r129;
-    let r144 = r84 * s5 + r96 * c5;
-    let r147 = r87 * s5 + r99 * c5;
-    let r150 = r90 * s5 + r102 * c5;
-    let r153 = 0.1285 * r139 + -0.722 * r144;
-    let r156 = 0.1285 * r140 + -0.722 * r147;
-    let r159 = 0.1285 * r141 + -0.722 * r150;
-    let r163 = r124 - r153 + r153;
-    let r164 = r125 - r156 + r156;
-    let r165 = r126 - r159 + r159;
-    let r167 = c6 + (1.0 - c6);
-    let r168 = 0.0 - s6;
-    let r169 = r132 * r167;
-    let r170 = r135 * r167;
-    let r171 = r138 * r167;
-    let r174 = r139 * c6 + r144 * s6;
-    let r177 = r140 * c6 + r147 * s6;
-    let r180 = r141 * c6 + r150 * s6;
-    let r183 = r139 * r168 + r144 * c6;
-    let r186 = r140 * r168 + r147 * c6;
-    let r189 = r141 * r168 + r150 * c6;
-    let r190 = 0.1285 * r174;
-    let r193 = 0.1285 * r177;
-    let r196 = 0.1285 * r180;
-    let r208 = r163 - (r190 + -0.722 * r183) + (r190 + -0.845005 * r183);
-    let r209 = r164 - (r193 + -0.722 * r186) + (r193 + -0.845005 * r186);
-    let r210 = r165 - (r196 + -0.722 * r189) + (r196 + -0.845005 * r189);
-    let r216 = r210 - r11;
-    let r223 = r208 - r35;
-    let r224 = r209 - r36;
-    let r225 = r210 - r37;
-    let r235 = r208 - r76;
-    let r236 = r209 - r77;
-    let r237 = r210 - r78;
-    let r247 = r208 - r124;
-    let r248 = r209 - r125;
-    let r249 = r210 - r126;
-    let r259 = r208 - r163;
-    let r260 = r209 - r164;
-    let r261 = r210 - r165;
+    let r0 = s1 * c2;
+    let r1 = c1 * c2;
+    let r2 = s1 * s2;
+    let r3 = c1 * s2;
+    let r8 = c2 * s3;
+    let r9 = c1 * s3;
+    let r10 = c3 * r2;
+    let r11 = s1 * s3;
+    let r12 = c3 * r3;
+    let r13 = c2 * c3;
+    let r14 = c1 * c3 - s3 * r2;
+    let r16 = r9 + r10;
+    let r18 = s1 * c3 + s3 * r3;
+    let r20 = r11 - r12;
+    let r24 = s4 * r14;
+    let r25 = c4 * r16;
+    let r26 = s4 * r18;
+    let r27 = c4 * r20;
+    let r28 = s4 * r8;
+    let r29 = c4 * r13;
+    let r30 = c4 * r14 - s4 * r16;
+    let r32 = r24 + r25;
+    let r34 = c4 * r18 - s4 * r20;
+    let r35 = c5 * r34;
+    let r36 = r26 + r27;
+    let r37 = s5 * r36;
+    let r38 = c4 * r8 + s4 * r13;
+    let r40 = r28 - r29;
+    let r48 = c6 * r0;
+    let r49 = s5 * r30 + c5 * r32;
+    let r50 = s6 * r49;
+    let r52 = s5 * r34 + c5 * r36;
+    let r55 = s5 * r38 + c5 * r40;
+    let r57 = s6 * r0;
+    let r58 = c6 * r49;
+    let r59 = s6 * r1;
+    let r60 = c6 * r52;
+    let r61 = s2 * s6;
+    let r62 = c6 * r55;
+    let r64 = 0.0175 * s2;
+    let r66 = 0.3 * r28;
+    let r68 = 0.3 * r29;
+    let r70 = 0.123005 * r61;
+    let r72 = 0.123005 * r62;
+    let r73 = 0.33 * r13 + r64 - r66 + r68 - r70 - r72;
+    let r77 = 0.0175 * r1;
+    let r79 = 0.3 * r26;
+    let r81 = 0.3 * r27;
+    let r83 = 0.123005 * r59;
+    let r84 = 0.33 * r11 - 0.33 * r12 + r77 + r79 + r81 - r83;
+    let r85 = 0.123005 * r60;
+    let r86 = r84 + r85;
+    let r90 = 0.0175 * r0;
+    let r92 = 0.3 * r24;
+    let r94 = 0.3 * r25;
+    let r96 = 0.123005 * r57;
+    let r97 = 0.33 * r9 + 0.33 * r10 - r90 + r92 + r94 + r96;
+    let r98 = 0.123005 * r58;
+    let r99 = r97 + r98;
+    let r100 = r61 + r62;
+    let r101 = r57 + r58;
+    let r102 = r35 - r37;
+    let r103 = c5 * r30 - s5 * r32;
+    let r115 = s2 * c6 - s6 * r55;
+    let r116 = c6 * r1 + s6 * r52;
+    let r139 = r68 + (r64 - r66) - r70 - r72;
+    let r144 = r85 + (r81 + (r77 + r79) - r83);
+    let r149 = r90 - r92 - r94 - r96 - r98;
+    let r154 = r1 * r100;
+    let r155 = r59 - r60;
+    let r156 = s2 * r155;
+    let r162 = c5 * r38 - s5 * r40;
+    let r164 = r101 * r162;
+    let r165 = r100 * r103;
+    let r173 = r100 * r102 + r155 * r162;
+    let r178 = s2 * r101 - r0 * r100;
+    let r186 = r0 * r155 - r1 * r101;
+    let r189 = r155 * r103 + r101 * r102;
+    let r204 = 0.0 - (r1 * r162 + s2 * r102);
+    let r205 = s2 * r103 - r0 * r162;
+    let r208 = 0.0 - (r0 * r102 + r1 * r103);
+    let r212 = r48 - r50;
+    let r227 = r1 * r115 - s2 * r116;
+    let r230 = r0 * r115 - s2 * r212;
+    let r233 = r1 * r212 - r0 * r116;
+    let r240 = r156 - r154;
     [
-        [0.0 - (r209 - 0.146), s1 * r216, r18 * r225 - r19 * r224, r49 * r237 - r50 * r236, r92 * r249 - r93 * r248, r135 * r261 - r138 * r260],
-        [r208, 0.0 - c1 * r216, r19 * r223 - r17 * r225, r50 * r235 - r48 * r237, r93 * r247 - r91 * r249, r138 * r259 - r132 * r261],
-        [0.0, c1 * (r209 - r10) - s1 * (r208 - r9), r17 * r224 - r18 * r223, r48 * r236 - r49 * r235, r91 * r248 - r92 * r247, r132 * r260 - r135 * r259],
-        [0.0 - r170, s1 * r171, r18 * r171 - r19 * r170, r49 * r171 - r50 * r170, r92 * r171 - r93 * r170, r135 * r171 - r138 * r170],
-        [r169, 0.0 - c1 * r171, r19 * r169 - r17 * r171, r50 * r169 - r48 * r171, r93 * r169 - r91 * r171, r138 * r169 - r132 * r171],
-        [0.0, c1 * r170 - s1 * r169, r17 * r170 - r18 * r169, r48 * r170 - r49 * r169, r91 * r170 - r92 * r169, r132 * r170 - r135 * r169],
-        [0.0 - r177, s1 * r180, r18 * r180 - r19 * r177, r49 * r180 - r50 * r177, r92 * r180 - r93 * r177, r135 * r180 - r138 * r177],
-        [r174, 0.0 - c1 * r180, r19 * r174 - r17 * r180, r50 * r174 - r48 * r180, r93 * r174 - r91 * r180, r138 * r174 - r132 * r180],
-        [0.0, c1 * r177 - s1 * r174, r17 * r177 - r18 * r174, r48 * r177 - r49 * r174, r91 * r177 - r92 * r174, r132 * r177 - r135 * r174],
-        [0.0 - r186, s1 * r189, r18 * r189 - r19 * r186, r49 * r189 - r50 * r186, r92 * r189 - r93 * r186, r135 * r189 - r138 * r186],
-        [r183, 0.0 - c1 * r189, r19 * r183 - r17 * r189, r50 * r183 - r48 * r189, r93 * r183 - r91 * r189, r138 * r183 - r132 * r189],
-        [0.0, c1 * r186 - s1 * r183, r17 * r186 - r18 * r183, r48 * r186 - r49 * r183, r91 * r186 - r92 * r183, r132 * r186 - r135 * r183],
+        [r86, 0.0 - s1 * r73, s2 * r86 - r1 * r73, s2 * r144 - r1 * r139, 0.123005 * (r154 - r156), 0.123005 * r173],
+        [0.0 - r99, c1 * r73, 0.0 - (s2 * r99 + r0 * r73), s2 * r149 - r0 * r139, 0.0 - 0.123005 * r178, 0.123005 * (r164 - r165)],
+        [0.0, s1 * r99 - c1 * r86, r0 * r86 + r1 * r99, r0 * r144 - r1 * r149, 0.0 - 0.123005 * r186, 0.123005 * r189],
+        [r37 - r35, 0.0 - s1 * r162, r204, r204, r204, 0.0],
+        [r103, c1 * r162, r205, r205, r205, 0.0],
+        [0.0, c1 * r102 - s1 * r103, r208, r208, r208, 0.0],
+        [0.0 - r116, s1 * r115, r227, r227, r227, r102 * r115 + r162 * r116],
+        [r50 - r48, 0.0 - c1 * r115, r230, r230, r230, r162 * r212 - r103 * r115],
+        [0.0, c1 * r116 + s1 * r212, r233, r233, r233, r103 * r116 + r102 * r212],
+        [r155, 0.0 - s1 * r100, r240, r240, r240, 0.0 - r173],
+        [r101, c1 * r100, r178, r178, r178, r165 - r164],
+        [0.0, 0.0 - (c1 * r155 + s1 * r101), r186, r186, r186, 0.0 - r189],
     ]
 }
 

@@ -317,50 +317,31 @@ static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r2 = c1 + (1.0 - c1), r7 = c2 + (1.0 - c2), r8 = 0.0 - s2, r9 = c1 * c2, r10 = s1 * c2;
-    const double r11 = r2 * s2, r14 = c1 * r8, r15 = s1 * r8, r16 = r2 * c2, r17 = 0.089159 * r14;
-    const double r18 = 0.089159 * r15, r19 = 0.089159 * r16, r35 = c3 + (1.0 - c3), r36 = 0.0 - s3;
-    const double r39 = r9 * c3 + r14 * s3, r42 = r10 * c3 + r15 * s3, r45 = r11 * c3 + r16 * s3;
-    const double r50 = r9 * r36 + r14 * c3, r53 = r10 * r36 + r15 * c3, r56 = r11 * r36 + r16 * c3;
-    const double r58 = 0.089159 * r50, r61 = 0.089159 * r53, r64 = 0.089159 * r56;
-    const double r66 = 0.0 - r17 + (-0.425 * r9 + r17) - (-0.425 * r39 + r58);
-    const double r67 = 0.0 - r18 + (-0.425 * r10 + r18) - (-0.425 * r42 + r61);
-    const double r68 = 0.089159 * r2 - r19 + (-0.425 * r11 + r19) - (-0.425 * r45 + r64), r81 = c4 + (1.0 - c4);
-    const double r82 = 0.0 - s4, r85 = r39 * c4 + r50 * s4, r88 = r42 * c4 + r53 * s4, r91 = r45 * c4 + r56 * s4;
-    const double r92 = (0.0 - s1) * r7 * r35 * r81, r93 = c1 * r7 * r35 * r81, r96 = r39 * r82 + r50 * c4;
-    const double r99 = r42 * r82 + r53 * c4, r102 = r45 * r82 + r56 * c4, r103 = -0.81725 * r85;
-    const double r104 = 0.089159 * r96, r106 = -0.81725 * r88, r107 = 0.089159 * r99;
-    const double r111 = -0.81725 * r91 + 0.089159 * r102;
-    const double r124 = r66 + (-0.81725 * r39 + r58) - (r103 + r104) + (r103 + -0.10915 * r92 + r104);
-    const double r125 = r67 + (-0.81725 * r42 + r61) - (r106 + r107) + (r106 + -0.10915 * r93 + r107);
-    const double r128 = 0.0 - s5, r129 = c5 + (1.0 - c5), r132 = r85 * c5 + r92 * r128;
-    const double r135 = r88 * c5 + r93 * r128, r136 = r91 * c5, r139 = r85 * s5 + r92 * c5;
-    const double r142 = r88 * s5 + r93 * c5, r143 = r91 * s5, r144 = r96 * r129, r145 = r99 * r129;
-    const double r146 = r102 * r129, r149 = -0.81725 * r132 + -0.10915 * r139;
-    const double r154 = -0.81725 * r135 + -0.10915 * r142, r159 = -0.81725 * r136 + -0.10915 * r143;
-    const double r164 = r68 + (-0.81725 * r45 + r64) - r111 + r111 - (r159 + 0.089159 * r146);
-    const double r174 = r124 - (r149 + 0.089159 * r144) + (r149 + -0.005491 * r144);
-    const double r175 = r125 - (r154 + 0.089159 * r145) + (r154 + -0.005491 * r145), r178 = c6 + (1.0 - c6);
-    const double r179 = 0.0 - s6, r182 = r132 * c6 + r144 * s6, r185 = r135 * c6 + r145 * s6;
-    const double r188 = r136 * c6 + r146 * s6, r189 = r139 * r178, r190 = r142 * r178, r191 = r143 * r178;
-    const double r194 = r132 * r179 + r144 * c6, r197 = r135 * r179 + r145 * c6, r200 = r136 * r179 + r146 * c6;
-    const double r201 = -0.81725 * r182, r204 = -0.005491 * r194, r206 = -0.81725 * r185;
-    const double r209 = -0.005491 * r197, r211 = -0.81725 * r188, r214 = -0.005491 * r200;
-    const double r218 = r164 + (r159 + -0.005491 * r146) - (r211 + -0.10915 * r191 + r214);
-    const double r228 = r174 - (r201 + -0.10915 * r189 + r204) + (r201 + -0.19145 * r189 + r204);
-    const double r229 = r175 - (r206 + -0.10915 * r190 + r209) + (r206 + -0.19145 * r190 + r209);
-    reached[0] = r228;
-    reached[1] = r229;
-    reached[2] = r218 + (r211 + -0.19145 * r191 + r214);
-    reached[3] = r182;
-    reached[4] = r185;
-    reached[5] = r188;
-    reached[6] = r194;
-    reached[7] = r197;
-    reached[8] = r200;
-    reached[9] = 0.0 - r189;
-    reached[10] = 0.0 - r190;
-    reached[11] = 0.0 - r191;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2;
+    const double r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16;
+    const double r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
+    const double r34 = c4 * r16 - s4 * r18, r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = c5 * r40;
+    const double r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40;
+    const double r47 = c5 * r34 + s1 * s5, r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r53 = r30 + r31;
+    const double r56 = r32 + r33, r70 = 0.425 * s2 + 0.39225 * r8 + 0.39225 * r9 - 0.09465 * r32;
+    const double r81 = 0.425 * r1 + 0.39225 * r6 - 0.39225 * r7 + 0.10915 * c1;
+    const double r87 = r81 - 0.09465 * r30 - 0.09465 * r31 + 0.0823 * r44;
+    const double r96 = 0.425 * r0 + 0.39225 * r4 - 0.39225 * r5 - 0.10915 * s1;
+    const double r102 = r96 - 0.09465 * r28 - 0.09465 * r29 + 0.0823 * r42;
+    const double r109 = 0.089159 - (r70 - 0.09465 * r33 + 0.0823 * r46);
+    reached[0] = 0.0823 * r43 - r102;
+    reached[1] = 0.0 - (r87 + 0.0823 * r45);
+    reached[2] = r109;
+    reached[3] = c6 * r47 - s6 * r49;
+    reached[4] = c6 * r51 - s6 * r53;
+    reached[5] = c6 * r41 - s6 * r56;
+    reached[6] = 0.0 - (s6 * r47 + c6 * r49);
+    reached[7] = 0.0 - (s6 * r51 + c6 * r53);
+    reached[8] = 0.0 - (s6 * r41 + c6 * r56);
+    reached[9] = r43 - r42;
+    reached[10] = 0.0 - (r44 + r45);
+    reached[11] = 0.0 - r46;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -416,58 +397,43 @@ static Jacobian jacobian(const Parameters *p, const double *q)
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
     const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r3 = 0.0 - r1, r4 = 0.0 - c1, r5 = 0.089159 * r2;
-    const double r7 = c2 + (1.0 - c2), r8 = 0.0 - s2, r9 = c1 * c2, r10 = s1 * c2, r11 = r2 * s2, r12 = r1 * r7;
-    const double r13 = c1 * r7, r14 = c1 * r8, r15 = s1 * r8, r16 = r2 * c2, r17 = 0.089159 * r14;
-    const double r18 = 0.089159 * r15, r19 = 0.089159 * r16, r23 = 0.0 - r12, r24 = 0.0 - r13;
-    const double r31 = 0.0 - r17 + (-0.425 * r9 + r17), r32 = 0.0 - r18 + (-0.425 * r10 + r18);
-    const double r33 = r5 - r19 + (-0.425 * r11 + r19), r35 = c3 + (1.0 - c3), r36 = 0.0 - s3;
-    const double r39 = r9 * c3 + r14 * s3, r42 = r10 * c3 + r15 * s3, r45 = r11 * c3 + r16 * s3, r46 = r12 * r35;
-    const double r47 = r13 * r35, r50 = r9 * r36 + r14 * c3, r53 = r10 * r36 + r15 * c3;
-    const double r56 = r11 * r36 + r16 * c3, r58 = 0.089159 * r50, r61 = 0.089159 * r53, r64 = 0.089159 * r56;
-    const double r69 = 0.0 - r46, r70 = 0.0 - r47, r77 = r31 - (-0.425 * r39 + r58) + (-0.81725 * r39 + r58);
-    const double r78 = r32 - (-0.425 * r42 + r61) + (-0.81725 * r42 + r61);
-    const double r79 = r33 - (-0.425 * r45 + r64) + (-0.81725 * r45 + r64), r81 = c4 + (1.0 - c4);
-    const double r82 = 0.0 - s4, r85 = r39 * c4 + r50 * s4, r88 = r42 * c4 + r53 * s4, r91 = r45 * c4 + r56 * s4;
-    const double r92 = r46 * r81, r93 = r47 * r81, r96 = r39 * r82 + r50 * c4, r99 = r42 * r82 + r53 * c4;
-    const double r102 = r45 * r82 + r56 * c4, r103 = -0.81725 * r85, r104 = 0.089159 * r96;
-    const double r106 = -0.81725 * r88, r107 = 0.089159 * r99, r111 = -0.81725 * r91 + 0.089159 * r102;
-    const double r115 = 0.0 - r96, r116 = 0.0 - r99, r117 = 0.0 - r102;
-    const double r124 = r77 - (r103 + r104) + (r103 + -0.10915 * r92 + r104);
-    const double r125 = r78 - (r106 + r107) + (r106 + -0.10915 * r93 + r107), r126 = r79 - r111 + r111;
-    const double r128 = 0.0 - s5, r129 = c5 + (1.0 - c5), r132 = r85 * c5 + r92 * r128;
-    const double r135 = r88 * c5 + r93 * r128, r136 = r91 * c5, r139 = r85 * s5 + r92 * c5;
-    const double r142 = r88 * s5 + r93 * c5, r143 = r91 * s5, r144 = r96 * r129, r145 = r99 * r129;
-    const double r146 = r102 * r129, r149 = -0.81725 * r132 + -0.10915 * r139;
-    const double r154 = -0.81725 * r135 + -0.10915 * r142, r159 = -0.81725 * r136 + -0.10915 * r143;
-    const double r165 = 0.0 - r139, r166 = 0.0 - r142, r167 = 0.0 - r143;
-    const double r174 = r124 - (r149 + 0.089159 * r144) + (r149 + -0.005491 * r144);
-    const double r175 = r125 - (r154 + 0.089159 * r145) + (r154 + -0.005491 * r145);
-    const double r176 = r126 - (r159 + 0.089159 * r146) + (r159 + -0.005491 * r146), r178 = c6 + (1.0 - c6);
-    const double r179 = 0.0 - s6, r182 = r132 * c6 + r144 * s6, r185 = r135 * c6 + r145 * s6;
-    const double r188 = r136 * c6 + r146 * s6, r189 = r139 * r178, r190 = r142 * r178, r191 = r143 * r178;
-    const double r194 = r132 * r179 + r144 * c6, r197 = r135 * r179 + r145 * c6, r200 = r136 * r179 + r146 * c6;
-    const double r201 = -0.81725 * r182, r204 = -0.005491 * r194, r206 = -0.81725 * r185;
-    const double r209 = -0.005491 * r197, r211 = -0.81725 * r188, r214 = -0.005491 * r200;
-    const double r228 = r174 - (r201 + -0.10915 * r189 + r204) + (r201 + -0.19145 * r189 + r204);
-    const double r229 = r175 - (r206 + -0.10915 * r190 + r209) + (r206 + -0.19145 * r190 + r209);
-    const double r230 = r176 - (r211 + -0.10915 * r191 + r214) + (r211 + -0.19145 * r191 + r214);
-    const double r231 = 0.0 - r189, r232 = 0.0 - r190, r233 = 0.0 - r191, r235 = r230 - r5, r244 = r230 - r33;
-    const double r253 = r230 - r79, r260 = r228 - r124, r261 = r229 - r125, r262 = r230 - r126;
-    const double r272 = r228 - r174, r273 = r229 - r175, r274 = r230 - r176;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
+    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2;
+    const double r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16;
+    const double r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
+    const double r34 = c4 * r16 - s4 * r18, r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = c5 * r40;
+    const double r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40;
+    const double r47 = c5 * r34 + s1 * s5, r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r52 = c6 * r51;
+    const double r53 = r30 + r31, r54 = s6 * r53, r56 = r32 + r33, r65 = 0.39225 * r8, r67 = 0.39225 * r9;
+    const double r69 = 0.09465 * r32, r71 = 0.09465 * r33, r73 = 0.0823 * r46;
+    const double r74 = 0.425 * s2 + r65 + r67 - r69 - r71 + r73, r76 = 0.39225 * r6, r78 = 0.39225 * r7;
+    const double r80 = 0.10915 * c1, r82 = 0.09465 * r30, r84 = 0.09465 * r31, r86 = 0.0823 * r44;
+    const double r87 = 0.425 * r1 + r76 - r78 + r80 - r82 - r84 + r86, r88 = 0.0823 * r45, r89 = r87 + r88;
+    const double r91 = 0.39225 * r4, r93 = 0.39225 * r5, r95 = 0.10915 * s1, r97 = 0.09465 * r28;
+    const double r99 = 0.09465 * r29, r101 = 0.0823 * r42;
+    const double r102 = 0.425 * r0 + r91 - r93 - r95 - r97 - r99 + r101, r103 = 0.0823 * r43, r104 = r44 + r45;
+    const double r111 = c6 * r41 - s6 * r56, r112 = r52 - r54, r113 = c6 * r47 - s6 * r49;
+    const double r117 = s6 * r41 + c6 * r56, r118 = s6 * r51 + c6 * r53, r119 = s6 * r47 + c6 * r49;
+    const double r140 = r73 + (r65 + r67 - r69 - r71), r148 = r88 + (r86 + (r80 + (r76 - r78) - r82 - r84));
+    const double r156 = c1 * (r101 + (r91 - r93 - r95 - r97 - r99) - r103), r158 = r69 + r71 - r73;
+    const double r174 = r82 + r84 - r86 - r88, r178 = r103 + (r97 + r99 - r101), r183 = r42 - r43;
+    const double r192 = c1 * (r103 + (r99 + (r95 + r97) - r101)) - s1 * (r88 + (r86 + (r80 - r82 - r84)));
+    const double r211 = 0.0 - c1 * r111, r214 = 0.0 - s1 * r111, r217 = s1 * r112 + c1 * r113, r220 = c1 * r117;
+    const double r221 = s1 * r117, r241 = 0.0 - (s1 * r118 + c1 * r119), r244 = c1 * r46, r245 = s1 * r46;
+    const double r257 = 0.0 - (s1 * r104 + c1 * r183);
     const Jacobian result = { {
-        {0.0 - r229, r4 * r235, r24 * r244, r70 * r253, r116 * r262 - r117 * r261, r166 * r274 - r167 * r273},
-        {r228, 0.0 - r3 * r235, 0.0 - r23 * r244, 0.0 - r69 * r253, r117 * r260 - r115 * r262, r167 * r272 - r165 * r274},
-        {0.0, r3 * r229 - r4 * r228, r23 * (r229 - r32) - r24 * (r228 - r31), r69 * (r229 - r78) - r70 * (r228 - r77), r115 * r261 - r116 * r260, r165 * r273 - r166 * r272},
-        {0.0 - r185, r4 * r188, r24 * r188, r70 * r188, r116 * r188 - r117 * r185, r166 * r188 - r167 * r185},
-        {r182, 0.0 - r3 * r188, 0.0 - r23 * r188, 0.0 - r69 * r188, r117 * r182 - r115 * r188, r167 * r182 - r165 * r188},
-        {0.0, r3 * r185 - r4 * r182, r23 * r185 - r24 * r182, r69 * r185 - r70 * r182, r115 * r185 - r116 * r182, r165 * r185 - r166 * r182},
-        {0.0 - r197, r4 * r200, r24 * r200, r70 * r200, r116 * r200 - r117 * r197, r166 * r200 - r167 * r197},
-        {r194, 0.0 - r3 * r200, 0.0 - r23 * r200, 0.0 - r69 * r200, r117 * r194 - r115 * r200, r167 * r194 - r165 * r200},
-        {0.0, r3 * r197 - r4 * r194, r23 * r197 - r24 * r194, r69 * r197 - r70 * r194, r115 * r197 - r116 * r194, r165 * r197 - r166 * r194},
-        {0.0 - r232, r4 * r233, r24 * r233, r70 * r233, r116 * r233 - r117 * r232, r166 * r233 - r167 * r232},
-        {r231, 0.0 - r3 * r233, 0.0 - r23 * r233, 0.0 - r69 * r233, r117 * r231 - r115 * r233, r167 * r231 - r165 * r233},
-        {0.0, r3 * r232 - r4 * r231, r23 * r232 - r24 * r231, r69 * r232 - r70 * r231, r115 * r232 - r116 * r231, r165 * r232 - r166 * r231},
+        {r89, c1 * r74, c1 * r140, 0.0 - c1 * r158, r53 * r158 - r56 * r174, 0.0},
+        {r103 - r102, s1 * r74, s1 * r140, 0.0 - s1 * r158, r56 * r178 - r49 * r158, 0.0},
+        {0.0, 0.0 - (s1 * r89 + c1 * (r102 - r103)), 0.0 - (s1 * r148 + r156), r192, r49 * r174 - r53 * r178, 0.0},
+        {r54 - r52, r211, r211, r211, r53 * r111 - r56 * r112, r46 * r112 - r104 * r111},
+        {r113, r214, r214, r214, r56 * r113 - r49 * r111, r183 * r111 - r46 * r113},
+        {0.0, r217, r217, r217, r49 * r112 - r53 * r113, r104 * r113 - r183 * r112},
+        {r118, r220, r220, r220, r56 * r118 - r53 * r117, r104 * r117 - r46 * r118},
+        {0.0 - r119, r221, r221, r221, r49 * r117 - r56 * r119, r46 * r119 - r183 * r117},
+        {0.0, r241, r241, r241, r53 * r119 - r49 * r118, r183 * r118 - r104 * r119},
+        {r104, r244, r244, r244, r56 * r104 - r46 * r53, 0.0},
+        {r43 - r42, r245, r245, r245, r46 * r49 - r56 * r183, 0.0},
+        {0.0, r257, r257, r257, r53 * r183 - r49 * r104, 0.0},
     } };
     return result;
 }
@@ -1200,17 +1166,16 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r59;
-    double r60;
+    double r21;
+    double r23;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r64 = (0.0 - (0.0 - -0.09465 * shared->r60)) / 0.0089586225;
-    const double r68 = (0.0 - (0.0 - -0.09465 * shared->r59)) / 0.0089586225;
-    const double r72 = sqrt(fmax(r68 * r68 + r64 * r64, 0.0)), c4 = r68 / r72, s4 = r64 / r72;
+    const double r25 = 0.09465 * shared->r23 / 0.0089586225, r27 = 0.09465 * shared->r21 / 0.0089586225;
+    const double r31 = sqrt(fmax(r27 * r27 + r25 * r25, 0.0)), c4 = 0.0 - r27 / r31, s4 = r25 / r31;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1225,27 +1190,24 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: Wrist1. */
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r5 = p->pz + -0.0823 * p->r33_, r11 = (0.0 - (0.0 - (p->py + -0.0823 * p->r23_))) * known->s1;
-    const double r12 = (p->px + -0.0823 * p->r13_) * known->c1 + r11;
-    const double r18 = r5 + (r5 - r5) * known->c1 - 0.089159;
-    const double r29 = r12 * known->c2 + (0.0 - (0.0 - r18)) * known->s2;
-    const double r33 = r18 * known->c2 + (0.0 - (0.0 - (0.0 - r12))) * known->s2, r36 = r29 + 0.425;
-    const double r37 = r33 + 0.089159 - 0.089159, r48 = r36 * known->c3 + (0.0 - (0.0 - r37)) * known->s3;
-    const double r52 = r37 * known->c3 + (0.0 - (0.0 - (0.0 - r36))) * known->s3;
-    const double r59 = 0.0 - (0.089159 - (r52 + 0.089159)), r60 = 0.0 - (0.81725 - (0.0 - (r48 - 0.425)));
-    const Shared6 own = { r59, r60 };
+    const double r6 = known->c1 * (p->px - 0.0823 * p->r13_) + known->s1 * (p->py - 0.0823 * p->r23_);
+    const double r10 = p->pz - 0.0823 * p->r33_ - 0.089159, r15 = known->c2 * r6 + known->s2 * r10 + 0.425;
+    const double r17 = known->c2 * r10 - known->s2 * r6, r21 = known->c3 * r17 - known->s3 * r15;
+    const double r23 = known->c3 * r15 + known->s3 * r17 + 0.39225;
+    const Shared6 own = { r21, r23 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r4;
-    double r48;
-    double r49;
-    double r50;
-    double r57;
-    double r58;
+    double r20;
+    double r22;
+    double r29;
+    double r30;
+    double r31;
+    double r35;
+    double r36;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
@@ -1253,13 +1215,13 @@ typedef struct {
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r61 = shared->r4 * shared->r4 + shared->r48 * shared->r48;
-    if (!is_away(r61, 59625.5768362)) {
+    const double r39 = shared->r20 * shared->r20 + shared->r22 * shared->r22;
+    if (!is_away(r39, 59625.5768362)) {
         return;
     }
-    const double r64 = shared->r48 * shared->r49 - shared->r4 * shared->r50, r66 = (0.0 - r64) / r61;
-    const double r70 = 0.0 - shared->r4 * shared->r49 - shared->r48 * shared->r50, r72 = (0.0 - r70) / r61;
-    const double r76 = sqrt(fmax(r72 * r72 + r66 * r66, 0.0)), c2 = r72 / r76, s2 = r66 / r76;
+    const double r42 = shared->r20 * shared->r30 - shared->r22 * shared->r29, r43 = r42 / r39;
+    const double r46 = shared->r20 * shared->r29 + shared->r22 * shared->r30, r47 = r46 / r39;
+    const double r51 = sqrt(fmax(r47 * r47 + r43 * r43, 0.0)), c2 = 0.0 - r47 / r51, s2 = r43 / r51;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1274,8 +1236,8 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
  */
 static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r61 = shared->r4 * shared->r4 + shared->r48 * shared->r48;
-    if (!(is_near(r61, 5.96255768362e-7) && is_near(shared->r50, 0.01 * shared->r58) && is_near(shared->r49, 0.01 * shared->r57))) {
+    const double r39 = shared->r20 * shared->r20 + shared->r22 * shared->r22;
+    if (!(is_near(r39, 5.96255768362e-7) && is_near(shared->r31, 0.01 * shared->r36) && is_near(shared->r29, 0.01 * shared->r35))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1293,17 +1255,15 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: ShoulderLift. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r4 = -0.39225 * known->s3 + 0.089159 - 0.089159, r12 = 0.09465 * known->s6 - 0.81725 + 0.81725;
-    const double r13 = 0.09465 * known->c6 - 0.005491 + 0.005491;
-    const double r18 = r12 * p->r11_ + r13 * p->r12_ + -0.0823 * p->r13_;
-    const double r23 = r12 * p->r21_ + r13 * p->r22_ + -0.0823 * p->r23_;
-    const double r28 = r12 * p->r31_ + r13 * p->r32_ + -0.0823 * p->r33_;
-    const double r40 = (p->px + r18) * known->c1 + (0.0 - (0.0 - (p->py + r23))) * known->s1;
-    const double r48 = 0.0 - (0.0 - (0.0 - (-0.39225 * known->c3 - 0.425)));
-    const double r49 = 0.0 - (0.089159 - (p->pz + r28)), r50 = 0.0 - (0.0 - (0.0 - r40));
-    const double r51 = p->magnitude + 6.059282, r57 = fabs(0.0 - (r51 + 0.089159));
-    const double r58 = fabs(0.0 - (r51 + r51));
-    const Shared5 own = { r4, r48, r49, r50, r57, r58 };
+    const double r9 = p->px + 0.09465 * (p->r11_ * known->s6) + 0.09465 * (p->r12_ * known->c6);
+    const double r16 = p->py + 0.09465 * (p->r21_ * known->s6) + 0.09465 * (p->r22_ * known->c6);
+    const double r20 = 0.39225 * known->s3, r22 = 0.39225 * known->c3 + 0.425;
+    const double r26 = p->pz + 0.09465 * (p->r31_ * known->s6) + 0.09465 * (p->r32_ * known->c6);
+    const double r29 = r26 - 0.0823 * p->r33_ - 0.089159;
+    const double r30 = known->c1 * (r9 - 0.0823 * p->r13_) + known->s1 * (r16 - 0.0823 * p->r23_);
+    const double r31 = 0.0 - r30, r35 = fabs(p->magnitude + 6.148441);
+    const double r36 = fabs(2.0 * p->magnitude + 12.118564);
+    const Shared5 own = { r20, r22, r29, r30, r31, r35, r36 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
@@ -1311,19 +1271,19 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r56;
+    double r46;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double choice0_0[3] = {shared->r56 * shared->r56 - 0.11116389515625, 0.0, 1.0};
+    const double choice0_0[3] = {shared->r46 * shared->r46 - 0.11116389515625, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->f6);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r63 = (0.0 - (0.0 - 0.3334125 * w3)) / 0.11116389515625;
-        const double r66 = (0.0 - 0.3334125 * shared->r56) / 0.11116389515625;
-        const double r70 = sqrt(fmax(r66 * r66 + r63 * r63, 0.0)), c3 = r66 / r70, s3 = r63 / r70;
+        const double w3 = roots0.values[i0], r51 = 0.3334125 * w3 / 0.11116389515625;
+        const double r53 = 0.3334125 * shared->r46 / 0.11116389515625;
+        const double r57 = sqrt(fmax(r53 * r53 + r51 * r51, 0.0)), c3 = 0.0 - r53 / r57, s3 = r51 / r57;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1336,34 +1296,31 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: Elbow. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = 0.09465 * known->s6 - 0.81725, r3 = 0.09465 * known->c6 - 0.005491, r4 = -0.81725 * r2;
-    const double r5 = -0.005491 * r3, r7 = r4 + 0.0119137225 + r5, r11 = r2 + 0.81725, r12 = r3 + 0.005491;
-    const double r17 = r11 * p->r11_ + r12 * p->r12_ + -0.0823 * p->r13_;
-    const double r22 = r11 * p->r21_ + r12 * p->r22_ + -0.0823 * p->r23_;
-    const double r27 = r11 * p->r31_ + r12 * p->r32_ + -0.0823 * p->r33_, r30 = p->pz + r27;
-    const double r32 = r4 + 0.0208967675 + r5;
-    const double r35 = r7 + r7 - 0.679841436081 + 0.0089586225 - (r32 + r32 - 0.704580816081);
-    const double r39 = p->px * (p->px + r17) + p->py * (p->py + r22), r40 = r39 + p->pz * r30;
-    const double r46 = p->px * p->px + p->py * p->py + p->pz * p->pz;
-    const double r54 = r35 + (r40 + r40 - r46) + 0.089159 * (0.089159 - r30);
-    const double r56 = 0.346398785 - (r54 - 0.089159 * r30);
-    const Shared4 own = { r56 };
+    const double r4 = p->r31_ * known->s6, r5 = p->r32_ * known->c6;
+    const double r9 = p->px + 0.09465 * (p->r11_ * known->s6) + 0.09465 * (p->r12_ * known->c6);
+    const double r16 = p->py + 0.09465 * (p->r21_ * known->s6) + 0.09465 * (p->r22_ * known->c6);
+    const double r25 = p->pz + 0.09465 * r4 + 0.09465 * r5 - 0.0823 * p->r33_;
+    const double r32 = 2.0 * (p->px * (r9 - 0.0823 * p->r13_)) + 2.0 * (p->py * (r16 - 0.0823 * p->r23_));
+    const double r36 = r32 + 2.0 * (p->pz * r25) - p->px * p->px - p->py * p->py;
+    const double r41 = r36 - p->pz * p->pz - 0.178318 * p->pz - 0.0168777987 * r4;
+    const double r45 = r41 - 0.0168777987 * r5 + 0.0146755714 * p->r33_, r46 = 0.322717545219 - r45;
+    const Shared4 own = { r46 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r37;
-    double r38;
+    double r10;
+    double r11;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r40 = 0.0 - (0.0 - shared->r37), r42 = 0.0 - (0.0 - shared->r38);
-    const double r46 = sqrt(fmax(r42 * r42 + r40 * r40, 0.0)), c5 = r42 / r46, s5 = r40 / r46;
+    const double r14 = shared->r10 * shared->r10 + shared->r11 * shared->r11, r15 = sqrt(fmax(r14, 0.0));
+    const double c5 = shared->r10 / r15, s5 = shared->r11 / r15;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1375,19 +1332,18 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Wrist2. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1, r14 = 0.0 - known->c6;
-    const double r31 = (r14 * p->r21_ + known->s6 * p->r22_) * known->c1;
-    const double r32 = (0.0 - (r14 * p->r11_ + known->s6 * p->r12_)) * known->s1;
-    const double r37 = 0.0 - (0.0 - (r31 + r32)), r38 = 0.0 - (0.0 - (0.0 - r9));
-    const Shared3 own = { r37, r38 };
+    const double r8 = known->c1 * (p->r21_ * known->c6 - p->r22_ * known->s6);
+    const double r9 = known->s1 * (p->r11_ * known->c6 - p->r12_ * known->s6);
+    const double r10 = p->r13_ * known->s1 - p->r23_ * known->c1, r11 = r9 - r8;
+    const Shared3 own = { r10, r11 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r32;
-    double r33;
+    double r4;
+    double r5;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
@@ -1395,17 +1351,16 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r34 = shared->r32 * shared->r32, r35 = shared->r33 * shared->r33, r36 = r34 + r35;
-    if (!is_away(r36, 80000.0)) {
+    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
+    if (!is_away(r8, 80000.0)) {
         return;
     }
     const double f6 = 1.0;
-    const double choice0_0[3] = {0.0 - r34 - r35, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 2.8284271247461903);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w6 = roots0.values[i0], r42 = (0.0 - (0.0 - shared->r32 * w6)) / r36;
-        const double r45 = (0.0 - shared->r33 * w6) / r36, r49 = sqrt(fmax(r45 * r45 + r42 * r42, 0.0));
-        const double c6 = r45 / r49, s6 = r42 / r49;
+        const double w6 = roots0.values[i0], r12 = w6 * shared->r4 / r8, r14 = w6 * shared->r5 / r8;
+        const double r18 = sqrt(fmax(r14 * r14 + r12 * r12, 0.0)), c6 = 0.0 - r14 / r18, s6 = r12 / r18;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1422,8 +1377,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
  */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r36 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!is_near(r36, 8.000000000000001e-7)) {
+    const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5;
+    if (!is_near(r8, 8.000000000000001e-7)) {
         return;
     }
     const double f6 = 1000000.0;
@@ -1443,10 +1398,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Wrist3. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r24 = (0.0 - p->r22_) * known->c1 + (0.0 - (0.0 - p->r12_)) * known->s1;
-    const double r25 = (0.0 - p->r21_) * known->c1 + (0.0 - (0.0 - p->r11_)) * known->s1;
-    const double r32 = 0.0 - (0.0 - r24), r33 = 0.0 - (0.0 - r25);
-    const Shared2 own = { r32, r33 };
+    const double r4 = p->r12_ * known->s1 - p->r22_ * known->c1, r5 = p->r11_ * known->s1 - p->r21_ * known->c1;
+    const Shared2 own = { r4, r5 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
@@ -1454,9 +1407,9 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r8;
-    double r11;
-    double r14;
+    double r1;
+    double r3;
+    double r5;
 } Shared1;
 
 /* Chart 1 of block 1: generic.
@@ -1464,17 +1417,17 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r15 = shared->r8 * shared->r8, r16 = shared->r11 * shared->r11, r17 = r15 + r16;
-    const double r18 = shared->r14 * shared->r14, r19 = r18 + r18;
-    if (!is_away(r17, 10000.0 * r19)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 10000.0 * r10)) {
         return;
     }
-    const double choice0_0[3] = {0.0119137225 - r15 - r16, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r19, 0.0)));
+    const double choice0_0[3] = {0.0119137225 - r6 - r7, 0.0, 1.0};
+    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r27 = 0.0 - (0.10915 * shared->r11 - shared->r8 * w1);
-        const double r28 = r27 / r17, r32 = 0.0 - (shared->r11 * w1 + 0.10915 * shared->r8), r33 = r32 / r17;
-        const double r37 = sqrt(fmax(r33 * r33 + r28 * r28, 0.0)), c1 = r33 / r37, s1 = r28 / r37;
+        const double w1 = roots0.values[i0], r18 = (w1 * shared->r1 - 0.10915 * shared->r3) / r8;
+        const double r22 = (w1 * shared->r3 + 0.10915 * shared->r1) / r8;
+        const double r26 = sqrt(fmax(r22 * r22 + r18 * r18, 0.0)), c1 = 0.0 - r22 / r26, s1 = r18 / r26;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1487,9 +1440,9 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: ShoulderPan. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r8 = 0.0 - (0.0 - (p->py + -0.0823 * p->r23_));
-    const double r11 = 0.0 - (0.0 - (0.0 - (p->px + -0.0823 * p->r13_))), r14 = fabs(p->magnitude + 1.946082);
-    const Shared1 own = { r8, r11, r14 };
+    const double r1 = p->py - 0.0823 * p->r23_, r3 = 0.0823 * p->r13_ - p->px;
+    const double r5 = fabs(p->magnitude + 1.946082);
+    const Shared1 own = { r1, r3, r5 };
     const Shared1 *const shared = &own;
     chart_1_1(p, shared, answers);
 }

@@ -440,40 +440,38 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: ShoulderPan.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r8 = 0.0 - (0.0 - (p.py + -0.0823 * p.r23_));
-    let r11 = 0.0 - (0.0 - (0.0 - (p.px + -0.0823 * p.r13_)));
-    let r14 = f64::abs(p.magnitude + 1.946082);
-    let shared = &Shared1 { r8, r11, r14 };
+    let r1 = p.py - 0.0823 * p.r23_;
+    let r3 = 0.0823 * p.r13_ - p.px;
+    let r5 = f64::abs(p.magnitude + 1.946082);
+    let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
 }
 
 /// What the charts of block 1 share.
 struct Shared1 {
-    r8: f64,
-    r11: f64,
-    r14: f64,
+    r1: f64,
+    r3: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r15 = shared.r8 * shared.r8;
-    let r16 = shared.r11 * shared.r11;
-    let r17 = r15 + r16;
-    let r18 = shared.r14 * shared.r14;
-    let r19 = r18 + r18;
-    if !is_away(r17, 10000.0 * r19) {
+    let r6 = shared.r1 * shared.r1;
+    let r7 = shared.r3 * shared.r3;
+    let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5;
+    let r10 = r9 + r9;
+    if !is_away(r8, 10000.0 * r10) {
         return;
     }
-    let roots0 = real_roots(&[0.0119137225 - r15 - r16, 0.0, 1.0], f64::max(r19, 0.0).sqrt());
+    let roots0 = real_roots(&[0.0119137225 - r6 - r7, 0.0, 1.0], f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r27 = 0.0 - (0.10915 * shared.r11 - shared.r8 * w1);
-        let r28 = r27 / r17;
-        let r32 = 0.0 - (shared.r11 * w1 + 0.10915 * shared.r8);
-        let r33 = r32 / r17;
-        let r37 = f64::max(r33 * r33 + r28 * r28, 0.0).sqrt();
-        let c1 = r33 / r37;
-        let s1 = r28 / r37;
+        let r18 = (w1 * shared.r1 - 0.10915 * shared.r3) / r8;
+        let r22 = (w1 * shared.r3 + 0.10915 * shared.r1) / r8;
+        let r26 = f64::max(r22 * r22 + r18 * r18, 0.0).sqrt();
+        let c1 = 0.0 - r22 / r26;
+        let s1 = r18 / r26;
         let next = Known { branch: i0, last: 2, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -481,38 +479,36 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Wrist3.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r24 = (0.0 - p.r22_) * known.c1 + (0.0 - (0.0 - p.r12_)) * known.s1;
-    let r25 = (0.0 - p.r21_) * known.c1 + (0.0 - (0.0 - p.r11_)) * known.s1;
-    let r32 = 0.0 - (0.0 - r24);
-    let r33 = 0.0 - (0.0 - r25);
-    let shared = &Shared2 { r32, r33 };
+    let r4 = p.r12_ * known.s1 - p.r22_ * known.c1;
+    let r5 = p.r11_ * known.s1 - p.r21_ * known.c1;
+    let shared = &Shared2 { r4, r5 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r32: f64,
-    r33: f64,
+    r4: f64,
+    r5: f64,
 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r34 = shared.r32 * shared.r32;
-    let r35 = shared.r33 * shared.r33;
-    let r36 = r34 + r35;
-    if !is_away(r36, 80000.0) {
+    let r6 = shared.r4 * shared.r4;
+    let r7 = shared.r5 * shared.r5;
+    let r8 = r6 + r7;
+    if !is_away(r8, 80000.0) {
         return;
     }
     let f6 = 1.0;
-    let roots0 = real_roots(&[0.0 - r34 - r35, 0.0, 1.0], 2.8284271247461903);
+    let roots0 = real_roots(&[0.0 - r6 - r7, 0.0, 1.0], 2.8284271247461903);
     for (i0, &w6) in roots0.as_slice().iter().enumerate() {
-        let r42 = (0.0 - (0.0 - shared.r32 * w6)) / r36;
-        let r45 = (0.0 - shared.r33 * w6) / r36;
-        let r49 = f64::max(r45 * r45 + r42 * r42, 0.0).sqrt();
-        let c6 = r45 / r49;
-        let s6 = r42 / r49;
+        let r12 = w6 * shared.r4 / r8;
+        let r14 = w6 * shared.r5 / r8;
+        let r18 = f64::max(r14 * r14 + r12 * r12, 0.0).sqrt();
+        let c6 = 0.0 - r14 / r18;
+        let s6 = r12 / r18;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c6, s6, f6, ..*known };
         block_3(p, &next, answers);
     }
@@ -522,8 +518,8 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Wrist3.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r36 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !is_near(r36, 8.000000000000001e-7) {
+    let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5;
+    if !is_near(r8, 8.000000000000001e-7) {
         return;
     }
     let f6 = 1000000.0;
@@ -535,74 +531,64 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 
 /// Block 3: Wrist2.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r14 = 0.0 - known.c6;
-    let r31 = (r14 * p.r21_ + known.s6 * p.r22_) * known.c1;
-    let r32 = (0.0 - (r14 * p.r11_ + known.s6 * p.r12_)) * known.s1;
-    let r37 = 0.0 - (0.0 - (r31 + r32));
-    let r38 = 0.0 - (0.0 - (0.0 - r9));
-    let shared = &Shared3 { r37, r38 };
+    let r8 = known.c1 * (p.r21_ * known.c6 - p.r22_ * known.s6);
+    let r9 = known.s1 * (p.r11_ * known.c6 - p.r12_ * known.s6);
+    let r10 = p.r13_ * known.s1 - p.r23_ * known.c1;
+    let r11 = r9 - r8;
+    let shared = &Shared3 { r10, r11 };
     chart_3_1(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r37: f64,
-    r38: f64,
+    r10: f64,
+    r11: f64,
 }
 
 /// Chart 1 of block 3: generic.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r40 = 0.0 - (0.0 - shared.r37);
-    let r42 = 0.0 - (0.0 - shared.r38);
-    let r46 = f64::max(r42 * r42 + r40 * r40, 0.0).sqrt();
-    let c5 = r42 / r46;
-    let s5 = r40 / r46;
+    let r14 = shared.r10 * shared.r10 + shared.r11 * shared.r11;
+    let r15 = f64::max(r14, 0.0).sqrt();
+    let c5 = shared.r10 / r15;
+    let s5 = shared.r11 / r15;
     let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
     block_4(p, &next, answers);
 }
 
 /// Block 4: Elbow.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.09465 * known.s6 - 0.81725;
-    let r3 = 0.09465 * known.c6 - 0.005491;
-    let r4 = -0.81725 * r2;
-    let r5 = -0.005491 * r3;
-    let r7 = r4 + 0.0119137225 + r5;
-    let r11 = r2 + 0.81725;
-    let r12 = r3 + 0.005491;
-    let r17 = r11 * p.r11_ + r12 * p.r12_ + -0.0823 * p.r13_;
-    let r22 = r11 * p.r21_ + r12 * p.r22_ + -0.0823 * p.r23_;
-    let r27 = r11 * p.r31_ + r12 * p.r32_ + -0.0823 * p.r33_;
-    let r30 = p.pz + r27;
-    let r32 = r4 + 0.0208967675 + r5;
-    let r35 = r7 + r7 - 0.679841436081 + 0.0089586225 - (r32 + r32 - 0.704580816081);
-    let r40 = p.px * (p.px + r17) + p.py * (p.py + r22) + p.pz * r30;
-    let r47 = r40 + r40 - (p.px * p.px + p.py * p.py + p.pz * p.pz);
-    let r55 = r35 + r47 + 0.089159 * (0.089159 - r30) - 0.089159 * r30;
-    let r56 = 0.346398785 - r55;
-    let shared = &Shared4 { r56 };
+    let r4 = p.r31_ * known.s6;
+    let r5 = p.r32_ * known.c6;
+    let r9 = p.px + 0.09465 * (p.r11_ * known.s6) + 0.09465 * (p.r12_ * known.c6);
+    let r16 = p.py + 0.09465 * (p.r21_ * known.s6) + 0.09465 * (p.r22_ * known.c6);
+    let r25 = p.pz + 0.09465 * r4 + 0.09465 * r5 - 0.0823 * p.r33_;
+    let r32 = 2.0 * (p.px * (r9 - 0.0823 * p.r13_)) + 2.0 * (p.py * (r16 - 0.0823 * p.r23_));
+    let r36 = r32 + 2.0 * (p.pz * r25) - p.px * p.px - p.py * p.py;
+    let r41 = r36 - p.pz * p.pz - 0.178318 * p.pz - 0.0168777987 * r4;
+    let r45 = r41 - 0.0168777987 * r5 + 0.0146755714 * p.r33_;
+    let r46 = 0.322717545219 - r45;
+    let shared = &Shared4 { r46 };
     chart_4_1(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r56: f64,
+    r46: f64,
 }
 
 /// Chart 1 of block 4: generic.
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let roots0 = real_roots(&[
-        shared.r56 * shared.r56 - 0.11116389515625,
+        shared.r46 * shared.r46 - 0.11116389515625,
         0.0,
         1.0,
     ], 1.4142135623730951 * known.f6);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r63 = (0.0 - (0.0 - 0.3334125 * w3)) / 0.11116389515625;
-        let r66 = (0.0 - 0.3334125 * shared.r56) / 0.11116389515625;
-        let r70 = f64::max(r66 * r66 + r63 * r63, 0.0).sqrt();
-        let c3 = r66 / r70;
-        let s3 = r63 / r70;
+        let r51 = 0.3334125 * w3 / 0.11116389515625;
+        let r53 = 0.3334125 * shared.r46 / 0.11116389515625;
+        let r57 = f64::max(r53 * r53 + r51 * r51, 0.0).sqrt();
+        let c3 = 0.0 - r53 / r57;
+        let s3 = r51 / r57;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c3, s3, ..*known };
         block_5(p, &next, answers);
     }
@@ -610,48 +596,46 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Block 5: ShoulderLift.
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = -0.39225 * known.s3 + 0.089159 - 0.089159;
-    let r12 = 0.09465 * known.s6 - 0.81725 + 0.81725;
-    let r13 = 0.09465 * known.c6 - 0.005491 + 0.005491;
-    let r18 = r12 * p.r11_ + r13 * p.r12_ + -0.0823 * p.r13_;
-    let r23 = r12 * p.r21_ + r13 * p.r22_ + -0.0823 * p.r23_;
-    let r28 = r12 * p.r31_ + r13 * p.r32_ + -0.0823 * p.r33_;
-    let r40 = (p.px + r18) * known.c1 + (0.0 - (0.0 - (p.py + r23))) * known.s1;
-    let r48 = 0.0 - (0.0 - (0.0 - (-0.39225 * known.c3 - 0.425)));
-    let r49 = 0.0 - (0.089159 - (p.pz + r28));
-    let r50 = 0.0 - (0.0 - (0.0 - r40));
-    let r51 = p.magnitude + 6.059282;
-    let r57 = f64::abs(0.0 - (r51 + 0.089159));
-    let r58 = f64::abs(0.0 - (r51 + r51));
-    let shared = &Shared5 { r4, r48, r49, r50, r57, r58 };
+    let r9 = p.px + 0.09465 * (p.r11_ * known.s6) + 0.09465 * (p.r12_ * known.c6);
+    let r16 = p.py + 0.09465 * (p.r21_ * known.s6) + 0.09465 * (p.r22_ * known.c6);
+    let r20 = 0.39225 * known.s3;
+    let r22 = 0.39225 * known.c3 + 0.425;
+    let r26 = p.pz + 0.09465 * (p.r31_ * known.s6) + 0.09465 * (p.r32_ * known.c6);
+    let r29 = r26 - 0.0823 * p.r33_ - 0.089159;
+    let r30 = known.c1 * (r9 - 0.0823 * p.r13_) + known.s1 * (r16 - 0.0823 * p.r23_);
+    let r31 = 0.0 - r30;
+    let r35 = f64::abs(p.magnitude + 6.148441);
+    let r36 = f64::abs(2.0 * p.magnitude + 12.118564);
+    let shared = &Shared5 { r20, r22, r29, r30, r31, r35, r36 };
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
 }
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r4: f64,
-    r48: f64,
-    r49: f64,
-    r50: f64,
-    r57: f64,
-    r58: f64,
+    r20: f64,
+    r22: f64,
+    r29: f64,
+    r30: f64,
+    r31: f64,
+    r35: f64,
+    r36: f64,
 }
 
 /// Chart 1 of block 5: generic.
 /// It runs where A^2 + B^2 is not zero.
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r61 = shared.r4 * shared.r4 + shared.r48 * shared.r48;
-    if !is_away(r61, 59625.5768362) {
+    let r39 = shared.r20 * shared.r20 + shared.r22 * shared.r22;
+    if !is_away(r39, 59625.5768362) {
         return;
     }
-    let r64 = shared.r48 * shared.r49 - shared.r4 * shared.r50;
-    let r66 = (0.0 - r64) / r61;
-    let r70 = 0.0 - shared.r4 * shared.r49 - shared.r48 * shared.r50;
-    let r72 = (0.0 - r70) / r61;
-    let r76 = f64::max(r72 * r72 + r66 * r66, 0.0).sqrt();
-    let c2 = r72 / r76;
-    let s2 = r66 / r76;
+    let r42 = shared.r20 * shared.r30 - shared.r22 * shared.r29;
+    let r43 = r42 / r39;
+    let r46 = shared.r20 * shared.r29 + shared.r22 * shared.r30;
+    let r47 = r46 / r39;
+    let r51 = f64::max(r47 * r47 + r43 * r43, 0.0).sqrt();
+    let c2 = 0.0 - r47 / r51;
+    let s2 = r43 / r51;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -660,8 +644,8 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: ShoulderLift.
 fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r61 = shared.r4 * shared.r4 + shared.r48 * shared.r48;
-    if !(is_near(r61, 5.96255768362e-7) && is_near(shared.r50, 0.01 * shared.r58) && is_near(shared.r49, 0.01 * shared.r57)) {
+    let r39 = shared.r20 * shared.r20 + shared.r22 * shared.r22;
+    if !(is_near(r39, 5.96255768362e-7) && is_near(shared.r31, 0.01 * shared.r36) && is_near(shared.r29, 0.01 * shared.r35)) {
         return;
     }
     for [c2, s2] in SAMPLES_1 {
@@ -672,35 +656,29 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 
 /// Block 6: Wrist1.
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.pz + -0.0823 * p.r33_;
-    let r11 = (0.0 - (0.0 - (p.py + -0.0823 * p.r23_))) * known.s1;
-    let r12 = (p.px + -0.0823 * p.r13_) * known.c1 + r11;
-    let r18 = r5 + (r5 - r5) * known.c1 - 0.089159;
-    let r29 = r12 * known.c2 + (0.0 - (0.0 - r18)) * known.s2;
-    let r33 = r18 * known.c2 + (0.0 - (0.0 - (0.0 - r12))) * known.s2;
-    let r36 = r29 + 0.425;
-    let r37 = r33 + 0.089159 - 0.089159;
-    let r48 = r36 * known.c3 + (0.0 - (0.0 - r37)) * known.s3;
-    let r52 = r37 * known.c3 + (0.0 - (0.0 - (0.0 - r36))) * known.s3;
-    let r59 = 0.0 - (0.089159 - (r52 + 0.089159));
-    let r60 = 0.0 - (0.81725 - (0.0 - (r48 - 0.425)));
-    let shared = &Shared6 { r59, r60 };
+    let r6 = known.c1 * (p.px - 0.0823 * p.r13_) + known.s1 * (p.py - 0.0823 * p.r23_);
+    let r10 = p.pz - 0.0823 * p.r33_ - 0.089159;
+    let r15 = known.c2 * r6 + known.s2 * r10 + 0.425;
+    let r17 = known.c2 * r10 - known.s2 * r6;
+    let r21 = known.c3 * r17 - known.s3 * r15;
+    let r23 = known.c3 * r15 + known.s3 * r17 + 0.39225;
+    let shared = &Shared6 { r21, r23 };
     chart_6_1(p, known, shared, answers);
 }
 
 /// What the charts of block 6 share.
 struct Shared6 {
-    r59: f64,
-    r60: f64,
+    r21: f64,
+    r23: f64,
 }
 
 /// Chart 1 of block 6: generic.
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r64 = (0.0 - (0.0 - -0.09465 * shared.r60)) / 0.0089586225;
-    let r68 = (0.0 - (0.0 - -0.09465 * shared.r59)) / 0.0089586225;
-    let r72 = f64::max(r68 * r68 + r64 * r64, 0.0).sqrt();
-    let c4 = r68 / r72;
-    let s4 = r64 / r72;
+    let r25 = 0.09465 * shared.r23 / 0.0089586225;
+    let r27 = 0.09465 * shared.r21 / 0.0089586225;
+    let r31 = f64::max(r27 * r27 + r25 * r25, 0.0).sqrt();
+    let c4 = 0.0 - r27 / r31;
+    let s4 = r25 / r31;
     let q = [
         angle(known.c1, known.s1),
         angle(known.c2, known.s2),
@@ -729,99 +707,61 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r2 = c1 + (1.0 - c1);
-    let r7 = c2 + (1.0 - c2);
-    let r8 = 0.0 - s2;
-    let r9 = c1 * c2;
-    let r10 = s1 * c2;
-    let r11 = r2 * s2;
-    let r14 = c1 * r8;
-    let r15 = s1 * r8;
-    let r16 = r2 * c2;
-    let r17 = 0.089159 * r14;
-    let r18 = 0.089159 * r15;
-    let r19 = 0.089159 * r16;
-    let r35 = c3 + (1.0 - c3);
-    let r36 = 0.0 - s3;
-    let r39 = r9 * c3 + r14 * s3;
-    let r42 = r10 * c3 + r15 * s3;
-    let r45 = r11 * c3 + r16 * s3;
-    let r50 = r9 * r36 + r14 * c3;
-    let r53 = r10 * r36 + r15 * c3;
-    let r56 = r11 * r36 + r16 * c3;
-    let r58 = 0.089159 * r50;
-    let r61 = 0.089159 * r53;
-    let r64 = 0.089159 * r56;
-    let r66 = 0.0 - r17 + (-0.425 * r9 + r17) - (-0.425 * r39 + r58);
-    let r67 = 0.0 - r18 + (-0.425 * r10 + r18) - (-0.425 * r42 + r61);
-    let r68 = 0.089159 * r2 - r19 + (-0.425 * r11 + r19) - (-0.425 * r45 + r64);
-    let r81 = c4 + (1.0 - c4);
-    let r82 = 0.0 - s4;
-    let r85 = r39 * c4 + r50 * s4;
-    let r88 = r42 * c4 + r53 * s4;
-    let r91 = r45 * c4 + r56 * s4;
-    let r92 = (0.0 - s1) * r7 * r35 * r81;
-    let r93 = c1 * r7 * r35 * r81;
-    let r96 = r39 * r82 + r50 * c4;
-    let r99 = r42 * r82 + r53 * c4;
-    let r102 = r45 * r82 + r56 * c4;
-    let r103 = -0.81725 * r85;
-    let r104 = 0.089159 * r96;
-    let r106 = -0.81725 * r88;
-    let r107 = 0.089159 * r99;
-    let r111 = -0.81725 * r91 + 0.089159 * r102;
-    let r124 = r66 + (-0.81725 * r39 + r58) - (r103 + r104) + (r103 + -0.10915 * r92 + r104);
-    let r125 = r67 + (-0.81725 * r42 + r61) - (r106 + r107) + (r106 + -0.10915 * r93 + r107);
-    let r128 = 0.0 - s5;
-    let r129 = c5 + (1.0 - c5);
-    let r132 = r85 * c5 + r92 * r128;
-    let r135 = r88 * c5 + r93 * r128;
-    let r136 = r91 * c5;
-    let r139 = r85 * s5 + r92 * c5;
-    let r142 = r88 * s5 + r93 * c5;
-    let r143 = r91 * s5;
-    let r144 = r96 * r129;
-    let r145 = r99 * r129;
-    let r146 = r102 * r129;
-    let r149 = -0.81725 * r132 + -0.10915 * r139;
-    let r154 = -0.81725 * r135 + -0.10915 * r142;
-    let r159 = -0.81725 * r136 + -0.10915 * r143;
-    let r164 = r68 + (-0.81725 * r45 + r64) - r111 + r111 - (r159 + 0.089159 * r146);
-    let r174 = r124 - (r149 + 0.089159 * r144) + (r149 + -0.005491 * r144);
-    let r175 = r125 - (r154 + 0.089159 * r145) + (r154 + -0.005491 * r145);
-    let r178 = c6 + (1.0 - c6);
-    let r179 = 0.0 - s6;
-    let r182 = r132 * c6 + r144 * s6;
-    let r185 = r135 * c6 + r145 * s6;
-    let r188 = r136 * c6 + r146 * s6;
-    let r189 = r139 * r178;
-    let r190 = r142 * r178;
-    let r191 = r143 * r178;
-    let r194 = r132 * r179 + r144 * c6;
-    let r197 = r135 * r179 + r145 * c6;
-    let r200 = r136 * r179 + r146 * c6;
-    let r201 = -0.81725 * r182;
-    let r204 = -0.005491 * r194;
-    let r206 = -0.81725 * r185;
-    let r209 = -0.005491 * r197;
-    let r211 = -0.81725 * r188;
-    let r214 = -0.005491 * r200;
-    let r218 = r164 + (r159 + -0.005491 * r146) - (r211 + -0.10915 * r191 + r214);
-    let r228 = r174 - (r201 + -0.10915 * r189 + r204) + (r201 + -0.19145 * r189 + r204);
-    let r229 = r175 - (r206 + -0.10915 * r190 + r209) + (r206 + -0.19145 * r190 + r209);
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r16 = r4 - r5;
+    let r18 = s3 * r0 + c3 * r2;
+    let r20 = r6 - r7;
+    let r22 = s3 * r1 + c3 * r3;
+    let r24 = r8 + r9;
+    let r26 = s2 * s3 - c2 * c3;
+    let r28 = s4 * r16;
+    let r29 = c4 * r18;
+    let r30 = s4 * r20;
+    let r31 = c4 * r22;
+    let r32 = s4 * r24;
+    let r33 = c4 * r26;
+    let r34 = c4 * r16 - s4 * r18;
+    let r37 = c4 * r20 - s4 * r22;
+    let r40 = c4 * r24 - s4 * r26;
+    let r41 = c5 * r40;
+    let r42 = s5 * r34;
+    let r43 = s1 * c5;
+    let r44 = s5 * r37;
+    let r45 = c1 * c5;
+    let r46 = s5 * r40;
+    let r47 = c5 * r34 + s1 * s5;
+    let r49 = r28 + r29;
+    let r51 = c5 * r37 - c1 * s5;
+    let r53 = r30 + r31;
+    let r56 = r32 + r33;
+    let r70 = 0.425 * s2 + 0.39225 * r8 + 0.39225 * r9 - 0.09465 * r32;
+    let r81 = 0.425 * r1 + 0.39225 * r6 - 0.39225 * r7 + 0.10915 * c1;
+    let r87 = r81 - 0.09465 * r30 - 0.09465 * r31 + 0.0823 * r44;
+    let r96 = 0.425 * r0 + 0.39225 * r4 - 0.39225 * r5 - 0.10915 * s1;
+    let r102 = r96 - 0.09465 * r28 - 0.09465 * r29 + 0.0823 * r42;
+    let r109 = 0.089159 - (r70 - 0.09465 * r33 + 0.0823 * r46);
     [
-        r228,
-        r229,
-        r218 + (r211 + -0.19145 * r191 + r214),
-        r182,
-        r185,
-        r188,
-        r194,
-        r197,
-        r200,
-        0.0 - r189,
-        0.0 - r190,
-        0.0 - r191,
+        0.0823 * r43 - r102,
+        0.0 - (r87 + 0.0823 * r45),
+        r109,
+        c6 * r47 - s6 * r49,
+        c6 * r51 - s6 * r53,
+        c6 * r41 - s6 * r56,
+        0.0 - (s6 * r47 + c6 * r49),
+        0.0 - (s6 * r51 + c6 * r53),
+        0.0 - (s6 * r41 + c6 * r56),
+        r43 - r42,
+        0.0 - (r44 + r45),
+        0.0 - r46,
     ]
 }
 
@@ -879,133 +819,104 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s5 = q[4].sin();
     let c6 = q[5].cos();
     let s6 = q[5].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r3 = 0.0 - r1;
-    let r4 = 0.0 - c1;
-    let r5 = 0.089159 * r2;
-    let r7 = c2 + (1.0 - c2);
-    let r8 = 0.0 - s2;
-    let r9 = c1 * c2;
-    let r10 = s1 * c2;
-    let r11 = r2 * s2;
-    let r12 = r1 * r7;
-    let r13 = c1 * r7;
-    let r14 = c1 * r8;
-    let r15 = s1 * r8;
-    let r16 = r2 * c2;
-    let r17 = 0.089159 * r14;
-    let r18 = 0.089159 * r15;
-    let r19 = 0.089159 * r16;
-    let r23 = 0.0 - r12;
-    let r24 = 0.0 - r13;
-    let r31 = 0.0 - r17 + (-0.425 * r9 + r17);
-    let r32 = 0.0 - r18 + (-0.425 * r10 + r18);
-    let r33 = r5 - r19 + (-0.425 * r11 + r19);
-    let r35 = c3 + (1.0 - c3);
-    let r36 = 0.0 - s3;
-    let r39 = r9 * c3 + r14 * s3;
-    let r42 = r10 * c3 + r15 * s3;
-    let r45 = r11 * c3 + r16 * s3;
-    let r46 = r12 * r35;
-    let r47 = r13 * r35;
-    let r50 = r9 * r36 + r14 * c3;
-    let r53 = r10 * r36 + r15 * c3;
-    let r56 = r11 * r36 + r16 * c3;
-    let r58 = 0.089159 * r50;
-    let r61 = 0.089159 * r53;
-    let r64 = 0.089159 * r56;
-    let r69 = 0.0 - r46;
-    let r70 = 0.0 - r47;
-    let r77 = r31 - (-0.425 * r39 + r58) + (-0.81725 * r39 + r58);
-    let r78 = r32 - (-0.425 * r42 + r61) + (-0.81725 * r42 + r61);
-    let r79 = r33 - (-0.425 * r45 + r64) + (-0.81725 * r45 + r64);
-    let r81 = c4 + (1.0 - c4);
-    let r82 = 0.0 - s4;
-    let r85 = r39 * c4 + r50 * s4;
-    let r88 = r42 * c4 + r53 * s4;
-    let r91 = r45 * c4 + r56 * s4;
-    let r92 = r46 * r81;
-    let r93 = r47 * r81;
-    let r96 = r39 * r82 + r50 * c4;
-    let r99 = r42 * r82 + r53 * c4;
-    let r102 = r45 * r82 + r56 * c4;
-    let r103 = -0.81725 * r85;
-    let r104 = 0.089159 * r96;
-    let r106 = -0.81725 * r88;
-    let r107 = 0.089159 * r99;
-    let r111 = -0.81725 * r91 + 0.089159 * r102;
-    let r115 = 0.0 - r96;
-    let r116 = 0.0 - r99;
-    let r117 = 0.0 - r102;
-    let r124 = r77 - (r103 + r104) + (r103 + -0.10915 * r92 + r104);
-    let r125 = r78 - (r106 + r107) + (r106 + -0.10915 * r93 + r107);
-    let r126 = r79 - r111 + r111;
-    let r128 = 0.0 - s5;
-    let r129 = c5 + (1.0 - c5);
-    let r132 = r85 * c5 + r92 * r128;
-    let r135 = r88 * c5 + r93 * r128;
-    let r136 = r91 * c5;
-    let r139 = r85 * s5 + r92 * c5;
-    let r142 = r88 * s5 + r93 * c5;
-    let r143 = r91 * s5;
-    let r144 = r96 * r129;
-    let r145 = r99 * r129;
-    let r146 = r102 * r129;
-    let r149 = -0.81725 * r132 + -0.10915 * r139;
-    let r154 = -0.81725 * r135 + -0.10915 * r142;
-    let r159 = -0.81725 * r136 + -0.10915 * r143;
-    let r165 = 0.0 - r139;
-    let r166 = 0.0 - r142;
-    let r167 = 0.0 - r143;
-    let r174 = r124 - (r149 + 0.089159 * r144) + (r149 + -0.005491 * r144);
-    let r175 = r125 - (r154 + 0.089159 * r145) + (r154 + -0.005491 * r145);
-    let r176 = r126 - (r159 + 0.089159 * r146) + (r159 + -0.005491 * r146);
-    let r178 = c6 + (1.0 - c6);
-    let r179 = 0.0 - s6;
-    let r182 = r132 * c6 + r144 * s6;
-    let r185 = r135 * c6 + r145 * s6;
-    let r188 = r136 * c6 + r146 * s6;
-    let r189 = r139 * r178;
-    let r190 = r142 * r178;
-    let r191 = r143 * r178;
-    let r194 = r132 * r179 + r144 * c6;
-    let r197 = r135 * r179 + r145 * c6;
-    let r200 = r136 * r179 + r146 * c6;
-    let r201 = -0.81725 * r182;
-    let r204 = -0.005491 * r194;
-    let r206 = -0.81725 * r185;
-    let r209 = -0.005491 * r197;
-    let r211 = -0.81725 * r188;
-    let r214 = -0.005491 * r200;
-    let r228 = r174 - (r201 + -0.10915 * r189 + r204) + (r201 + -0.19145 * r189 + r204);
-    let r229 = r175 - (r206 + -0.10915 * r190 + r209) + (r206 + -0.19145 * r190 + r209);
-    let r230 = r176 - (r211 + -0.10915 * r191 + r214) + (r211 + -0.19145 * r191 + r214);
-    let r231 = 0.0 - r189;
-    let r232 = 0.0 - r190;
-    let r233 = 0.0 - r191;
-    let r235 = r230 - r5;
-    let r244 = r230 - r33;
-    let r253 = r230 - r79;
-    let r260 = r228 - r124;
-    let r261 = r229 - r125;
-    let r262 = r230 - r126;
-    let r272 = r228 - r174;
-    let r273 = r229 - r175;
-    let r274 = r230 - r176;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = c3 * r0;
+    let r5 = s3 * r2;
+    let r6 = c3 * r1;
+    let r7 = s3 * r3;
+    let r8 = s2 * c3;
+    let r9 = c2 * s3;
+    let r16 = r4 - r5;
+    let r18 = s3 * r0 + c3 * r2;
+    let r20 = r6 - r7;
+    let r22 = s3 * r1 + c3 * r3;
+    let r24 = r8 + r9;
+    let r26 = s2 * s3 - c2 * c3;
+    let r28 = s4 * r16;
+    let r29 = c4 * r18;
+    let r30 = s4 * r20;
+    let r31 = c4 * r22;
+    let r32 = s4 * r24;
+    let r33 = c4 * r26;
+    let r34 = c4 * r16 - s4 * r18;
+    let r37 = c4 * r20 - s4 * r22;
+    let r40 = c4 * r24 - s4 * r26;
+    let r41 = c5 * r40;
+    let r42 = s5 * r34;
+    let r43 = s1 * c5;
+    let r44 = s5 * r37;
+    let r45 = c1 * c5;
+    let r46 = s5 * r40;
+    let r47 = c5 * r34 + s1 * s5;
+    let r49 = r28 + r29;
+    let r51 = c5 * r37 - c1 * s5;
+    let r52 = c6 * r51;
+    let r53 = r30 + r31;
+    let r54 = s6 * r53;
+    let r56 = r32 + r33;
+    let r65 = 0.39225 * r8;
+    let r67 = 0.39225 * r9;
+    let r69 = 0.09465 * r32;
+    let r71 = 0.09465 * r33;
+    let r73 = 0.0823 * r46;
+    let r74 = 0.425 * s2 + r65 + r67 - r69 - r71 + r73;
+    let r76 = 0.39225 * r6;
+    let r78 = 0.39225 * r7;
+    let r80 = 0.10915 * c1;
+    let r82 = 0.09465 * r30;
+    let r84 = 0.09465 * r31;
+    let r86 = 0.0823 * r44;
+    let r87 = 0.425 * r1 + r76 - r78 + r80 - r82 - r84 + r86;
+    let r88 = 0.0823 * r45;
+    let r89 = r87 + r88;
+    let r91 = 0.39225 * r4;
+    let r93 = 0.39225 * r5;
+    let r95 = 0.10915 * s1;
+    let r97 = 0.09465 * r28;
+    let r99 = 0.09465 * r29;
+    let r101 = 0.0823 * r42;
+    let r102 = 0.425 * r0 + r91 - r93 - r95 - r97 - r99 + r101;
+    let r103 = 0.0823 * r43;
+    let r104 = r44 + r45;
+    let r111 = c6 * r41 - s6 * r56;
+    let r112 = r52 - r54;
+    let r113 = c6 * r47 - s6 * r49;
+    let r117 = s6 * r41 + c6 * r56;
+    let r118 = s6 * r51 + c6 * r53;
+    let r119 = s6 * r47 + c6 * r49;
+    let r140 = r73 + (r65 + r67 - r69 - r71);
+    let r148 = r88 + (r86 + (r80 + (r76 - r78) - r82 - r84));
+    let r156 = c1 * (r101 + (r91 - r93 - r95 - r97 - r99) - r103);
+    let r158 = r69 + r71 - r73;
+    let r174 = r82 + r84 - r86 - r88;
+    let r178 = r103 + (r97 + r99 - r101);
+    let r183 = r42 - r43;
+    let r192 = c1 * (r103 + (r99 + (r95 + r97) - r101)) - s1 * (r88 + (r86 + (r80 - r82 - r84)));
+    let r211 = 0.0 - c1 * r111;
+    let r214 = 0.0 - s1 * r111;
+    let r217 = s1 * r112 + c1 * r113;
+    let r220 = c1 * r117;
+    let r221 = s1 * r117;
+    let r241 = 0.0 - (s1 * r118 + c1 * r119);
+    let r244 = c1 * r46;
+    let r245 = s1 * r46;
+    let r257 = 0.0 - (s1 * r104 + c1 * r183);
     [
-        [0.0 - r229, r4 * r235, r24 * r244, r70 * r253, r116 * r262 - r117 * r261, r166 * r274 - r167 * r273],
-        [r228, 0.0 - r3 * r235, 0.0 - r23 * r244, 0.0 - r69 * r253, r117 * r260 - r115 * r262, r167 * r272 - r165 * r274],
-        [0.0, r3 * r229 - r4 * r228, r23 * (r229 - r32) - r24 * (r228 - r31), r69 * (r229 - r78) - r70 * (r228 - r77), r115 * r261 - r116 * r260, r165 * r273 - r166 * r272],
-        [0.0 - r185, r4 * r188, r24 * r188, r70 * r188, r116 * r188 - r117 * r185, r166 * r188 - r167 * r185],
-        [r182, 0.0 - r3 * r188, 0.0 - r23 * r188, 0.0 - r69 * r188, r117 * r182 - r115 * r188, r167 * r182 - r165 * r188],
-        [0.0, r3 * r185 - r4 * r182, r23 * r185 - r24 * r182, r69 * r185 - r70 * r182, r115 * r185 - r116 * r182, r165 * r185 - r166 * r182],
-        [0.0 - r197, r4 * r200, r24 * r200, r70 * r200, r116 * r200 - r117 * r197, r166 * r200 - r167 * r197],
-        [r194, 0.0 - r3 * r200, 0.0 - r23 * r200, 0.0 - r69 * r200, r117 * r194 - r115 * r200, r167 * r194 - r165 * r200],
-        [0.0, r3 * r197 - r4 * r194, r23 * r197 - r24 * r194, r69 * r197 - r70 * r194, r115 * r197 - r116 * r194, r165 * r197 - r166 * r194],
-        [0.0 - r232, r4 * r233, r24 * r233, r70 * r233, r116 * r233 - r117 * r232, r166 * r233 - r167 * r232],
-        [r231, 0.0 - r3 * r233, 0.0 - r23 * r233, 0.0 - r69 * r233, r117 * r231 - r115 * r233, r167 * r231 - r165 * r233],
-        [0.0, r3 * r232 - r4 * r231, r23 * r232 - r24 * r231, r69 * r232 - r70 * r231, r115 * r232 - r116 * r231, r165 * r232 - r166 * r231],
+        [r89, c1 * r74, c1 * r140, 0.0 - c1 * r158, r53 * r158 - r56 * r174, 0.0],
+        [r103 - r102, s1 * r74, s1 * r140, 0.0 - s1 * r158, r56 * r178 - r49 * r158, 0.0],
+        [0.0, 0.0 - (s1 * r89 + c1 * (r102 - r103)), 0.0 - (s1 * r148 + r156), r192, r49 * r174 - r53 * r178, 0.0],
+        [r54 - r52, r211, r211, r211, r53 * r111 - r56 * r112, r46 * r112 - r104 * r111],
+        [r113, r214, r214, r214, r56 * r113 - r49 * r111, r183 * r111 - r46 * r113],
+        [0.0, r217, r217, r217, r49 * r112 - r53 * r113, r104 * r113 - r183 * r112],
+        [r118, r220, r220, r220, r56 * r118 - r53 * r117, r104 * r117 - r46 * r118],
+        [0.0 - r119, r221, r221, r221, r49 * r117 - r56 * r119, r46 * r119 - r183 * r117],
+        [0.0, r241, r241, r241, r53 * r119 - r49 * r118, r183 * r118 - r104 * r119],
+        [r104, r244, r244, r244, r56 * r104 - r46 * r53, 0.0],
+        [r43 - r42, r245, r245, r245, r46 * r49 - r56 * r183, 0.0],
+        [0.0, r257, r257, r257, r53 * r183 - r49 * r104, 0.0],
     ]
 }
 

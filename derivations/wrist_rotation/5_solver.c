@@ -299,17 +299,16 @@ static Parameters parameters(const double *target)
 static void tip(const double *q, double *reached)
 {
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double r2 = c1 + (1.0 - c1), r5 = c2 + (1.0 - c2), r9 = (0.0 - s1) * r5, r10 = c1 * r5, r11 = c1 * s2;
-    const double r12 = s1 * s2, r13 = r2 * c2, r15 = c3 + (1.0 - c3), r16 = 0.0 - s3;
-    reached[0] = c1 * c2 * r15;
-    reached[1] = s1 * c2 * r15;
-    reached[2] = r2 * (0.0 - s2) * r15;
-    reached[3] = r9 * c3 + r11 * s3;
-    reached[4] = r10 * c3 + r12 * s3;
-    reached[5] = r13 * s3;
-    reached[6] = r9 * r16 + r11 * c3;
-    reached[7] = r10 * r16 + r12 * c3;
-    reached[8] = r13 * c3;
+    const double r2 = c1 * s2, r3 = s1 * s2;
+    reached[0] = c1 * c2;
+    reached[1] = s1 * c2;
+    reached[2] = 0.0 - s2;
+    reached[3] = s3 * r2 - s1 * c3;
+    reached[4] = c1 * c3 + s3 * r3;
+    reached[5] = c2 * s3;
+    reached[6] = s1 * s3 + c3 * r2;
+    reached[7] = c3 * r3 - c1 * s3;
+    reached[8] = c2 * c3;
 }
 
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
@@ -358,21 +357,19 @@ static Jacobian jacobian(const Parameters *p, const double *q)
 {
     (void)p;
     const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double r1 = 0.0 - s1, r2 = c1 + (1.0 - c1), r5 = c2 + (1.0 - c2), r6 = c1 * c2, r7 = s1 * c2;
-    const double r8 = r2 * (0.0 - s2), r9 = r1 * r5, r10 = c1 * r5, r11 = c1 * s2, r12 = s1 * s2, r13 = r2 * c2;
-    const double r15 = c3 + (1.0 - c3), r16 = 0.0 - s3, r17 = r6 * r15, r18 = r7 * r15, r19 = r8 * r15;
-    const double r22 = r9 * c3 + r11 * s3, r25 = r10 * c3 + r12 * s3, r26 = r13 * s3, r29 = r9 * r16 + r11 * c3;
-    const double r32 = r10 * r16 + r12 * c3, r33 = r13 * c3;
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = s1 * c3, r5 = s3 * r2;
+    const double r8 = c2 * s3, r13 = c2 * c3, r18 = c1 * c3 + s3 * r3, r23 = s1 * s3 + c3 * r2, r38 = r4 - r5;
+    const double r53 = c1 * s3 - c3 * r3;
     const Jacobian result = { {
-        {0.0 - r18, c1 * r19, r7 * r19 - r8 * r18},
-        {r17, 0.0 - r1 * r19, r8 * r17 - r6 * r19},
-        {0.0, r1 * r18 - c1 * r17, r6 * r18 - r7 * r17},
-        {0.0 - r25, c1 * r26, r7 * r26 - r8 * r25},
-        {r22, 0.0 - r1 * r26, r8 * r22 - r6 * r26},
-        {0.0, r1 * r25 - c1 * r22, r6 * r25 - r7 * r22},
-        {0.0 - r32, c1 * r33, r7 * r33 - r8 * r32},
-        {r29, 0.0 - r1 * r33, r8 * r29 - r6 * r33},
-        {0.0, r1 * r32 - c1 * r29, r6 * r32 - r7 * r29},
+        {0.0 - r1, 0.0 - r2, 0.0},
+        {r0, 0.0 - r3, 0.0},
+        {0.0, 0.0 - (s1 * r1 + c1 * r0), 0.0},
+        {0.0 - r18, c1 * r8, r1 * r8 + s2 * r18},
+        {r5 - r4, s1 * r8, s2 * r38 - r0 * r8},
+        {0.0, c1 * r38 - s1 * r18, r0 * r18 + r1 * r38},
+        {r53, c1 * r13, r1 * r13 - s2 * r53},
+        {r23, s1 * r13, 0.0 - (s2 * r23 + r0 * r13)},
+        {0.0, s1 * r53 - c1 * r23, 0.0 - (r0 * r53 + r1 * r23)},
     } };
     return result;
 }
@@ -1080,16 +1077,17 @@ static const double SAMPLES_1[8][2] = {
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r28;
-    double r29;
+    double r0;
+    double r1;
+    double r4;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r30 = 0.0 - shared->r29, r32 = 0.0 - (-0.0 - shared->r28);
-    const double r36 = sqrt(fmax(r32 * r32 + r30 * r30, 0.0)), c3 = r32 / r36, s3 = r30 / r36;
+    const double r5 = shared->r1 - shared->r0, r9 = sqrt(fmax(shared->r4 * shared->r4 + r5 * r5, 0.0));
+    const double c3 = shared->r4 / r9, s3 = r5 / r9;
     const double q[JOINTS] = {
         angle(known->c1, known->s1),
         angle(known->c2, known->s2),
@@ -1101,26 +1099,24 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Roll. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r9 = p->r23_ * known->c1 + (0.0 - p->r13_) * known->s1;
-    const double r25 = (0.0 - p->r22_) * known->c1 + (0.0 - (0.0 - p->r12_)) * known->s1, r28 = 0.0 - r25;
-    const double r29 = 0.0 - (0.0 - r9);
-    const Shared3 own = { r28, r29 };
+    const double r0 = p->r23_ * known->c1, r1 = p->r13_ * known->s1;
+    const double r4 = p->r22_ * known->c1 - p->r12_ * known->s1;
+    const Shared3 own = { r0, r1, r4 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r14;
-    double r15;
+    double r2;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r16 = 0.0 - shared->r15, r18 = 0.0 - (-0.0 - shared->r14);
-    const double r22 = sqrt(fmax(r18 * r18 + r16 * r16, 0.0)), c2 = r18 / r22, s2 = r16 / r22;
+    const double r6 = sqrt(fmax(shared->r2 * shared->r2 + p->r31_ * p->r31_, 0.0)), c2 = shared->r2 / r6;
+    const double s2 = 0.0 - p->r31_ / r6;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1132,34 +1128,26 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Pitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r7 = p->r11_ * known->c1 + (0.0 - (0.0 - p->r21_)) * known->s1, r14 = 0.0 - (0.0 - r7);
-    const double r15 = 0.0 - (0.0 - p->r31_);
-    const Shared2 own = { r14, r15 };
+    const double r2 = p->r11_ * known->c1 + p->r21_ * known->s1;
+    const Shared2 own = { r2 };
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
-/* What the charts of block 1 share. */
-typedef struct {
-    double r1;
-    double r4;
-} Shared1;
-
 /* Chart 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r5 = shared->r1 * shared->r1, r6 = shared->r4 * shared->r4, r7 = r5 + r6;
-    if (!is_away(r7, 20000.0)) {
+    const double r0 = p->r21_ * p->r21_, r1 = p->r11_ * p->r11_, r2 = r0 + r1;
+    if (!is_away(r2, 20000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r5 - r6, 0.0, 1.0};
+    const double choice0_0[3] = {0.0 - r0 - r1, 0.0, 1.0};
     const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r13 = (0.0 - (0.0 - shared->r1 * w1)) / r7;
-        const double r16 = (0.0 - shared->r4 * w1) / r7, r20 = sqrt(fmax(r16 * r16 + r13 * r13, 0.0));
-        const double c1 = r16 / r20, s1 = r13 / r20;
+        const double w1 = roots0.values[i0], r6 = p->r21_ * w1 / r2, r8 = p->r11_ * w1 / r2;
+        const double r12 = sqrt(fmax(r8 * r8 + r6 * r6, 0.0)), c1 = 0.0 - r8 / r12, s1 = 0.0 - r6 / r12;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1173,10 +1161,9 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
  * It runs where A^2 + B^2 is near zero.
  * Free: Yaw.
  */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_2(const Parameters *p, Answers *answers)
 {
-    const double r7 = shared->r1 * shared->r1 + shared->r4 * shared->r4;
-    if (!is_near(r7, 2.0000000000000002e-7)) {
+    if (!is_near(p->r21_ * p->r21_ + p->r11_ * p->r11_, 2.0000000000000002e-7)) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1194,11 +1181,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Yaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r1 = 0.0 - p->r21_, r4 = 0.0 - (0.0 - p->r11_);
-    const Shared1 own = { r1, r4 };
-    const Shared1 *const shared = &own;
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
+    chart_1_1(p, answers);
+    chart_1_2(p, answers);
 }
 
 static double dot(const double *a, const double *b)

@@ -398,35 +398,26 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Yaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r1 = 0.0 - p.r21_;
-    let r4 = 0.0 - (0.0 - p.r11_);
-    let shared = &Shared1 { r1, r4 };
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
-}
-
-/// What the charts of block 1 share.
-struct Shared1 {
-    r1: f64,
-    r4: f64,
+    chart_1_1(p, answers);
+    chart_1_2(p, answers);
 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r5 = shared.r1 * shared.r1;
-    let r6 = shared.r4 * shared.r4;
-    let r7 = r5 + r6;
-    if !is_away(r7, 20000.0) {
+fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let r0 = p.r21_ * p.r21_;
+    let r1 = p.r11_ * p.r11_;
+    let r2 = r0 + r1;
+    if !is_away(r2, 20000.0) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r5 - r6, 0.0, 1.0], 1.4142135623730951);
+    let roots0 = real_roots(&[0.0 - r0 - r1, 0.0, 1.0], 1.4142135623730951);
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r13 = (0.0 - (0.0 - shared.r1 * w1)) / r7;
-        let r16 = (0.0 - shared.r4 * w1) / r7;
-        let r20 = f64::max(r16 * r16 + r13 * r13, 0.0).sqrt();
-        let c1 = r16 / r20;
-        let s1 = r13 / r20;
+        let r6 = p.r21_ * w1 / r2;
+        let r8 = p.r11_ * w1 / r2;
+        let r12 = f64::max(r8 * r8 + r6 * r6, 0.0).sqrt();
+        let c1 = 0.0 - r8 / r12;
+        let s1 = 0.0 - r6 / r12;
         let next = Known { branch: i0, last: 2, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -435,9 +426,8 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 2 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Yaw.
-fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r7 = shared.r1 * shared.r1 + shared.r4 * shared.r4;
-    if !is_near(r7, 2.0000000000000002e-7) {
+fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
+    if !is_near(p.r21_ * p.r21_ + p.r11_ * p.r11_, 2.0000000000000002e-7) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -448,53 +438,47 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Pitch.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r7 = p.r11_ * known.c1 + (0.0 - (0.0 - p.r21_)) * known.s1;
-    let r14 = 0.0 - (0.0 - r7);
-    let r15 = 0.0 - (0.0 - p.r31_);
-    let shared = &Shared2 { r14, r15 };
+    let r2 = p.r11_ * known.c1 + p.r21_ * known.s1;
+    let shared = &Shared2 { r2 };
     chart_2_1(p, known, shared, answers);
 }
 
 /// What the charts of block 2 share.
 struct Shared2 {
-    r14: f64,
-    r15: f64,
+    r2: f64,
 }
 
 /// Chart 1 of block 2: generic.
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r16 = 0.0 - shared.r15;
-    let r18 = 0.0 - (-0.0 - shared.r14);
-    let r22 = f64::max(r18 * r18 + r16 * r16, 0.0).sqrt();
-    let c2 = r18 / r22;
-    let s2 = r16 / r22;
+    let r6 = f64::max(shared.r2 * shared.r2 + p.r31_ * p.r31_, 0.0).sqrt();
+    let c2 = shared.r2 / r6;
+    let s2 = 0.0 - p.r31_ / r6;
     let next = Known { branch: known.branch, last: known.last, c2, s2, ..*known };
     block_3(p, &next, answers);
 }
 
 /// Block 3: Roll.
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r9 = p.r23_ * known.c1 + (0.0 - p.r13_) * known.s1;
-    let r25 = (0.0 - p.r22_) * known.c1 + (0.0 - (0.0 - p.r12_)) * known.s1;
-    let r28 = 0.0 - r25;
-    let r29 = 0.0 - (0.0 - r9);
-    let shared = &Shared3 { r28, r29 };
+    let r0 = p.r23_ * known.c1;
+    let r1 = p.r13_ * known.s1;
+    let r4 = p.r22_ * known.c1 - p.r12_ * known.s1;
+    let shared = &Shared3 { r0, r1, r4 };
     chart_3_1(p, known, shared, answers);
 }
 
 /// What the charts of block 3 share.
 struct Shared3 {
-    r28: f64,
-    r29: f64,
+    r0: f64,
+    r1: f64,
+    r4: f64,
 }
 
 /// Chart 1 of block 3: generic.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r30 = 0.0 - shared.r29;
-    let r32 = 0.0 - (-0.0 - shared.r28);
-    let r36 = f64::max(r32 * r32 + r30 * r30, 0.0).sqrt();
-    let c3 = r32 / r36;
-    let s3 = r30 / r36;
+    let r5 = shared.r1 - shared.r0;
+    let r9 = f64::max(shared.r4 * shared.r4 + r5 * r5, 0.0).sqrt();
+    let c3 = shared.r4 / r9;
+    let s3 = r5 / r9;
     let q = [angle(known.c1, known.s1), angle(known.c2, known.s2), angle(c3, s3)];
     answers.finish(p, known.branch, known.last, q, known.free);
 }
@@ -510,25 +494,18 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let s2 = q[1].sin();
     let c3 = q[2].cos();
     let s3 = q[2].sin();
-    let r2 = c1 + (1.0 - c1);
-    let r5 = c2 + (1.0 - c2);
-    let r9 = (0.0 - s1) * r5;
-    let r10 = c1 * r5;
-    let r11 = c1 * s2;
-    let r12 = s1 * s2;
-    let r13 = r2 * c2;
-    let r15 = c3 + (1.0 - c3);
-    let r16 = 0.0 - s3;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
     [
-        c1 * c2 * r15,
-        s1 * c2 * r15,
-        r2 * (0.0 - s2) * r15,
-        r9 * c3 + r11 * s3,
-        r10 * c3 + r12 * s3,
-        r13 * s3,
-        r9 * r16 + r11 * c3,
-        r10 * r16 + r12 * c3,
-        r13 * c3,
+        c1 * c2,
+        s1 * c2,
+        0.0 - s2,
+        s3 * r2 - s1 * c3,
+        c1 * c3 + s3 * r3,
+        c2 * s3,
+        s1 * s3 + c3 * r2,
+        c3 * r3 - c1 * s3,
+        c2 * c3,
     ]
 }
 
@@ -574,38 +551,28 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let s2 = q[1].sin();
     let c3 = q[2].cos();
     let s3 = q[2].sin();
-    let r1 = 0.0 - s1;
-    let r2 = c1 + (1.0 - c1);
-    let r5 = c2 + (1.0 - c2);
-    let r6 = c1 * c2;
-    let r7 = s1 * c2;
-    let r8 = r2 * (0.0 - s2);
-    let r9 = r1 * r5;
-    let r10 = c1 * r5;
-    let r11 = c1 * s2;
-    let r12 = s1 * s2;
-    let r13 = r2 * c2;
-    let r15 = c3 + (1.0 - c3);
-    let r16 = 0.0 - s3;
-    let r17 = r6 * r15;
-    let r18 = r7 * r15;
-    let r19 = r8 * r15;
-    let r22 = r9 * c3 + r11 * s3;
-    let r25 = r10 * c3 + r12 * s3;
-    let r26 = r13 * s3;
-    let r29 = r9 * r16 + r11 * c3;
-    let r32 = r10 * r16 + r12 * c3;
-    let r33 = r13 * c3;
+    let r0 = c1 * c2;
+    let r1 = s1 * c2;
+    let r2 = c1 * s2;
+    let r3 = s1 * s2;
+    let r4 = s1 * c3;
+    let r5 = s3 * r2;
+    let r8 = c2 * s3;
+    let r13 = c2 * c3;
+    let r18 = c1 * c3 + s3 * r3;
+    let r23 = s1 * s3 + c3 * r2;
+    let r38 = r4 - r5;
+    let r53 = c1 * s3 - c3 * r3;
     [
-        [0.0 - r18, c1 * r19, r7 * r19 - r8 * r18],
-        [r17, 0.0 - r1 * r19, r8 * r17 - r6 * r19],
-        [0.0, r1 * r18 - c1 * r17, r6 * r18 - r7 * r17],
-        [0.0 - r25, c1 * r26, r7 * r26 - r8 * r25],
-        [r22, 0.0 - r1 * r26, r8 * r22 - r6 * r26],
-        [0.0, r1 * r25 - c1 * r22, r6 * r25 - r7 * r22],
-        [0.0 - r32, c1 * r33, r7 * r33 - r8 * r32],
-        [r29, 0.0 - r1 * r33, r8 * r29 - r6 * r33],
-        [0.0, r1 * r32 - c1 * r29, r6 * r32 - r7 * r29],
+        [0.0 - r1, 0.0 - r2, 0.0],
+        [r0, 0.0 - r3, 0.0],
+        [0.0, 0.0 - (s1 * r1 + c1 * r0), 0.0],
+        [0.0 - r18, c1 * r8, r1 * r8 + s2 * r18],
+        [r5 - r4, s1 * r8, s2 * r38 - r0 * r8],
+        [0.0, c1 * r38 - s1 * r18, r0 * r18 + r1 * r38],
+        [r53, c1 * r13, r1 * r13 - s2 * r53],
+        [r23, s1 * r13, 0.0 - (s2 * r23 + r0 * r13)],
+        [0.0, s1 * r53 - c1 * r23, 0.0 - (r0 * r53 + r1 * r23)],
     ]
 }
 

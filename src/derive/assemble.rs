@@ -30,11 +30,12 @@ impl FlatTerm {
     }
 }
 
-/// Collects instructions; asking twice for the same operation gives the same register.
+/// Collects instructions; asking twice for the same operation gives the same register, and minus signs move out of products into sums.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Assembler {
     code: Vec<Instruction>,
-    registers: usize,
+    /// What each register holds.
+    operations: Vec<Operation>,
     known: HashMap<String, Operand>,
 }
 
@@ -61,8 +62,8 @@ impl Assembler {
         if let Some(operand) = self.known.get(&key) {
             return *operand;
         }
-        let target = self.registers;
-        self.registers += 1;
+        let target = self.operations.len();
+        self.operations.push(operation);
         self.code.push(Instruction { target, operation });
         self.known.insert(key, Operand::Register(target));
         Operand::Register(target)
@@ -73,17 +74,30 @@ impl Assembler {
         match (a, b) {
             (Constant(x), Constant(y)) => Constant(x + y),
             (Constant(0.0), other) | (other, Constant(0.0)) => other,
-            (Constant(x), other) | (other, Constant(x)) if x < 0.0 => self.emit(Operation::Sub(other, Constant(-x))),
-            (Constant(x), other) => self.emit(Operation::Add(other, Constant(x))),
-            _ => self.emit(Operation::Add(a, b)),
+            (Constant(x), other) | (other, Constant(x)) if x < 0.0 => self.sub(other, Constant(-x)),
+            (Constant(x), other) | (other, Constant(x)) => match self.opposite(other) {
+                Some(other) => self.emit(Operation::Sub(Constant(x), other)),
+                None => self.emit(Operation::Add(other, Constant(x))),
+            },
+            _ => match (self.opposite(a), self.opposite(b)) {
+                (_, Some(b)) => self.sub(a, b),
+                (Some(a), None) => self.sub(b, a),
+                (None, None) => self.emit(commuting(a, b, Operation::Add)),
+            },
         }
     }
 
     pub fn sub(&mut self, a: Operand, b: Operand) -> Operand {
         use Operand::Constant;
         match (a, b) {
-            (_, Constant(y)) => self.add(a, Constant(-y)),
-            _ => self.emit(Operation::Sub(a, b)),
+            (Constant(x), Constant(y)) => Constant(x - y),
+            (_, Constant(y)) if y <= 0.0 => self.add(a, Constant(-y)),
+            (Constant(0.0), _) => self.negative(b),
+            _ if a == b => Constant(0.0),
+            _ => match self.opposite(b) {
+                Some(b) => self.add(a, b),
+                None => self.emit(Operation::Sub(a, b)),
+            },
         }
     }
 
@@ -93,24 +107,67 @@ impl Assembler {
             (Constant(x), Constant(y)) => Constant(x * y),
             (Constant(0.0), _) | (_, Constant(0.0)) => Constant(0.0),
             (Constant(1.0), other) | (other, Constant(1.0)) => other,
-            (Constant(x), other) | (other, Constant(x)) if x == -1.0 => self.sub(Constant(0.0), other),
-            (other, Constant(x)) => self.emit(Operation::Mul(Constant(x), other)),
-            _ => self.emit(Operation::Mul(a, b)),
+            (Constant(x), other) | (other, Constant(x)) if x < 0.0 => {
+                let product = self.mul(Constant(-x), other);
+                self.negative(product)
+            }
+            _ => self.signed([a, b], |assembler, [a, b]| assembler.emit(commuting(a, b, Operation::Mul))),
         }
     }
 
     pub fn div(&mut self, a: Operand, b: Operand) -> Operand {
+        use Operand::Constant;
         match (a, b) {
-            (Operand::Constant(x), Operand::Constant(y)) if y != 0.0 => Operand::Constant(x / y),
-            (_, Operand::Constant(1.0)) => a,
-            _ => self.emit(Operation::Div(a, b)),
+            (Constant(x), Constant(y)) if y != 0.0 => Constant(x / y),
+            (Constant(0.0), _) => a,
+            (_, Constant(1.0)) => a,
+            (_, Constant(y)) if y < 0.0 => {
+                let quotient = self.div(a, Constant(-y));
+                self.negative(quotient)
+            }
+            _ => self.signed([a, b], |assembler, [a, b]| assembler.emit(Operation::Div(a, b))),
         }
     }
 
     pub fn abs(&mut self, a: Operand) -> Operand {
         match a {
             Operand::Constant(x) => Operand::Constant(x.abs()),
-            _ => self.emit(Operation::Abs(a)),
+            Operand::Magnitude => a,
+            _ => {
+                let a = self.opposite(a).unwrap_or(a);
+                self.emit(Operation::Abs(a))
+            }
+        }
+    }
+
+    /// A product or quotient, of operands without their minus signs.
+    fn signed(&mut self, factors: [Operand; 2], emit: impl Fn(&mut Self, [Operand; 2]) -> Operand) -> Operand {
+        let opposites = factors.map(|factor| self.opposite(factor));
+        let value = emit(self, [0, 1].map(|index| opposites[index].unwrap_or(factors[index])));
+        if opposites[0].is_some() == opposites[1].is_some() { value } else { self.negative(value) }
+    }
+
+    /// What `a` is the negative of, where it is written as one.
+    fn opposite(&self, a: Operand) -> Option<Operand> {
+        match a {
+            Operand::Register(index) => match self.operations[index] {
+                Operation::Sub(Operand::Constant(0.0), b) => Some(b),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// `-a`: a difference is turned round.
+    fn negative(&mut self, a: Operand) -> Operand {
+        match a {
+            Operand::Constant(x) => Operand::Constant(-x),
+            Operand::Register(index) => match self.operations[index] {
+                Operation::Sub(Operand::Constant(0.0), b) => b,
+                Operation::Sub(b, c) => self.emit(Operation::Sub(c, b)),
+                _ => self.emit(Operation::Sub(Operand::Constant(0.0), a)),
+            },
+            _ => self.emit(Operation::Sub(Operand::Constant(0.0), a)),
         }
     }
 
@@ -247,6 +304,18 @@ impl Assembler {
             }
         }
     }
+}
+
+/// A sum or product of two, always in one order.
+fn commuting(a: Operand, b: Operand, operation: fn(Operand, Operand) -> Operation) -> Operation {
+    let rank = |operand: Operand| match operand {
+        Operand::Constant(_) => (0, 0),
+        Operand::Magnitude => (1, 0),
+        Operand::Parameter(index) => (2, index),
+        Operand::Unknown(index) => (3, index),
+        Operand::Register(index) => (4, index),
+    };
+    if rank(b) < rank(a) { operation(b, a) } else { operation(a, b) }
 }
 
 fn negated(mut term: FlatTerm) -> FlatTerm {

@@ -48,7 +48,8 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
         preference: compiler.preference()?,
         capacity,
         isolated,
-    };
+    }
+    .pruned();
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;
     Ok(program)
 }

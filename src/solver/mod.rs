@@ -11,6 +11,7 @@ mod forward;
 mod frame;
 mod instruction;
 mod program;
+mod prune;
 mod refine;
 mod validate;
 mod walk;

@@ -58,10 +58,10 @@ impl<'a> Forward<'a> {
     fn pass(&mut self, index: usize, joint: &ScrewJoint) {
         let unit = 1.0 / joint.square.to_f64().unwrap_or(1.0).sqrt();
         let along = self.turned(&joint.axis);
-        let axis = along.clone().map(|entry| self.times(unit, &entry));
+        let axis = along.clone().map(|entry| self.emitter.times(unit, &entry));
         match self.layout.joints[index] {
             JointValue::Plain(unknown) => {
-                let shift = Emitted::Code(Operand::Unknown(unknown));
+                let shift = Emitted::code(Operand::Unknown(unknown));
                 let size = self.emitter.0.abs(Operand::Unknown(unknown));
                 self.shifts = self.emitter.0.add(self.shifts, size);
                 self.position = std::array::from_fn(|k| self.add_product(&self.position[k].clone(), &axis[k], &shift));
@@ -79,20 +79,20 @@ impl<'a> Forward<'a> {
 
     /// The rotation behind a joint: the columns of `R (c + s' [w] + (1 - c) w w^T / n)`.
     fn turn(&mut self, joint: &ScrewJoint, cosine: Operand, sine: Operand, unit: f64) -> [Vector; 3] {
-        let cosine = Emitted::Code(cosine);
-        let sine = self.times(unit, &Emitted::Code(sine));
+        let cosine = Emitted::code(cosine);
+        let sine = self.emitter.times(unit, &Emitted::code(sine));
         let versine = self.emitter.sub(&Emitted::integer(1), &cosine);
         let w = &joint.axis;
         let columns: [Vector; 3] = std::array::from_fn(|column| {
             std::array::from_fn(|row| {
-                let square = Emitted::Number(&w[row] * &w[column] / &joint.square);
+                let square = Emitted::number(&w[row] * &w[column] / &joint.square);
                 let straight = self.emitter.mul(&versine, &square);
                 let turned = if row == column {
                     cosine.clone()
                 } else {
                     let other = 3 - row - column;
                     let sign = if (row + 1) % 3 == column { -BigRational::one() } else { BigRational::one() };
-                    self.emitter.mul(&sine, &Emitted::Number(&w[other] * sign))
+                    self.emitter.mul(&sine, &Emitted::number(&w[other] * sign))
                 };
                 self.emitter.add(&turned, &straight)
             })
@@ -109,7 +109,7 @@ impl<'a> Forward<'a> {
     }
 
     fn turned(&mut self, v: &ExactVector) -> Vector {
-        self.combination(&v.each_ref().map(|entry| Emitted::Number(entry.clone())))
+        self.combination(&v.each_ref().map(|entry| Emitted::number(entry.clone())))
     }
 
     fn moved(&mut self, point: &ExactVector) -> Vector {
@@ -120,13 +120,6 @@ impl<'a> Forward<'a> {
     fn add_product(&mut self, sum: &Emitted, a: &Emitted, b: &Emitted) -> Emitted {
         let product = self.emitter.mul(a, b);
         self.emitter.add(sum, &product)
-    }
-
-    fn times(&mut self, factor: f64, value: &Emitted) -> Emitted {
-        if factor == 1.0 || self.emitter.is_zero(value) {
-            return value.clone();
-        }
-        Emitted::Code(self.emitter.0.mul(Operand::Constant(factor), value.operand()))
     }
 
     fn cross(&mut self, a: &Vector, b: &Vector) -> Vector {
@@ -175,7 +168,7 @@ impl<'a> Forward<'a> {
             })
             .collect();
         for (index, &k) in coordinates.iter().enumerate() {
-            let row = columns.iter().map(|column| column[k].operand()).collect();
+            let row = columns.iter().map(|column| self.emitter.operand(&column[k])).collect();
             self.equation(&tip[k], Operand::Parameter(first + index), size, row);
         }
     }
@@ -185,7 +178,7 @@ impl<'a> Forward<'a> {
         for (index, column) in columns.iter().enumerate() {
             let rates = self.rates(column);
             for k in 0..3 {
-                let row = rates.iter().map(|rate| rate[k].operand()).collect();
+                let row = rates.iter().map(|rate| self.emitter.operand(&rate[k])).collect();
                 self.equation(&column[k], Operand::Parameter(first + 3 * k + index), Operand::Constant(1.0), row);
             }
         }
@@ -195,10 +188,10 @@ impl<'a> Forward<'a> {
     fn aimed(&mut self, mechanism: &Mechanism, first: usize) {
         let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
         let unit = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
-        let aim = self.turned(mechanism.aim()).map(|entry| self.times(unit, &entry));
+        let aim = self.turned(mechanism.aim()).map(|entry| self.emitter.times(unit, &entry));
         let rates = self.rates(&aim);
         for k in 0..3 {
-            let row = rates.iter().map(|rate| rate[k].operand()).collect();
+            let row = rates.iter().map(|rate| self.emitter.operand(&rate[k])).collect();
             self.equation(&aim[k], Operand::Parameter(first + k), Operand::Constant(1.0), row);
         }
     }
@@ -208,7 +201,7 @@ impl<'a> Forward<'a> {
         let (a, b) = ((plane.normal() + 1) % 3, (plane.normal() + 2) % 3);
         let rates = self.rates(&columns[a]);
         for (index, k) in [a, b].into_iter().enumerate() {
-            let row = rates.iter().map(|rate| rate[k].operand()).collect();
+            let row = rates.iter().map(|rate| self.emitter.operand(&rate[k])).collect();
             self.equation(&columns[a][k], Operand::Parameter(2 + index), Operand::Constant(1.0), row);
         }
     }
@@ -236,11 +229,11 @@ impl<'a> Forward<'a> {
             (JointValue::Angle { cosine, sine }, &[c, s]) => {
                 let fall = self.emitter.0.mul(Operand::Constant(-1.0), Operand::Unknown(sine));
                 let (one, rise) = (Operand::Constant(1.0), Operand::Unknown(cosine));
-                self.equation(&Emitted::Code(rise), Operand::Parameter(c), one, row(fall));
-                self.equation(&Emitted::Code(Operand::Unknown(sine)), Operand::Parameter(s), one, row(rise));
+                self.equation(&Emitted::code(rise), Operand::Parameter(c), one, row(fall));
+                self.equation(&Emitted::code(Operand::Unknown(sine)), Operand::Parameter(s), one, row(rise));
             }
             (JointValue::Plain(unknown), &[d]) => {
-                let value = Emitted::Code(Operand::Unknown(unknown));
+                let value = Emitted::code(Operand::Unknown(unknown));
                 self.equation(&value, Operand::Parameter(d), Operand::Magnitude, row(Operand::Constant(1.0)));
             }
             _ => {}
@@ -248,7 +241,8 @@ impl<'a> Forward<'a> {
     }
 
     fn equation(&mut self, value: &Emitted, target: Operand, scale: Operand, row: Vec<Operand>) {
-        self.checks.residuals.push(self.emitter.0.sub(value.operand(), target));
+        let reached = self.emitter.operand(value);
+        self.checks.residuals.push(self.emitter.0.sub(reached, target));
         self.checks.scales.push(scale);
         self.checks.jacobian.push(row);
     }

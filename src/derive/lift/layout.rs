@@ -134,7 +134,7 @@ impl Layout {
                 let factor =
                     if mechanism.task() == Task::Direction { square.to_f64().unwrap_or(1.0).sqrt() } else { 1.0 };
                 let parameter = |index| Operand::Parameter(self.first + index);
-                let value = |index| Emitted::Code(emitter.0.mul(Operand::Constant(factor), parameter(index)));
+                let value = |index| emitter.times(factor, &Emitted::code(parameter(index)));
                 (0..mechanism.parameters().len()).map(value).collect()
             }
         };
@@ -148,11 +148,11 @@ impl Layout {
     /// The values that a joint has in relations: c and s / sqrt n, or d / sqrt n.
     fn known(&self, mechanism: &Mechanism, joint: usize, emitter: &mut Emitter<'_>) -> closure::JointValue<Emitted> {
         let square = &mechanism.joints()[joint].square;
-        let factor = Operand::Constant(1.0 / square.to_f64().unwrap_or(1.0).sqrt());
-        let mut scaled = |unknown: usize| Emitted::Code(emitter.0.mul(factor, Operand::Unknown(unknown)));
+        let factor = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
+        let scaled = |unknown: usize| emitter.times(factor, &Emitted::code(Operand::Unknown(unknown)));
         match self.joints[joint] {
             JointValue::Angle { cosine, sine } => {
-                closure::JointValue::Angle { cosine: Emitted::Code(Operand::Unknown(cosine)), sine: scaled(sine) }
+                closure::JointValue::Angle { cosine: Emitted::code(Operand::Unknown(cosine)), sine: scaled(sine) }
             }
             JointValue::Plain(unknown) => closure::JointValue::Length(scaled(unknown)),
         }
@@ -167,7 +167,7 @@ impl Layout {
     ) -> Result<Assignment<Emitted>> {
         let emitter = &mut super::emit::Sizes(assembler);
         let size =
-            |input: &str| if input.starts_with('p') { Emitted::Code(Operand::Magnitude) } else { Emitted::integer(1) };
+            |input: &str| if input.starts_with('p') { Emitted::code(Operand::Magnitude) } else { Emitted::integer(1) };
         let parameters: Vec<Emitted> = mechanism.parameters().iter().map(|name| size(name)).collect();
         let target = Target::new(mechanism, &parameters, emitter)?;
         let joints = (0..self.joints.len()).map(|joint| match self.joints[joint] {
@@ -176,7 +176,7 @@ impl Layout {
                 closure::JointValue::Angle { cosine: Emitted::integer(1), sine: Emitted::integer(1) }
             }
             JointValue::Plain(unknown) => {
-                closure::JointValue::Length(Emitted::Code(emitter.0.abs(Operand::Unknown(unknown))))
+                closure::JointValue::Length(Emitted::code(emitter.0.abs(Operand::Unknown(unknown))))
             }
         });
         let joints = joints.collect();

@@ -73,7 +73,8 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
             .then_some(parts.plan.dimension),
         blocks,
         preference: None,
-    };
+    }
+    .pruned();
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;
     Ok(program)
 }
@@ -84,7 +85,7 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
 /// As [`Mechanism::new`].
 pub(super) fn checks_on(chain: &Chain) -> Result<Checks> {
     let mechanism = Mechanism::new(chain)?;
-    Ok(checks(&mechanism, &Layout::new(&mechanism, chain.length_unit()), reach(chain)))
+    Ok(checks(&mechanism, &Layout::new(&mechanism, chain.length_unit()), reach(chain)).pruned())
 }
 
 /// The size of the chain's positions; one when it is a point.
@@ -284,7 +285,7 @@ impl Context<'_> {
         let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors)
         {
             None => Operand::Constant(0.0),
-            Some(value) => assembler.mul(Operand::Constant(factor), value.operand()),
+            Some(value) => Emitter(assembler).times(factor, value).operand(assembler),
         };
         let (c, s, d, dd) =
             ([Factor::Cosine(joint)], [Factor::Sine(joint)], [Factor::Length(joint)], [Factor::LengthSquared(joint)]);
@@ -321,14 +322,15 @@ impl Context<'_> {
         root: f64,
         assembler: &mut Assembler,
     ) -> Vec<Operand> {
-        let list = |equations: &[Multilinear<Emitted>]| -> Vec<Operand> {
+        let list = |equations: &[Multilinear<Emitted>], assembler: &mut Assembler| -> Vec<Operand> {
             let coefficient = |place: &SymbolPlace| equations[place.relation].coefficient(&place.factors);
-            let value = |place| coefficient(place).map_or(Operand::Constant(0.0), Emitted::operand);
-            elimination.symbols.iter().map(value).collect()
+            let mut value = |place| coefficient(place).map_or(Operand::Constant(0.0), |value| value.operand(assembler));
+            elimination.symbols.iter().map(&mut value).collect()
         };
-        let mut symbols = list(equations);
+        let mut symbols = list(equations, assembler);
         if let Some(values) = values {
-            symbols = list(values).into_iter().map(|value| assembler.abs(value)).chain(symbols).collect();
+            let values = list(values, assembler);
+            symbols = values.into_iter().map(|value| assembler.abs(value)).chain(symbols).collect();
         }
         let parts = elimination.coefficients();
         let mut take = |exponents: &[u32], factor: f64| {

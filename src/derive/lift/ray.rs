@@ -5,7 +5,7 @@ use num_traits::ToPrimitive;
 
 use super::emit::{Emitted, Emitter};
 use crate::derive::assemble::Assembler;
-use crate::derive::closure::Mechanism;
+use crate::derive::closure::{Arithmetic, Mechanism};
 use crate::solver::{Block, Chart, Operand, Pivot, Step};
 
 /// Where the parameters of a ray's direction stand.
@@ -54,14 +54,14 @@ pub(super) fn turned(mechanism: &Mechanism, across: [[usize; 3]; 2], emitter: &m
     let beside = aim.cross(&Vector3::ith(aim.iamin(), 1.0)).normalize();
     let before = [aim, beside, aim.cross(&beside)];
     let behind = [DIRECTION, across[0].map(Operand::Unknown), across[1].map(Operand::Unknown)];
-    let mut values: Vec<Emitted> = (0..3).map(|index| Emitted::Code(Operand::Parameter(index))).collect();
+    let mut values: Vec<Emitted> = (0..3).map(|index| Emitted::code(Operand::Parameter(index))).collect();
     for entry in 0..9 {
         let terms = before.iter().zip(&behind).map(|(from, to)| (from[entry % 3], to[entry / 3]));
-        let sum = terms.fold(Operand::Constant(0.0), |sum, (factor, value)| {
-            let term = emitter.0.mul(Operand::Constant(factor), value);
-            emitter.0.add(sum, term)
+        let sum = terms.fold(Emitted::integer(0), |sum, (factor, value)| {
+            let term = emitter.times(factor, &Emitted::code(value));
+            emitter.add(&sum, &term)
         });
-        values.push(Emitted::Code(sum));
+        values.push(sum);
     }
     values
 }

@@ -1,0 +1,153 @@
+//! A program without instructions whose results nothing reads.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::instruction::{Instruction, Operand, Operation};
+use super::program::{Block, Chart, Checks, Program, Step};
+
+impl Program {
+    /// The same program without the instructions whose results nothing reads.
+    pub(crate) fn pruned(mut self) -> Program {
+        self.blocks.iter_mut().for_each(prune_block);
+        self.checks = self.checks.pruned();
+        self
+    }
+}
+
+impl Checks {
+    /// The same checks without the instructions whose results nothing reads: first what values and sizes need, then the rest.
+    pub(crate) fn pruned(mut self) -> Checks {
+        prune_checks(&mut self);
+        self
+    }
+}
+
+/// The registers that are read.
+#[derive(Default)]
+struct Live(BTreeSet<usize>);
+
+impl Live {
+    fn read(&mut self, operand: Operand) {
+        if let Operand::Register(index) = operand {
+            self.0.insert(index);
+        }
+    }
+
+    /// What code behind which these registers are read reads itself.
+    fn code(&mut self, code: &[Instruction]) {
+        for instruction in code.iter().rev() {
+            if self.0.contains(&instruction.target) {
+                let (a, b) = instruction.operation.operands();
+                [Some(a), b].into_iter().flatten().for_each(|operand| self.read(operand));
+            }
+        }
+    }
+
+    fn chart(&mut self, chart: &Chart) {
+        for step in chart.steps.iter().rev() {
+            match step {
+                Step::Compute(code) => self.code(code),
+                Step::Set { value, .. } => self.read(*value),
+                Step::Roots { polynomials, typical, .. } => {
+                    polynomials.iter().flatten().chain(typical).for_each(|operand| self.read(*operand));
+                }
+                Step::Sample { .. } => {}
+            }
+        }
+        for guard in &chart.guards {
+            self.read(guard.value);
+            self.read(guard.scale);
+        }
+        chart.pivot.iter().for_each(|pivot| self.read(pivot.value));
+        self.code(&chart.guard_code);
+    }
+}
+
+/// New numbers of registers.
+#[derive(Clone, Default)]
+struct Numbers(BTreeMap<usize, usize>);
+
+impl Numbers {
+    /// Takes what is not live out of `code`, and numbers the rest on.
+    fn code(&mut self, code: &mut Vec<Instruction>, live: &Live) {
+        code.retain(|instruction| live.0.contains(&instruction.target));
+        for instruction in code {
+            let next = self.0.len();
+            self.operation(&mut instruction.operation);
+            self.0.insert(instruction.target, next);
+            instruction.target = next;
+        }
+    }
+
+    fn operand(&self, operand: &mut Operand) {
+        if let Operand::Register(index) = operand {
+            *index = self.0[index];
+        }
+    }
+
+    fn operation(&self, operation: &mut Operation) {
+        match operation {
+            Operation::Add(a, b) | Operation::Sub(a, b) | Operation::Mul(a, b) | Operation::Div(a, b) => {
+                self.operand(a);
+                self.operand(b);
+            }
+            Operation::Abs(a) | Operation::Sqrt(a) => self.operand(a),
+        }
+    }
+
+    fn chart(&mut self, chart: &mut Chart, live: &Live) {
+        self.code(&mut chart.guard_code, live);
+        for guard in &mut chart.guards {
+            self.operand(&mut guard.value);
+            self.operand(&mut guard.scale);
+        }
+        chart.pivot.iter_mut().for_each(|pivot| self.operand(&mut pivot.value));
+        for step in &mut chart.steps {
+            match step {
+                Step::Compute(code) => self.code(code, live),
+                Step::Set { value, .. } => self.operand(value),
+                Step::Roots { polynomials, typical, .. } => {
+                    polynomials.iter_mut().flatten().chain(typical).for_each(|operand| self.operand(operand));
+                }
+                Step::Sample { .. } => {}
+            }
+        }
+        chart.steps.retain(|step| !matches!(step, Step::Compute(code) if code.is_empty()));
+    }
+}
+
+fn prune_block(block: &mut Block) {
+    let mut all = Live::default();
+    let lives: Vec<Live> = block
+        .charts
+        .iter()
+        .map(|chart| {
+            let mut live = Live::default();
+            live.chart(chart);
+            all.0.extend(&live.0);
+            live
+        })
+        .collect();
+    all.code(&block.code);
+    let mut numbers = Numbers::default();
+    numbers.code(&mut block.code, &all);
+    for (chart, live) in block.charts.iter_mut().zip(&lives) {
+        numbers.clone().chart(chart, live);
+    }
+}
+
+fn prune_checks(checks: &mut Checks) {
+    let (mut measured, mut derived) = (Live::default(), Live::default());
+    checks.residuals.iter().chain(&checks.scales).for_each(|operand| measured.read(*operand));
+    checks.jacobian.iter().flatten().for_each(|operand| derived.read(*operand));
+    measured.code(&checks.code);
+    derived.code(&checks.code);
+    derived.0.retain(|register| !measured.0.contains(register));
+    let mut behind = checks.code.clone();
+    let mut numbers = Numbers::default();
+    numbers.code(&mut checks.code, &measured);
+    numbers.code(&mut behind, &derived);
+    checks.code.append(&mut behind);
+    let operands = checks.residuals.iter_mut().chain(&mut checks.scales).chain(checks.jacobian.iter_mut().flatten());
+    operands.for_each(|operand| numbers.operand(operand));
+}
