@@ -102,6 +102,13 @@ int nao_arm_planar_nearest(const nao_arm_planar_solution *list, int count, const
 #define INPUTS NAO_ARM_PLANAR_INPUTS
 #define JOINTS NAO_ARM_PLANAR_JOINTS
 #define EQUATIONS 2
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE __attribute__((always_inline)) inline
+#define COLD __attribute__((noinline, cold))
+#else
+#define INLINE
+#define COLD
+#endif
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -112,6 +119,8 @@ int nao_arm_planar_nearest(const nao_arm_planar_solution *list, int count, const
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
+/* So many steps in a row that do not halve the miss are the last. */
+#define PATIENCE 3
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -121,7 +130,7 @@ int nao_arm_planar_nearest(const nao_arm_planar_solution *list, int count, const
 #define RETURNS 4
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
-#define POLISHED 1e-15
+#define POLISHED 4e-15
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
 /* A factor is not zero above this share of its scale. */
@@ -151,14 +160,6 @@ typedef struct {
     size_t count;
 } Roots;
 
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
-
 static void push(Roots *roots, double x)
 {
     if (isfinite(x) && roots->count < DEGREE) {
@@ -166,6 +167,14 @@ static void push(Roots *roots, double x)
         roots->count++;
     }
 }
+
+/* A polynomial with coefficients of magnitude one and less, constant term first. */
+typedef struct {
+    double a[DEGREE + 1];
+    size_t degree;
+    /* The unknown's typical size. */
+    double scale;
+} Polynomial;
 
 static double largest(const double *coefficients, size_t length)
 {
@@ -268,24 +277,40 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 #define TIP 2
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c4 = cos(q[1]), c2 = cos(q[0]), s4 = sin(q[1]), s2 = sin(q[0]);
+    const double c2 = at[0], s2 = at[1], c4 = at[2], s4 = at[3];
     reached[0] = 105.0 * c2 + 113.7 * s4;
     reached[1] = 105.0 * s2 + 113.7 * c4;
 }
 
+/* What the equations read of joints: 4 numbers. */
+#define PLACES 4
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+}
+
+#define SIZES 2
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->pz,
@@ -304,10 +329,10 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c4 = cos(q[1]), c2 = cos(q[0]), s4 = sin(q[1]), s2 = sin(q[0]);
+    const double c2 = at[0], s2 = at[1], c4 = at[2], s4 = at[3];
     const Jacobian result = { {
         {0.0 - 105.0 * s2, 113.7 * c4},
         {105.0 * c2, 0.0 - 113.7 * s4},
@@ -325,15 +350,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, DBL_MIN));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -342,16 +372,58 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+#define REST 3.061616997868383e-17
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -400,8 +472,10 @@ static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
 /* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
 static bool newton_step(const Parameters *p, const double *q, double damping, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     double triangle[JOINTS][JOINTS + 1] = {{0.0}};
     double squares[JOINTS] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
@@ -526,22 +600,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit)
  * after a leap. */
 static void polish(const Parameters *p, double *q, Fit *fit)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -569,7 +648,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -600,6 +679,13 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[0] - b[0])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -618,9 +704,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -645,6 +728,9 @@ static bool blurred(const Parameters *p, const Solution *a, double a_relative, c
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    if (!is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
@@ -751,7 +837,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -764,6 +850,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == NAO_ARM_PLANAR_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -876,8 +999,9 @@ static void chart_1_1(const Parameters *p, Answers *answers)
         const double r31 = (p->py * (r23 - r24) + (r27 + 190269.0)) / (22740.0 * p->pz), s4 = r31;
         const double r37 = (p->py * (r24 - r23) + (r27 - 190269.0)) / (21000.0 * p->pz), c2 = r37;
         const double c4 = (10.0 * p->py - 1050.0 * s2) / 1137.0;
-        const double q[JOINTS] = {angle(c2, s2), angle(c4, s4)};
-        finish(p, i0, 2, q, NONE_FREE, answers);
+        const double at[PLACES] = {c2, s2, c4, s4};
+        const double q[JOINTS] = {angle(at[0], at[1]), angle(at[2], at[3])};
+        finish(p, i0, 2, at, q, NONE_FREE, answers);
     }
 }
 
@@ -896,8 +1020,9 @@ static void chart_1_2(const Parameters *p, Answers *answers)
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double s4 = roots0.values[i0], c2 = 0.0 - 379.0 * s4 / 350.0;
         const double c4 = (r1 + 190269.0) / (22740.0 * p->py);
-        const double q[JOINTS] = {angle(c2, s2), angle(c4, s4)};
-        finish(p, 2 + i0, 4, q, NONE_FREE, answers);
+        const double at[PLACES] = {c2, s2, c4, s4};
+        const double q[JOINTS] = {angle(at[0], at[1]), angle(at[2], at[3])};
+        finish(p, 2 + i0, 4, at, q, NONE_FREE, answers);
     }
 }
 
@@ -936,8 +1061,9 @@ int nao_arm_planar_solve(const double *target, nao_arm_planar_solution *out)
 
 void nao_arm_planar_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[1];
     target[1] = reached[0];
 }
@@ -948,7 +1074,9 @@ double nao_arm_planar_residual(const double *target, const double *q)
         return NAN;
     }
     const Parameters p = parameters(target);
-    const Equations f = equations(&p, q);
+    double at[PLACES];
+    place(q, at);
+    const Equations f = equations(&p, at);
     double size = 0.0;
     for (size_t i = 0; i < EQUATIONS; i++) {
         if (isnan(f.value[i])) {

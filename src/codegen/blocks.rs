@@ -24,6 +24,10 @@ pub(super) struct BlockText {
     shared: Vec<String>,
     charts: Vec<ChartText>,
     turns: Vec<Turn>,
+    /// Whether one chart that often runs goes on here, so that a language had better put this block in its place.
+    is_inlined: bool,
+    /// Whether a chart that hardly ever runs goes on here.
+    is_met_again: bool,
 }
 
 /// Charts of which one runs: one alone, or a pivot group.
@@ -41,6 +45,8 @@ struct ChartText {
     guards: Vec<String>,
     free: Vec<String>,
     open: bool,
+    /// Whether it is the one chart of its block that often runs.
+    is_inlined: bool,
     body: Function,
     /// Its claim among its pivot group, or the condition of an open chart.
     claim: Option<Function>,
@@ -71,6 +77,7 @@ impl BlockText {
     pub fn new(scene: &Scene<'_>, index: usize) -> Self {
         let block = &scene.program.blocks[index];
         let (lines, shared) = scene.block_code(index);
+        let before = index.checked_sub(1).map_or(&[][..], |before| &scene.program.blocks[before].charts);
         let group = |chart: usize| block.charts[chart].pivot.map(|pivot| pivot.group);
         let all = 0..block.charts.len();
         let turn = |first: usize| {
@@ -82,6 +89,8 @@ impl BlockText {
             lines,
             shared,
             charts: block.charts.iter().map(|chart| ChartText::new(scene, index, chart)).collect(),
+            is_inlined: before.iter().filter(|chart| !chart.is_rare()).count() == 1,
+            is_met_again: before.iter().any(Chart::is_rare),
             turns: all.clone().filter(|&chart| block.opens_group(chart)).map(turn).collect(),
         }
     }
@@ -91,6 +100,7 @@ impl ChartText {
     fn new(scene: &Scene<'_>, block: usize, chart: &Chart) -> Self {
         let lines = if chart.open { Vec::new() } else { scene.chart(block, chart) };
         let (claim, condition, pivot) = scene.claim(block, chart);
+        let often = scene.program.blocks[block].charts.iter().filter(|chart| !chart.is_rare()).count();
         let claims = chart.open || chart.pivot.is_some();
         let free = chart.free.iter().map(|&joint| remark(&scene.program.joints[joint].name));
         let read: Vec<&String> = claim.iter().chain([&condition, &pivot]).collect();
@@ -108,6 +118,7 @@ impl ChartText {
             guards: chart.guards.iter().map(|guard| guard_text(&guard.text, guard.near)).collect(),
             free: free.collect(),
             open: chart.open,
+            is_inlined: !chart.is_rare() && often == 1,
             body: Function::new(language, block, lines, &own),
             claim: claims.then(|| Function::new(language, block, claim, &claim_names)),
             condition,

@@ -4,7 +4,7 @@ use super::demand::{Demand, ParameterDemand};
 use super::names::Names;
 use super::printer::{Finish, INDENT, Language, Printer, State, number};
 use super::samples::Table;
-use crate::solver::{Block, Chart, Guard, JointValue, Operand, Program, Rule, Step};
+use crate::solver::{Block, Chart, Guard, JointValue, Operand, Program, Rule, Step, square};
 
 /// What all bodies of one file share.
 pub(super) struct Scene<'a> {
@@ -65,6 +65,15 @@ impl Scene<'_> {
         (0..self.program.blocks.len() - 1).flat_map(|block| self.wanted_of(block)).collect()
     }
 
+    /// Names of the angles that go from block to block.
+    pub fn passed_angles(&self) -> Vec<String> {
+        let is_passed = |&joint: &usize| {
+            let is_angle = matches!(self.program.joints[joint].value, JointValue::Angle { .. });
+            is_angle && self.finder(joint) + 1 < self.program.blocks.len()
+        };
+        (0..self.program.joints.len()).filter(is_passed).map(|joint| format!("q{joint}")).collect()
+    }
+
     /// The unknowns that answers need.
     pub fn wanted(&self) -> Vec<usize> {
         let joints = self.program.joints.iter().flat_map(|joint| match joint.value {
@@ -72,6 +81,80 @@ impl Scene<'_> {
             JointValue::Plain(unknown) => vec![unknown],
         });
         joints.chain(self.extra.iter().copied()).collect()
+    }
+
+    /// The unknowns that the equations can read, each once.
+    pub fn places(&self) -> Vec<usize> {
+        let mut places: Vec<usize> = Vec::new();
+        for unknown in self.wanted() {
+            if !places.contains(&unknown) {
+                places.push(unknown);
+            }
+        }
+        places
+    }
+
+    /// The values of these unknowns at joint values `q`.
+    pub fn placed(&self) -> Vec<String> {
+        let value = |&unknown: &usize| {
+            let place = self.extra.iter().position(|&extra| extra == unknown);
+            let value = place.map(|place| format!("extra[{place}]")).or_else(|| self.unknown_at(unknown));
+            value.expect("an unknown that is no joint's is among the extra ones")
+        };
+        self.places().iter().map(value).collect()
+    }
+
+    /// By joint that is an angle: where its cosine and its sine stand among the places.
+    pub fn circles(&self) -> Vec<[usize; 2]> {
+        let circle = |joint: &crate::solver::Joint| match joint.value {
+            JointValue::Angle { cosine, sine } => Some([self.place(cosine), self.place(sine)]),
+            JointValue::Plain(_) => None,
+        };
+        self.program.joints.iter().filter_map(circle).collect()
+    }
+
+    fn place(&self, unknown: usize) -> usize {
+        self.places().iter().position(|&other| other == unknown).expect("a joint's unknowns have places")
+    }
+
+    /// The value of the joint with this index behind the last block.
+    fn joint_value(&self, index: usize) -> String {
+        match self.program.joints[index].value {
+            JointValue::Angle { .. } if self.finder(index) + 1 < self.program.blocks.len() => {
+                self.language.known(&format!("q{index}"))
+            }
+            JointValue::Angle { cosine, sine } => {
+                format!("angle(at[{}], at[{}])", self.place(cosine), self.place(sine))
+            }
+            JointValue::Plain(unknown) => format!("at[{}]", self.place(unknown)),
+        }
+    }
+
+    /// The index of the block that finds the joint with this index.
+    fn finder(&self, joint: usize) -> usize {
+        let unknowns = self.program.joints[joint].value.unknowns();
+        let known = |block: usize| unknowns.iter().all(|&unknown| self.known_before(block + 1)[unknown]);
+        (0..self.program.blocks.len()).find(|&block| known(block)).unwrap_or(self.program.blocks.len() - 1)
+    }
+
+    /// The joints, those that are found last first: in these answers differ most.
+    pub fn last_first(&self) -> Vec<usize> {
+        let mut joints: Vec<usize> = (0..self.program.joints.len()).collect();
+        joints.sort_by_key(|&joint| std::cmp::Reverse(self.finder(joint)));
+        joints
+    }
+
+    /// The angles that the block with this index finds: their names, and their values as expressions.
+    fn angles(&self, block: usize, printer: &Printer<'_>) -> Vec<(String, String)> {
+        let found = (0..self.program.joints.len()).filter(|&joint| self.finder(joint) == block);
+        let angle = |joint: usize| match self.program.joints[joint].value {
+            JointValue::Angle { cosine, sine } => {
+                let value = format!("angle({}, {})", printer.unknown(cosine), printer.unknown(sine));
+                Some((format!("q{joint}"), value))
+            }
+            JointValue::Plain(_) => None,
+        };
+        found.filter_map(angle).collect()
     }
 
     /// Declarations of the parameters that are computed.
@@ -125,11 +208,8 @@ impl Scene<'_> {
         let code = &self.program.checks.code;
         let mut printer = self.printer(Demand::of_code(code, rows.iter().copied().flatten()));
         let mut lines = Vec::new();
-        for unknown in (0..self.program.unknowns.len()).filter(|&i| printer.demand().wants_unknown(i)) {
-            let place = self.extra.iter().position(|&extra| extra == unknown);
-            let value = place.map(|place| format!("extra[{place}]")).or_else(|| self.unknown_at(unknown));
-            let value = value.expect("an unknown that is no joint's is among the extra ones");
-            lines.push(self.language.declare(&self.names.unknowns[unknown], &value));
+        for (place, &unknown) in self.places().iter().enumerate().filter(|(_, i)| printer.demand().wants_unknown(**i)) {
+            lines.push(self.language.declare(&self.names.unknowns[unknown], &format!("at[{place}]")));
         }
         lines.extend(printer.code(code));
         let rows = rows.iter().map(|row| row.iter().map(|&operand| printer.operand(operand)).collect()).collect();
@@ -163,7 +243,8 @@ impl Scene<'_> {
             let condition = self.condition(&chart.guards, &mut printer);
             lines.extend(self.language.leave_unless(&condition));
         }
-        let mut walk = Walk { scene: self, block: index, chart, lines, depth: 0, branch: Vec::new() };
+        let mut walk =
+            Walk { scene: self, block: index, chart, lines, depth: 0, finds_roots: Vec::new(), branch: Vec::new() };
         walk.steps(&mut printer);
         walk.lines
     }
@@ -198,6 +279,8 @@ struct Walk<'a> {
     chart: &'a Chart,
     lines: Vec<String>,
     depth: usize,
+    /// By loop that is open: whether it goes over roots.
+    finds_roots: Vec<bool>,
     /// Terms of the branch number.
     branch: Vec<String>,
 }
@@ -227,10 +310,12 @@ impl Walk<'_> {
                     self.roots(*unknown, polynomials, *typical, printer);
                     let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
                     self.branch.push(multiple(stride, &format!("i{}", self.depth)));
+                    self.finds_roots.push(true);
                     self.depth += 1;
                 }
                 Step::Sample { joint, values } => {
                     self.samples(*joint, values, printer);
+                    self.finds_roots.push(false);
                     self.depth += 1;
                 }
             }
@@ -253,13 +338,22 @@ impl Walk<'_> {
         printer: &mut Printer<'_>,
     ) {
         let language = printer.language();
-        let lists: Vec<Vec<String>> =
-            polynomials.iter().map(|list| list.iter().map(|&c| printer.operand(c)).collect()).collect();
         let usual = if self.scene.program.is_plain(unknown) { Operand::Magnitude } else { Operand::Constant(1.0) };
-        let typical = printer.operand(typical.unwrap_or(usual));
+        let finds = match square(polynomials) {
+            Some(constant) => {
+                let (constant, typical) = (printer.operand(constant), printer.operand(typical.unwrap_or(usual)));
+                language.find_square_roots(self.depth, &constant, &typical)
+            }
+            None => {
+                let list = |list: &Vec<Operand>| list.iter().map(|&c| printer.operand(c)).collect();
+                let lists: Vec<Vec<String>> = polynomials.iter().map(list).collect();
+                let typical = printer.operand(typical.unwrap_or(usual));
+                language.find_roots(self.depth, &lists, &typical)
+            }
+        };
         let lines = printer.settle();
         self.push(lines);
-        self.push(language.find_roots(self.depth, &lists, &typical));
+        self.push(finds);
         let name = printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str());
         self.push(language.open_loop(self.depth, name));
     }
@@ -289,6 +383,14 @@ impl Walk<'_> {
         [branch, multiple(radix, &language.known("last"))]
     }
 
+    /// Whether roots on the way are close to one another, as an expression.
+    fn close(&self, language: &dyn Language) -> String {
+        let before = (self.block > 0).then(|| language.known("close"));
+        let own = (0..self.depth).filter(|depth| self.finds_roots[*depth]).map(|depth| format!("roots{depth}.close"));
+        let all: Vec<String> = before.into_iter().chain(own).collect();
+        if all.is_empty() { "false".to_owned() } else { all.join(" || ") }
+    }
+
     /// By joint whether it is free; empty when the chart adds none.
     fn free(&self, language: &dyn Language) -> Vec<String> {
         let usual = |joint: usize| match self.block {
@@ -303,23 +405,31 @@ impl Walk<'_> {
     fn go_on(&mut self, printer: &Printer<'_>) {
         let language = printer.language();
         let names = &printer.names().unknowns;
-        let found: Vec<String> = self.scene.wanted_of(self.block).into_iter().map(|u| names[u].clone()).collect();
+        let mut found: Vec<String> = self.scene.wanted_of(self.block).into_iter().map(|u| names[u].clone()).collect();
+        let angles = self.scene.angles(self.block, printer);
+        self.push(angles.iter().map(|(name, value)| language.declare(name, value)).collect());
+        found.extend(angles.into_iter().map(|(name, _)| name));
         let state = State {
             next: self.block + 2,
             goes_on: self.block > 0,
             branch: self.numbers(language),
             free: &self.free(language),
             found: &found,
+            close: self.close(language),
+            is_rare: self.chart.is_rare(),
         };
         self.push(language.go_on(&state));
     }
 
     fn finish(&mut self, printer: &Printer<'_>) {
         let (scene, language) = (self.scene, printer.language());
-        let q: Vec<String> = scene.program.joints.iter().map(|joint| joint_value(joint.value, printer)).collect();
+        let q: Vec<String> = (0..scene.program.joints.len()).map(|joint| scene.joint_value(joint)).collect();
+        let at: Vec<String> = scene.places().into_iter().map(|unknown| printer.unknown(unknown)).collect();
         let passed = self.block > 0 && scene.has_families();
         let answer = Finish {
             branch: self.numbers(language),
+            at: &at,
+            close: self.close(language),
             q: &q,
             free: &self.free(language),
             usual: if passed { language.known("free") } else { "NONE_FREE".to_owned() },
@@ -341,11 +451,4 @@ fn found(step: &Step) -> Vec<usize> {
 
 fn multiple(factor: usize, value: &str) -> String {
     if factor == 1 { value.to_owned() } else { format!("{factor} * {value}") }
-}
-
-fn joint_value(value: JointValue, printer: &Printer<'_>) -> String {
-    match value {
-        JointValue::Angle { cosine, sine } => format!("angle({}, {})", printer.unknown(cosine), printer.unknown(sine)),
-        JointValue::Plain(unknown) => printer.unknown(unknown),
-    }
 }

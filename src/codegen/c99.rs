@@ -131,6 +131,10 @@ impl Language for C99 {
         format!("\"{body}\"")
     }
 
+    fn find_square_roots(&self, depth: usize, constant: &str, typical: &str) -> Vec<String> {
+        vec![format!("const Roots roots{depth} = square_roots({constant}, {typical});")]
+    }
+
     fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
         let mut lines = Vec::new();
         for (index, list) in polynomials.iter().enumerate() {
@@ -172,7 +176,8 @@ impl Language for C99 {
     }
 
     fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
-        let mut lines = spread("const double q[JOINTS] = {", answer.q, "};");
+        let mut lines = spread("const double at[PLACES] = {", answer.at, "};");
+        lines.extend(spread("const double q[JOINTS] = {", answer.q, "};"));
         if !answer.free.is_empty() {
             lines.extend(spread("const bool free_joints[JOINTS] = {", answer.free, "};"));
         }
@@ -181,19 +186,27 @@ impl Language for C99 {
         }
         let free = if answer.free.is_empty() { &answer.usual } else { "free_joints" };
         let extra = if answer.extra.is_empty() { "" } else { ", extra" };
-        lines.push(format!("finish(p, {}, q, {free}{extra}, answers);", answer.branch.join(", ")));
+        lines.push(format!(
+            "finish(p, {}, {}, at, q, {free}{extra}, answers);",
+            answer.branch.join(", "),
+            answer.close
+        ));
         lines
     }
 
     fn go_on(&self, state: &State<'_>) -> Vec<String> {
         let [branch, last] = &state.branch;
         let start = if state.goes_on { "*known" } else { "NOTHING_KNOWN" };
-        let mut lines =
-            vec![format!("Known next = {start};"), format!("next.branch = {branch};"), format!("next.last = {last};")];
+        let mut lines = vec![
+            format!("Known next = {start};"),
+            format!("next.branch = {branch};"),
+            format!("next.last = {last};"),
+            format!("next.close = {};", state.close),
+        ];
         let free = state.free.iter().enumerate().filter(|(_, free)| *free == "true");
         lines.extend(free.map(|(joint, _)| format!("next.free[{joint}] = true;")));
         lines.extend(state.found.iter().map(|name| format!("next.{name} = {name};")));
-        lines.push(format!("block_{}(p, &next, answers);", state.next));
+        lines.push(format!("{}_{}(p, &next, answers);", if state.is_rare { "again" } else { "block" }, state.next));
         lines
     }
 }

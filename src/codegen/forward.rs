@@ -15,7 +15,7 @@ pub(super) struct ForwardText {
     values: Vec<String>,
     /// By input: an expression of `reached`, which holds the values, and of `q`.
     inputs: Vec<String>,
-    reads_q: bool,
+    reads_at: bool,
     reads_values: bool,
 }
 
@@ -27,7 +27,7 @@ impl ForwardText {
         let values = rows.pop().unwrap_or_default();
         let inputs: Vec<String> = forward.inputs.iter().map(|input| expression(*input, &operands)).collect();
         ForwardText {
-            reads_q: lines.iter().chain(&values).any(|line| line.contains("q[")),
+            reads_at: lines.iter().chain(&values).any(|line| line.contains("at[")),
             reads_values: inputs.iter().any(|input| input.contains("reached[")),
             lines,
             values,
@@ -79,5 +79,5 @@ pub(super) fn equations(scene: &Scene<'_>, forward: Option<&Forward>, sizes: &[O
         .collect();
     let read = [values.as_slice(), sizes.as_slice()].concat();
     let code = Code::new(scene.language, lines, read);
-    (Code { values, reads_q: code.reads_q || forward.is_some(), ..code }, sizes)
+    (Code { values, reads_at: code.reads_at || forward.is_some(), ..code }, sizes)
 }

@@ -11,8 +11,9 @@ use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use super::samples::Table;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, JointValue, LEAPS, LEVER,
-    MERGE, NEAR, Operand, PIVOT, POLISH_STEPS, POLISHED, Program, RETURNS, ROUNDING, STAGES, STIFF, Step, TINY, Unit,
+    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, EIGHTH, JointValue, LEAPS,
+    LEVER, MERGE, NEAR, Operand, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, Program, REST, RETURNS, ROUNDING, SERIES,
+    STAGES, STIFF, Step, TINY, Unit, square,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -33,6 +34,8 @@ pub(super) struct Outline {
     inputs: Vec<Quantity>,
     joints: Vec<Quantity>,
     extra: Vec<String>,
+    /// Numbers of the arc tangent.
+    arc: Arc,
     capacity: usize,
     isolated: Option<usize>,
     equations: usize,
@@ -44,15 +47,23 @@ pub(super) struct Outline {
     leaps: Vec<String>,
     parameters: Parameters,
     conditions: Vec<ConditionText>,
-    /// Names of the unknowns that go from block to block.
+    /// Names of the unknowns and the angles that go from block to block.
     passed: Vec<String>,
+    /// The joints, those that are found last first.
+    last_first: Vec<usize>,
     blocks: Vec<BlockText>,
     /// Values at which charts put free joints.
     samples: Vec<Table>,
     /// Forward kinematics, if the program has them.
     forward: Option<ForwardText>,
     checks: Code,
+    /// The equations' sizes, each once, and which of them is each equation's.
     sizes: Vec<String>,
+    size_of: Vec<usize>,
+    /// The unknowns that the equations can read, at joint values.
+    placed: Vec<String>,
+    /// Where cosines and sines stand among them.
+    circles: Vec<[usize; 2]>,
     jacobian: Code,
     jacobian_rows: Vec<Vec<String>>,
     preference: Option<PreferenceText>,
@@ -69,6 +80,19 @@ struct Quantity {
 }
 
 #[derive(Serialize)]
+struct Arc {
+    eighth: String,
+    rest: String,
+    series: Vec<String>,
+}
+
+impl Arc {
+    fn new() -> Self {
+        Arc { eighth: number(EIGHTH), rest: number(REST), series: SERIES.iter().map(|&c| number(c)).collect() }
+    }
+}
+
+#[derive(Serialize)]
 struct Tolerances {
     accept: String,
     merge: String,
@@ -79,6 +103,7 @@ struct Tolerances {
     pivot: String,
     polish_steps: usize,
     polished: String,
+    patience: usize,
     adrift: String,
     alone: String,
     aside: String,
@@ -112,8 +137,7 @@ pub(super) struct Code {
     pub lines: Vec<String>,
     pub values: Vec<String>,
     pub reads_p: bool,
-    pub reads_q: bool,
-    pub reads_extra: bool,
+    pub reads_at: bool,
 }
 
 #[derive(Serialize)]
@@ -135,6 +159,8 @@ struct Needs {
     near: bool,
     away: bool,
     pivot: bool,
+    squares: bool,
+    polynomials: bool,
     angles: bool,
     lengths: bool,
     sort: bool,
@@ -165,6 +191,13 @@ impl Outline {
         let (checks, sizes) = equations(&scene, forward.as_ref(), measured);
         let jacobian: Vec<&[Operand]> = program.checks.jacobian.iter().map(Vec::as_slice).collect();
         let (jacobian_lines, jacobian_rows) = scene.checks(&jacobian);
+        let mut unique: Vec<String> = Vec::new();
+        for size in &sizes {
+            if !unique.contains(size) {
+                unique.push(size.clone());
+            }
+        }
+        let place = |list: &[String], size: &String| list.iter().position(|other| other == size).unwrap_or(0);
         let name = word(&program.name);
         Outline {
             upper: name.to_ascii_uppercase(),
@@ -179,6 +212,7 @@ impl Outline {
                 .map(|j| Quantity::new(language, &j.name, j.unit, is_angle(j.value)))
                 .collect(),
             extra: scene.extra.iter().map(|&unknown| remark(&program.unknowns[unknown])).collect(),
+            arc: Arc::new(),
             capacity: program.capacity,
             isolated: program.isolated.filter(|_| needs.answers),
             equations: checks.values.len(),
@@ -189,12 +223,21 @@ impl Outline {
             leaps: LEAPS.iter().map(|&way| number(way)).collect(),
             parameters: Parameters::new(&scene, &needs),
             conditions: program.conditions.iter().map(ConditionText::new).collect(),
-            passed: scene.passed().into_iter().map(|unknown| scene.names.unknowns[unknown].clone()).collect(),
+            passed: scene
+                .passed()
+                .into_iter()
+                .map(|unknown| scene.names.unknowns[unknown].clone())
+                .chain(scene.passed_angles())
+                .collect(),
+            last_first: scene.last_first(),
             samples: scene.tables.clone(),
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
             forward: forward.map(|forward| ForwardText::new(&scene, &forward)),
+            size_of: sizes.iter().map(|size| place(&unique, size)).collect(),
             checks,
-            sizes,
+            sizes: unique,
+            placed: scene.placed(),
+            circles: scene.circles(),
             jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
             jacobian_rows,
             preference: PreferenceText::new(&scene).filter(|_| needs.answers),
@@ -221,6 +264,7 @@ impl Tolerances {
             pivot: number(PIVOT),
             polish_steps: POLISH_STEPS,
             polished: number(POLISHED),
+            patience: PATIENCE,
             adrift: number(ADRIFT),
             alone: number(ALONE),
             aside: number(ASIDE),
@@ -292,7 +336,7 @@ impl Code {
     /// The code, and what it reads.
     pub fn new(language: &dyn Language, lines: Vec<String>, values: Vec<String>) -> Self {
         let reads = |what: &str| lines.iter().chain(&values).any(|line| line.contains(what));
-        Code { reads_p: reads(&language.field("")), reads_q: reads("q["), reads_extra: reads("extra["), lines, values }
+        Code { reads_p: reads(&language.field("")), reads_at: reads("at["), lines, values }
     }
 }
 
@@ -321,7 +365,9 @@ impl Needs {
             unit: program.conditions.iter().any(|condition| matches!(condition, Condition::Unit(_))),
             near: guards().any(|guard| guard.near),
             away: guards().any(|guard| !guard.near),
-            pivot: root_steps(program).any(|(_, polynomials)| polynomials > 1),
+            pivot: root_steps(program).any(|(_, polynomials)| polynomials.len() > 1),
+            squares: root_steps(program).any(|(_, polynomials)| square(polynomials).is_some()),
+            polynomials: root_steps(program).any(|(_, polynomials)| square(polynomials).is_none()),
             angles: angles > 0,
             lengths: angles < program.joints.len(),
             sort: program.capacity > 2,
@@ -330,11 +376,11 @@ impl Needs {
     }
 }
 
-/// The root steps that are printed, each with its number of polynomials.
-fn root_steps(program: &Program) -> impl Iterator<Item = (&Step, usize)> {
+/// The root steps that are printed, each with its polynomials.
+fn root_steps(program: &Program) -> impl Iterator<Item = (&Step, &[Vec<Operand>])> {
     let steps = program.charts().filter(|chart| !chart.open).flat_map(|chart| &chart.steps);
     steps.filter_map(|step| match step {
-        Step::Roots { polynomials, .. } => Some((step, polynomials.len())),
+        Step::Roots { polynomials, .. } => Some((step, polynomials.as_slice())),
         _ => None,
     })
 }

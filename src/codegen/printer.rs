@@ -40,6 +40,8 @@ pub(super) trait Language {
     fn infinity(&self, positive: bool) -> String;
     /// A piece of text in quotation marks.
     fn quote(&self, text: &str) -> String;
+    /// Lines that name the roots `roots{depth}` of `x^2 + constant`; `typical` is the unknown's typical size.
+    fn find_square_roots(&self, depth: usize, constant: &str, typical: &str) -> Vec<String>;
     /// Lines that name the roots `roots{depth}` of the first polynomial (each a list of coefficients) that leads; `typical` is
     /// the unknown's typical size.
     fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String>;
@@ -60,6 +62,10 @@ pub(super) trait Language {
 pub(super) struct Finish<'a> {
     /// The branch number, and the end of those of the first block's chart.
     pub branch: [String; 2],
+    /// The unknowns that the equations can read.
+    pub at: &'a [String],
+    /// Whether roots on the way are close to one another.
+    pub close: String,
     /// The joints.
     pub q: &'a [String],
     /// By joint whether it is free; empty when it is `usual`.
@@ -82,6 +88,10 @@ pub(super) struct State<'a> {
     pub free: &'a [String],
     /// Names of the unknowns that were found, which are local variables.
     pub found: &'a [String],
+    /// Whether roots on the way are close to one another.
+    pub close: String,
+    /// Whether the chart hardly ever runs.
+    pub is_rare: bool,
 }
 
 /// How tightly a text binds: what it needs parentheses for.

@@ -64,6 +64,10 @@ impl Language for Rust {
         format!("\"{}\"", text.escape_default())
     }
 
+    fn find_square_roots(&self, depth: usize, constant: &str, typical: &str) -> Vec<String> {
+        vec![format!("let roots{depth} = square_roots({constant}, {typical});")]
+    }
+
     fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
         if let [only] = polynomials {
             return spread(&format!("let roots{depth} = real_roots(&["), only, &format!("], {typical});"));
@@ -103,22 +107,27 @@ impl Language for Rust {
     }
 
     fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
-        let mut lines = spread("let q = [", answer.q, "];");
+        let mut lines = spread("let at = [", answer.at, "];");
+        lines.extend(spread("let q = [", answer.q, "];"));
         let free = list(answer.free).unwrap_or_else(|| answer.usual.clone());
         let extra = list(answer.extra).map(|list| format!(", &{list}")).unwrap_or_default();
-        lines.push(format!("answers.finish(p, {}, q, {free}{extra});", answer.branch.join(", ")));
+        lines.push(format!(
+            "answers.finish(p, {}, {}, &at, q, {free}{extra});",
+            answer.branch.join(", "),
+            answer.close
+        ));
         lines
     }
 
     fn go_on(&self, state: &State<'_>) -> Vec<String> {
         let [branch, last] = &state.branch;
-        let mut fields = vec![format!("branch: {branch}"), format!("last: {last}")];
+        let mut fields = vec![format!("branch: {branch}"), format!("last: {last}"), format!("close: {}", state.close)];
         fields.extend(list(state.free).map(|list| format!("free: {list}")));
         fields.extend(state.found.iter().cloned());
         fields.push(if state.goes_on { "..*known".to_owned() } else { "..NOTHING_KNOWN".to_owned() });
         vec![
             format!("let next = Known {{ {} }};", fields.join(", ")),
-            format!("block_{}(p, &next, answers);", state.next),
+            format!("{}_{}(p, &next, answers);", if state.is_rare { "again" } else { "block" }, state.next),
         ]
     }
 }

@@ -140,6 +140,21 @@ impl Assembler {
         }
     }
 
+    /// Whether `a` is written so that it cannot be negative: a sum of squares, say.
+    pub fn is_positive(&self, a: Operand) -> bool {
+        match a {
+            Operand::Constant(x) => x > 0.0,
+            Operand::Magnitude => true,
+            Operand::Register(index) => match self.operations[index] {
+                Operation::Abs(_) | Operation::Sqrt(_) => true,
+                Operation::Mul(a, b) => a == b || (self.is_positive(a) && self.is_positive(b)),
+                Operation::Add(a, b) | Operation::Div(a, b) => self.is_positive(a) && self.is_positive(b),
+                Operation::Sub(..) => false,
+            },
+            Operand::Parameter(_) | Operand::Unknown(_) => false,
+        }
+    }
+
     /// A product or quotient, of operands without their minus signs.
     fn signed(&mut self, factors: [Operand; 2], emit: impl Fn(&mut Self, [Operand; 2]) -> Operand) -> Operand {
         let opposites = factors.map(|factor| self.opposite(factor));

@@ -13,7 +13,7 @@ mod square_free;
 
 pub use descartes::{RealRoot, isolate_square_free, real_roots_of};
 pub use isolate::{Interval, Sturm, isolate, rounded_roots};
-pub use numeric::{MAX_DEGREE, Roots, TANGENT, real_roots};
+pub use numeric::{MAX_DEGREE, Roots, TANGENT, real_roots, square_roots};
 pub use polish::polish;
 pub use refine::{enclose, has_root, refine, sign_at_root};
 pub use square_free::{gcd, square_free_parts};

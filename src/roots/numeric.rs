@@ -73,6 +73,22 @@ pub fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
     roots
 }
 
+/// All real roots of `x^2 + constant` in ascending order, as [`real_roots`] but that a miss is measured against `scale` alone.
+pub fn square_roots(constant: f64, scale: f64) -> Roots {
+    let mut roots = Roots::NONE;
+    if constant.is_nan() || constant > TANGENT * f64::max(constant, scale * scale) {
+        return roots;
+    }
+    if constant >= 0.0 {
+        roots.push(0.0);
+        return roots;
+    }
+    let root = (-constant).sqrt();
+    roots.push(-root);
+    roots.push(root);
+    roots
+}
+
 /// A polynomial of degree `degree` with coefficients of magnitude one and less, constant term first.
 struct Polynomial {
     a: [f64; MAX_DEGREE + 1],

@@ -1,7 +1,8 @@
 //! From candidates to answers: each is polished, measured by the equations, and merged with those equal to it.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
+use super::angle::angle;
 use super::evaluate::{Nearest, Solution};
 use super::frame::Frame;
 use super::program::{JointValue, Program};
@@ -73,7 +74,24 @@ impl<'a> Answers<'a> {
         if path.free != NONE_FREE {
             return self.propose_member(path, q);
         }
+        if !path.close {
+            let fit = refine::measure_unknowns(self.program, &q, &mut self.frame);
+            if fit.accepted && fit.relative < ROUNDING && self.is_round(unknowns) {
+                return self.keep(path, &q, &fit);
+            }
+        }
         self.settle(path, q);
+    }
+
+    /// Whether the cosines and sines of all angles are on the circle.
+    fn is_round(&self, unknowns: &[f64]) -> bool {
+        self.program.joints.iter().all(|joint| match joint.value {
+            JointValue::Angle { cosine, sine } => {
+                let (c, s) = (unknowns[cosine], unknowns[sine]);
+                (c * c + s * s - 1.0).abs() < ROUNDING
+            }
+            JointValue::Plain(_) => true,
+        })
     }
 
     /// Polishes a candidate and keeps it. Where two answers all but meet, it ends at one of them or at none: the points around it are
@@ -229,10 +247,14 @@ impl<'a> Answers<'a> {
     /// out that are free in either, or one singular configuration.
     fn is_one(&mut self, other: usize, answer: &Answer) -> bool {
         let (a, b) = (&self.list[other], answer);
+        let are_isolated = (a.is_isolated(), b.is_isolated());
+        if are_isolated == (true, true) && !self.close(&a.solution, &b.solution, BLUR) {
+            return false;
+        }
         if self.close(&a.solution, &b.solution, MERGE) {
             return true;
         }
-        match (a.is_isolated(), b.is_isolated()) {
+        match are_isolated {
             (true, true) => self.blurred(other, answer),
             (false, false) => {
                 a.solution.free == b.solution.free
@@ -294,9 +316,6 @@ impl<'a> Answers<'a> {
     fn blurred(&mut self, other: usize, answer: &Answer) -> bool {
         let (other, program) = (&self.list[other], self.program);
         let (a, b) = (&other.solution, &answer.solution);
-        if !self.close(a, b, BLUR) {
-            return false;
-        }
         let mut middle = [0.0; MAX_JOINTS];
         for (joint, slot) in middle.iter_mut().enumerate().take(program.joints.len()) {
             *slot = b.q[joint] + 0.5 * difference(program, joint, &a.q, &b.q);
@@ -339,14 +358,15 @@ impl Answer {
 fn difference(program: &Program, joint: usize, a: &[f64], b: &[f64]) -> f64 {
     let difference = a[joint] - b[joint];
     match program.joints[joint].value {
-        JointValue::Angle { .. } => difference - TAU * (difference / TAU).round(),
-        JointValue::Plain(_) => difference,
+        JointValue::Angle { .. } if difference > PI => difference - TAU,
+        JointValue::Angle { .. } if difference < -PI => difference + TAU,
+        _ => difference,
     }
 }
 
 fn joint_value(value: JointValue, unknowns: &[f64]) -> f64 {
     match value {
-        JointValue::Angle { cosine, sine } => refine::half_open(unknowns[sine].atan2(unknowns[cosine])),
+        JointValue::Angle { cosine, sine } => angle(unknowns[cosine], unknowns[sine]),
         JointValue::Plain(unknown) => unknowns[unknown],
     }
 }

@@ -3,6 +3,7 @@
 //! The checks of a chain compare the tip with the target, `value(q) - parameter = 0`, one equation a parameter; `value` then is what
 //! the joints reach.
 
+use super::angle::angle;
 use super::frame::Frame;
 use super::instruction::{Instruction, Operand, Operation};
 use super::program::{JointValue, Program, Rule};
@@ -54,7 +55,7 @@ impl Program {
         frame.run(&self.checks.code);
         let value = |reached: &Reached| match *reached {
             Reached::Value(operand) => frame.value(operand),
-            Reached::Angle { cosine, sine } => frame.value(sine).atan2(frame.value(cosine)),
+            Reached::Angle { cosine, sine } => angle(frame.value(cosine), frame.value(sine)),
             Reached::Joint(joint) => q[joint],
         };
         Some(forward.inputs.iter().map(value).collect())

@@ -3,7 +3,9 @@
 //! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
 
 mod about;
+mod angle;
 mod answers;
+mod batch;
 mod compose;
 mod condition;
 mod evaluate;
@@ -17,9 +19,12 @@ mod validate;
 mod walk;
 
 pub use about::About;
+pub use batch::Batch;
+pub(crate) use angle::{EIGHTH, REST, SERIES};
 pub use evaluate::{Nearest, Solution};
 pub use forward::{Forward, Reached};
 pub use instruction::{Instruction, Operand, Operation};
+pub(crate) use program::square;
 pub use program::{
     Block, Chart, Checks, Condition, Guard, Input, Joint, JointValue, ParameterRule, Pivot, Preference, Program, Rule,
     Step, Unit,
@@ -51,6 +56,8 @@ pub const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
 pub const RETURNS: usize = 4;
 /// The share of the squared Jacobian's size by which steps back are damped: a direction in which the equations hardly change stays.
 pub const STIFF: f64 = 1e-6;
+/// So many Newton steps in a row that do not halve the residual are the last.
+pub const PATIENCE: usize = 3;
 /// An answer whose relative residual is this or less is not polished.
 pub const POLISHED: f64 = 1e-15;
 /// A member of a family that misses the equations by no more than this share of their size, by rounding in the blocks before, is

@@ -292,6 +292,24 @@ impl Program {
     }
 }
 
+impl Chart {
+    /// Whether it runs at targets only that are singular, or all but that.
+    pub(crate) fn is_rare(&self) -> bool {
+        !self.free.is_empty() || self.guards.iter().any(|guard| guard.near)
+    }
+}
+
+/// The constant of a polynomial `x^2 + constant`, if it is the only one.
+pub(crate) fn square(polynomials: &[Vec<Operand>]) -> Option<Operand> {
+    match polynomials {
+        [only] => match only[..] {
+            [constant, Operand::Constant(0.0), Operand::Constant(1.0)] => Some(constant),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
 impl Block {
     /// A block whose charts get branch numbers one after the other; charts of one pivot group share theirs.
     pub fn numbered(label: &str, code: Vec<Instruction>, mut charts: Vec<Chart>) -> Self {

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Checks, JointValue, Program};
-use super::{ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, STIFF};
+use super::{ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, STIFF};
 
 /// Joint values; places behind the program's joints are zero.
 pub(super) type Joints = [f64; MAX_JOINTS];
@@ -43,6 +43,11 @@ pub(super) fn measured(checks: &Checks) -> usize {
 /// Evaluates the equations at `q`; the frame then holds their registers.
 pub(super) fn measure(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> Fit {
     unknowns_of(program, q, &mut frame.unknowns);
+    measure_unknowns(program, q, frame)
+}
+
+/// Evaluates the equations at the frame's unknowns, which are those of `q` but for rounding.
+pub(super) fn measure_unknowns(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> Fit {
     frame.run(&program.checks.code[..measured(&program.checks)]);
     let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: true };
     for (residual, scale) in program.checks.residuals.iter().zip(&program.checks.scales) {
@@ -71,11 +76,13 @@ pub(super) fn polish(
     held: &[bool; MAX_JOINTS],
     frame: &mut Frame<'_>,
 ) {
+    let mut slow = 0;
     for _ in 0..POLISH_STEPS {
-        if fit.relative <= POLISHED {
+        if fit.relative <= POLISHED || slow == PATIENCE {
             return;
         }
         let Some(better) = improved(program, q, fit, held, frame) else { return };
+        slow = if better.1.relative <= 0.5 * fit.relative { 0 } else { slow + 1 };
         (*q, *fit) = better;
     }
 }
@@ -215,61 +222,67 @@ pub(super) fn wrap(angle: f64) -> f64 {
     half_open(angle - turn * (angle / turn).round())
 }
 
-type Square = [[f64; MAX_JOINTS + 1]; MAX_JOINTS];
-
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f` at the joints that were measured last; `None` when it is singular. The rows
-/// of the Jacobian and of the damping are turned into a triangle (Givens 1958): a direction in which the equations hardly change is not
-/// lost, as it would be in `J^T J`.
+/// of the Jacobian and of the damping are turned into a triangle (Householder 1958): a direction in which the equations hardly change is
+/// not lost, as it would be in `J^T J`.
 fn newton_step(program: &Program, damping: f64, held: &[bool; MAX_JOINTS], frame: &mut Frame<'_>) -> Option<Joints> {
     let (checks, joints) = (&program.checks, program.joints.len());
     frame.run(&checks.code[measured(checks)..]);
-    let mut triangle: Square = [[0.0; MAX_JOINTS + 1]; MAX_JOINTS];
-    let mut squares = [0.0; MAX_JOINTS];
-    for (row, residual) in checks.jacobian.iter().zip(&checks.residuals) {
-        let mut line = [0.0; MAX_JOINTS + 1];
-        for (joint, derivative) in row.iter().enumerate() {
-            line[joint] = if held[joint] { 0.0 } else { frame.value(*derivative) };
-            squares[joint] += line[joint] * line[joint];
-        }
-        line[joints] = frame.value(*residual);
-        turn_in(&mut triangle, line, joints);
-    }
-    let size = squares.iter().fold(0.0, |size: f64, square| size.max(*square));
+    let equations = checks.residuals.len();
+    let mut columns = vec![vec![0.0; equations + joints]; joints + 1];
+    let mut size = 0.0_f64;
     for joint in 0..joints {
-        let mut line = [0.0; MAX_JOINTS + 1];
-        line[joint] = if held[joint] { 1.0 } else { (damping * size).sqrt() };
-        turn_in(&mut triangle, line, joints);
+        let mut square = 0.0;
+        for (row, derivatives) in checks.jacobian.iter().enumerate() {
+            let entry = if held[joint] { 0.0 } else { frame.value(derivatives[joint]) };
+            columns[joint][row] = entry;
+            square += entry * entry;
+        }
+        size = size.max(square);
     }
-    substituted(&triangle, joints)
+    for (entry, residual) in columns[joints].iter_mut().zip(&checks.residuals) {
+        *entry = frame.value(*residual);
+    }
+    for joint in 0..joints {
+        columns[joint][equations + joint] = if held[joint] { 1.0 } else { (damping * size).sqrt() };
+    }
+    reflect(&mut columns);
+    substituted(&columns)
 }
 
-/// Adds a row to a triangle by plane rotations that leave nothing of it.
-fn turn_in(triangle: &mut Square, mut line: [f64; MAX_JOINTS + 1], size: usize) {
-    for pivot in 0..size {
-        let length = (triangle[pivot][pivot] * triangle[pivot][pivot] + line[pivot] * line[pivot]).sqrt();
-        if line[pivot] == 0.0 || length == 0.0 {
+/// Turns all columns but the last into a triangle by reflections.
+fn reflect(columns: &mut [Vec<f64>]) {
+    for pivot in 0..columns.len() - 1 {
+        let mut mirror = columns[pivot][pivot..].to_vec();
+        let square = mirror.iter().fold(0.0, |sum, x| sum + x * x);
+        if square == 0.0 {
             continue;
         }
-        let (cosine, sine) = (triangle[pivot][pivot] / length, line[pivot] / length);
-        for k in pivot..=size {
-            let (above, entry) = (triangle[pivot][k], line[k]);
-            triangle[pivot][k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        let length = square.sqrt().copysign(mirror[0]);
+        mirror[0] += length;
+        let half = length * mirror[0];
+        columns[pivot][pivot] = -length;
+        for column in &mut columns[pivot + 1..] {
+            let along = mirror.iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
+            for (x, y) in column[pivot..].iter_mut().zip(&mirror) {
+                *x -= along * y;
+            }
         }
     }
 }
 
-/// The solution of a triangular system; `None` for a zero or non-finite pivot.
-fn substituted(triangle: &Square, size: usize) -> Option<Joints> {
+/// The solution of a triangular system whose right side is the last column; `None` for a zero or non-finite pivot.
+fn substituted(columns: &[Vec<f64>]) -> Option<Joints> {
+    let joints = columns.len() - 1;
     let mut solution = [0.0; MAX_JOINTS];
-    for row in (0..size).rev() {
-        let pivot = triangle[row][row];
+    for row in (0..joints).rev() {
+        let pivot = columns[row][row];
         if pivot == 0.0 || !pivot.is_finite() {
             return None;
         }
-        let mut sum = triangle[row][size];
-        for k in row + 1..size {
-            sum -= triangle[row][k] * solution[k];
+        let mut sum = columns[joints][row];
+        for k in row + 1..joints {
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }

@@ -3,8 +3,8 @@
 use super::answers::Answers;
 use super::frame::Frame;
 use super::instruction::Operand;
-use super::program::{Block, Chart, JointValue, Program, Step};
-use super::{MAX_JOINTS, PIVOT};
+use super::program::{Block, Chart, JointValue, Program, Step, square};
+use super::{MAX_JOINTS, NEAR, PIVOT};
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The choices made on the way to a candidate.
@@ -16,6 +16,8 @@ pub(super) struct Path {
     pub last: usize,
     /// The choice of roots in the running chart, in mixed radix over its root steps.
     choice: usize,
+    /// Whether roots on the way are so near one another that rounding moves them.
+    pub close: bool,
     /// By joint: whether a chart on the way leaves it free.
     pub free: [bool; MAX_JOINTS],
 }
@@ -111,7 +113,8 @@ impl<'a> Walk<'a> {
                 Step::Compute(code) => self.frame.run(code),
                 Step::Set { unknown, value } => self.frame.unknowns[*unknown] = self.frame.value(*value),
                 Step::Roots { unknown, polynomials, typical } => {
-                    let roots = self.find_roots(*unknown, polynomials, *typical);
+                    let (roots, close) = self.find_roots(*unknown, polynomials, *typical);
+                    path.close |= close;
                     path.choice *= step.slots();
                     for (choice, root) in roots.as_slice().iter().enumerate() {
                         self.frame.unknowns[*unknown] = *root;
@@ -143,11 +146,20 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The real roots of the first polynomial whose leading coefficient is not negligible.
-    fn find_roots(&self, unknown: usize, polynomials: &[Vec<Operand>], typical: Option<Operand>) -> roots::Roots {
+    /// The real roots of the first polynomial whose leading coefficient is not negligible, and whether some are close to one another.
+    fn find_roots(
+        &self,
+        unknown: usize,
+        polynomials: &[Vec<Operand>],
+        typical: Option<Operand>,
+    ) -> (roots::Roots, bool) {
         let frame = &self.frame;
         let usual = if self.program.is_plain(unknown) { Operand::Magnitude } else { Operand::Constant(1.0) };
         let typical = frame.value(typical.unwrap_or(usual));
+        if let Some(constant) = square(polynomials) {
+            let roots = roots::square_roots(frame.value(constant), typical);
+            return (roots, roots.as_slice().last().is_some_and(|root| *root <= NEAR * typical));
+        }
         let values = |coefficients: &[Operand]| {
             let mut line = [0.0; roots::MAX_DEGREE + 1];
             for (slot, operand) in line.iter_mut().zip(coefficients) {
@@ -161,9 +173,17 @@ impl<'a> Walk<'a> {
             let line = &line[..coefficients.len()];
             let largest = line.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
             if line.last().is_some_and(|lead| lead.abs() > PIVOT * largest) {
-                return roots::real_roots(line, typical);
+                let roots = roots::real_roots(line, typical);
+                return (roots, are_close(roots.as_slice(), coefficients.len(), typical));
             }
         }
-        roots::real_roots(&values(last)[..last.len()], typical)
+        let roots = roots::real_roots(&values(last)[..last.len()], typical);
+        (roots, are_close(roots.as_slice(), last.len(), typical))
     }
+}
+
+/// Whether roots of a polynomial with so many coefficients are close to one another, or one of them is double.
+fn are_close(roots: &[f64], coefficients: usize, typical: f64) -> bool {
+    let is_double = !roots.is_empty() && roots.len() % 2 == coefficients % 2;
+    is_double || roots.windows(2).any(|pair| pair[1] - pair[0] <= NEAR * typical)
 }

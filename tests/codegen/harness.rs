@@ -82,7 +82,8 @@ fn check(
         let (residual, again) = (next(), next());
         let slack = 1e-13 * program.scale.max(1.0) + 8.0 * answer.residual;
         assert!(residual <= slack, "{place}: residual {residual}, {}", answer.residual);
-        assert_eq!(residual.to_bits(), again.to_bits(), "{place}: residual of the answer");
+        // That of the answer is measured at its cosines and sines, the other at its joint values.
+        assert!((residual - again).abs() <= slack, "{place}: residual {residual} of the answer, {again} of its joints");
         let free: Vec<usize> = (0..answer.q.len()).filter(|_| next() == 1.0).collect();
         assert_eq!(free, answer.free, "{place}: free joints");
         let q: Vec<f64> = answer.q.iter().map(|_| next()).collect();

@@ -1,5 +1,6 @@
 //! What a program's blocks, pivots, samples and conditions mean, on programs whose answers are known by hand.
 
+mod batch;
 mod compose;
 mod damaged;
 mod refused;

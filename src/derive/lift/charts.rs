@@ -119,6 +119,24 @@ pub(super) fn quartic(half_angles: &HalfAngles, place: &Place, assembler: &Assem
     Ok(list)
 }
 
+/// A value of an unknown.
+#[derive(Clone, Copy)]
+struct Quotient {
+    top: Operand,
+    bottom: Operand,
+    value: Operand,
+}
+
+impl Quotient {
+    fn new(top: Operand, bottom: Operand, assembler: &mut Assembler) -> Self {
+        Quotient { top, bottom, value: assembler.div(top, bottom) }
+    }
+
+    fn whole(value: Operand) -> Self {
+        Quotient { top: value, bottom: Operand::Constant(1.0), value }
+    }
+}
+
 struct Builder<'a> {
     form: Form,
     place: &'a Place,
@@ -208,6 +226,7 @@ impl<'a> Builder<'a> {
         let low = self.parts(ring, half.stair(0)?, 0, [Operand::Constant(0.0), sine, Operand::Unknown(unknown)]);
         let cosine = self.root(&low)?;
         let values = [(self.place.unknown("c")?, cosine), (self.place.unknown("s")?, sine)];
+        let values = values.map(|(unknown, value)| (unknown, Quotient::whole(value)));
         self.put(&values, &mut steps)?;
         let mut chart = self.chart("half angle", guard_code, steps, Vec::new());
         chart.pivot = Some(Pivot { group: 0, value: lead });
@@ -296,7 +315,7 @@ impl<'a> Builder<'a> {
         ring: &Unknowns,
         stair: &Stair,
         steps: &mut Vec<Step>,
-        values: &mut Vec<(usize, Operand)>,
+        values: &mut Vec<(usize, Quotient)>,
     ) -> Result<()> {
         let unknown = self.place.unknown(&ring.variables()[stair.unknown])?;
         let mut operands: Vec<Operand> =
@@ -304,7 +323,7 @@ impl<'a> Builder<'a> {
         for name in ring.variables() {
             let own = self.place.unknown(name)?;
             let value = values.iter().find(|(unknown, _)| *unknown == own);
-            operands.push(value.map_or(Operand::Unknown(own), |(_, value)| *value));
+            operands.push(value.map_or(Operand::Unknown(own), |(_, value)| value.value));
         }
         let parts = ring.coefficients_in(&stair.polynomials[0], stair.unknown);
         let coefficients: Vec<Operand> =
@@ -312,7 +331,7 @@ impl<'a> Builder<'a> {
         match coefficients.as_slice() {
             [low, high] => {
                 let top = self.assembler.mul(Operand::Constant(-1.0), *low);
-                values.push((unknown, self.assembler.div(top, *high)));
+                values.push((unknown, Quotient::new(top, *high, &mut self.assembler)));
             }
             _ => {
                 let typical = if self.form == Form::Lengths { None } else { Some(self.typical()?) };
@@ -347,16 +366,15 @@ impl<'a> Builder<'a> {
     }
 
     /// Puts the joint's values, a cosine and a sine on the circle.
-    fn put(&mut self, values: &[(usize, Operand)], steps: &mut Vec<Step>) -> Result<()> {
-        let value = |unknown: usize| values.iter().find(|(u, _)| *u == unknown).map(|(_, value)| *value);
+    fn put(&mut self, values: &[(usize, Quotient)], steps: &mut Vec<Step>) -> Result<()> {
+        let quotient = |unknown: usize| values.iter().find(|(u, _)| *u == unknown).map(|(_, value)| *value);
+        let value = |unknown: usize| quotient(unknown).map(|quotient| quotient.value);
         let missing = || Error::new(ErrorKind::Unsupported, "a stair of a template is not linear");
         let put: Vec<(usize, Operand)> = match self.place.value {
             JointValue::Angle { cosine, sine } => {
-                let (c, s) = value(cosine).zip(value(sine)).ok_or_else(missing)?;
-                let squares = [self.assembler.mul(c, c), self.assembler.mul(s, s)];
-                let sum = self.assembler.add(squares[0], squares[1]);
-                let length = self.assembler.sqrt(sum);
-                vec![(cosine, self.assembler.div(c, length)), (sine, self.assembler.div(s, length))]
+                let (c, s) = quotient(cosine).zip(quotient(sine)).ok_or_else(missing)?;
+                let [c, s] = self.on_circle([c, s]);
+                vec![(cosine, c), (sine, s)]
             }
             JointValue::Plain(_) if self.form == Form::Lengths && values.is_empty() => Vec::new(),
             JointValue::Plain(unknown) => vec![(unknown, value(unknown).ok_or_else(missing)?)],
@@ -369,5 +387,21 @@ impl<'a> Builder<'a> {
         }
         steps.extend(put.into_iter().map(|(unknown, value)| Step::Set { unknown, value }));
         Ok(())
+    }
+
+    /// A cosine and a sine divided by their length. Where they have one denominator they are not divided by it before: its sign counts
+    /// alone.
+    fn on_circle(&mut self, values: [Quotient; 2]) -> [Operand; 2] {
+        let bottom = values[0].bottom;
+        let sides = match values {
+            [c, s] if c.bottom != s.bottom => [c.value, s.value],
+            [c, s] if self.assembler.is_positive(bottom) => [c.top, s.top],
+            [c, s] => [self.assembler.mul(c.top, bottom), self.assembler.mul(s.top, bottom)],
+        };
+        let squares = sides.map(|side| self.assembler.mul(side, side));
+        let sum = self.assembler.add(squares[0], squares[1]);
+        let length = self.assembler.sqrt(sum);
+        let unit = self.assembler.div(Operand::Constant(1.0), length);
+        sides.map(|side| self.assembler.mul(side, unit))
     }
 }

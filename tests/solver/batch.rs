@@ -1,0 +1,86 @@
+//! Many targets at once, and the two answers that are one too many.
+
+use std::f64::consts::TAU;
+
+use crate::codegen::samples::pan_tilt;
+use groebot::ErrorKind;
+use groebot::solver::{Batch, Program};
+
+/// Directions all round, every seventh of them no unit vector.
+fn targets() -> Vec<f64> {
+    let direction = |k: usize| {
+        let mut direction = pan_tilt::direction(0.37 * k as f64, 1.5 * (0.11 * k as f64).sin());
+        if k % 7 == 6 {
+            direction[0] += 0.5;
+        }
+        direction
+    };
+    (0..500).flat_map(direction).collect()
+}
+
+fn solved_by(threads: usize, program: &Program, targets: &[f64]) -> Batch {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| program.solve_batch(targets)).unwrap()
+}
+
+#[test]
+fn a_batch_has_the_answers_of_its_targets_whatever_the_threads() {
+    let (program, targets) = (pan_tilt::program(), targets());
+    let batch = solved_by(1, &program, &targets);
+    assert_eq!(batch, solved_by(3, &program, &targets));
+    assert_eq!(batch.targets(), 500);
+    assert_eq!(batch.refused().len(), 500 / 7);
+    for (index, target) in targets.chunks(3).enumerate() {
+        let range = batch.of_target(index);
+        match program.solve(target) {
+            Ok(answers) => {
+                assert_eq!(answers.len(), range.len());
+                for (answer, place) in answers.iter().zip(range) {
+                    assert_eq!(answer.q, [batch.joint(0)[place], batch.joint(1)[place]]);
+                    assert_eq!((answer.residual, answer.branch), (batch.residuals()[place], batch.branches()[place]));
+                    let free: Vec<usize> = (0..2).filter(|joint| batch.free()[place] >> joint & 1 == 1).collect();
+                    assert_eq!(answer.free, free);
+                }
+            }
+            Err(error) => {
+                assert!(range.is_empty());
+                assert!(batch.refused().contains(&(index, error)));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_count_that_is_none_of_targets_is_refused() {
+    assert_eq!(pan_tilt::program().solve_batch(&[1.0, 0.0]).unwrap_err().kind(), ErrorKind::BadValue);
+    assert_eq!(pan_tilt::program().solve_batch(&[]).unwrap().targets(), 0);
+}
+
+/// The angles come from cosines and sines by our own arc tangent: the C library's is the witness.
+#[test]
+fn angles_are_those_of_the_c_library() {
+    let program = pan_tilt::program();
+    let mut worst = 0.0_f64;
+    for k in 0..20_000 {
+        let pan = f64::from(k) * TAU / 16_000.0;
+        let target = pan_tilt::direction(pan, 0.3);
+        let answers = program.solve(&target).unwrap();
+        let expected = target[1].atan2(target[0]);
+        let nearest = answers.iter().map(|answer| (answer.q[0] - expected).abs()).fold(f64::INFINITY, f64::min);
+        worst = worst.max(nearest);
+    }
+    assert!(worst <= 1.4e-15, "{worst:e}");
+}
+
+/// Where a target has more isolated answers than the program says, the nearest two are one.
+#[test]
+fn more_answers_than_there_can_be_are_united() {
+    let program = pan_tilt::program();
+    let target = pan_tilt::direction(0.4, 0.9);
+    let both = program.solve(&target).unwrap();
+    assert_eq!(both.len(), 2);
+    let one = Program { isolated: Some(1), ..program }.solve(&target).unwrap();
+    assert_eq!(one.len(), 1);
+    assert!(both.contains(&one[0]));
+    assert!(both.iter().all(|answer| one[0].residual <= answer.residual));
+}
