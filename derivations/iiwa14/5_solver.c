@@ -123,6 +123,13 @@ int iiwa14_nearest(const iiwa14_solution *list, int count, const double *referen
 #define INPUTS IIWA14_INPUTS
 #define JOINTS IIWA14_JOINTS
 #define EQUATIONS 14
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE __attribute__((always_inline)) inline
+#define COLD __attribute__((noinline, cold))
+#else
+#define INLINE
+#define COLD
+#endif
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -133,6 +140,8 @@ int iiwa14_nearest(const iiwa14_solution *list, int count, const double *referen
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
+/* So many steps in a row that do not halve the miss are the last. */
+#define PATIENCE 3
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -170,27 +179,17 @@ const double iiwa14_limits[2 * JOINTS] = {-2.9670597283903604, 2.967059728390360
 
 /* The highest degree of a polynomial. */
 #define DEGREE 2
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-#define NEGLIGIBLE 1e-290
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 #define TANGENT 1e-10
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-#define ROUNDING (2.0 * DBL_EPSILON)
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -200,87 +199,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -316,19 +251,18 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 #define TIP 14
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3_ = cos(q[2]);
-    const double s3_ = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]);
-    const double s6 = sin(q[5]), c7 = cos(q[6]), s7 = sin(q[6]), r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r8 = s2 * c3_, r13 = s2 * s3_, r14 = c3_ * r0 - s1 * s3_;
-    const double r17 = c3_ * r1 + c1 * s3_, r22 = s4 * r14, r23 = c4 * r2, r24 = s4 * r17, r25 = c4 * r3;
-    const double r26 = s4 * r8, r27 = c2 * c4, r28 = c4 * r14 + s4 * r2, r30 = s3_ * r0 + s1 * c3_;
-    const double r32 = c4 * r17 + s4 * r3, r34 = s3_ * r1 - c1 * c3_, r36 = c4 * r8 - c2 * s4;
-    const double r45 = c5 * r28 - s5 * r30, r47 = r22 - r23, r49 = c5 * r32 - s5 * r34, r51 = r24 - r25;
-    const double r53 = c5 * r36 - s5 * r13, r55 = r26 + r27, r57 = s6 * r45, r58 = c6 * r47, r59 = s6 * r49;
-    const double r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r63 = c6 * r45 + s6 * r47;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3_ = at[4], s3_ = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], c7 = at[12], s7 = at[13];
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r8 = s2 * c3_, r13 = s2 * s3_;
+    const double r14 = c3_ * r0 - s1 * s3_, r17 = c3_ * r1 + c1 * s3_, r22 = s4 * r14, r23 = c4 * r2;
+    const double r24 = s4 * r17, r25 = c4 * r3, r26 = s4 * r8, r27 = c2 * c4, r28 = c4 * r14 + s4 * r2;
+    const double r30 = s3_ * r0 + s1 * c3_, r32 = c4 * r17 + s4 * r3, r34 = s3_ * r1 - c1 * c3_;
+    const double r36 = c4 * r8 - c2 * s4, r45 = c5 * r28 - s5 * r30, r47 = r22 - r23, r49 = c5 * r32 - s5 * r34;
+    const double r51 = r24 - r25, r53 = c5 * r36 - s5 * r13, r55 = r26 + r27, r57 = s6 * r45, r58 = c6 * r47;
+    const double r59 = s6 * r49, r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r63 = c6 * r45 + s6 * r47;
     const double r65 = s5 * r28 + c5 * r30, r67 = c6 * r49 + s6 * r51, r69 = s5 * r32 + c5 * r34;
     const double r71 = c6 * r53 + s6 * r55, r73 = s5 * r36 + c5 * r13;
     const double r87 = 0.42 * c2 + 0.4 * r26 + 0.4 * r27 - 0.126 * r61;
@@ -350,16 +284,42 @@ static void tip(const double *q, double *reached)
     reached[13] = s3_;
 }
 
+/* What the equations read of joints: 14 numbers. */
+#define PLACES 14
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]), cos(q[6]), sin(q[6]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+    at[10] = cos(q[5]);
+    at[11] = sin(q[5]);
+    at[12] = cos(q[6]);
+    at[13] = sin(q[6]);
+}
+
+#define SIZES 2
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->px,
@@ -379,18 +339,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             1.306,
-            1.306,
-            1.306,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -402,19 +350,18 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3_ = cos(q[2]);
-    const double s3_ = sin(q[2]), c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]);
-    const double s6 = sin(q[5]), c7 = cos(q[6]), s7 = sin(q[6]), r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r8 = s2 * c3_, r13 = s2 * s3_, r14 = c3_ * r0 - s1 * s3_;
-    const double r17 = c3_ * r1 + c1 * s3_, r22 = s4 * r14, r23 = c4 * r2, r24 = s4 * r17, r25 = c4 * r3;
-    const double r26 = s4 * r8, r27 = c2 * c4, r28 = c4 * r14 + s4 * r2, r30 = s3_ * r0 + s1 * c3_;
-    const double r32 = c4 * r17 + s4 * r3, r34 = s3_ * r1 - c1 * c3_, r36 = c4 * r8 - c2 * s4;
-    const double r45 = c5 * r28 - s5 * r30, r47 = r22 - r23, r49 = c5 * r32 - s5 * r34, r51 = r24 - r25;
-    const double r53 = c5 * r36 - s5 * r13, r55 = r26 + r27, r57 = s6 * r45, r58 = c6 * r47, r59 = s6 * r49;
-    const double r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r63 = c6 * r45 + s6 * r47;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3_ = at[4], s3_ = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], c7 = at[12], s7 = at[13];
+    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r8 = s2 * c3_, r13 = s2 * s3_;
+    const double r14 = c3_ * r0 - s1 * s3_, r17 = c3_ * r1 + c1 * s3_, r22 = s4 * r14, r23 = c4 * r2;
+    const double r24 = s4 * r17, r25 = c4 * r3, r26 = s4 * r8, r27 = c2 * c4, r28 = c4 * r14 + s4 * r2;
+    const double r30 = s3_ * r0 + s1 * c3_, r32 = c4 * r17 + s4 * r3, r34 = s3_ * r1 - c1 * c3_;
+    const double r36 = c4 * r8 - c2 * s4, r45 = c5 * r28 - s5 * r30, r47 = r22 - r23, r49 = c5 * r32 - s5 * r34;
+    const double r51 = r24 - r25, r53 = c5 * r36 - s5 * r13, r55 = r26 + r27, r57 = s6 * r45, r58 = c6 * r47;
+    const double r59 = s6 * r49, r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r63 = c6 * r45 + s6 * r47;
     const double r65 = s5 * r28 + c5 * r30, r67 = c6 * r49 + s6 * r51, r68 = c7 * r67, r69 = s5 * r32 + c5 * r34;
     const double r70 = s7 * r69, r71 = c6 * r53 + s6 * r55, r73 = s5 * r36 + c5 * r13, r82 = 0.4 * r26;
     const double r84 = 0.4 * r27, r86 = 0.126 * r61, r88 = 0.126 * r62, r89 = 0.42 * c2 + r82 + r84 - r86 + r88;
@@ -456,15 +403,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, DBL_MIN));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -473,16 +425,63 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION
+        && fabs(at[10] * at[10] + at[11] * at[11] - 1.0) < RESOLUTION
+        && fabs(at[12] * at[12] + at[13] * at[13] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+#define REST 3.061616997868383e-17
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -493,35 +492,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+#define ROWS (EQUATIONS + JOINTS)
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -538,32 +551,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -677,22 +690,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -730,7 +748,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -771,6 +789,18 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[6] - b[6])) <= tolerance
+        && fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance
+        && fabs(shorter(a[3] - b[3])) <= tolerance
+        && fabs(shorter(a[2] - b[2])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -789,9 +819,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -894,10 +921,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1037,7 +1067,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1069,6 +1099,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == IIWA14_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1150,6 +1217,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double c3_;
     double s3_;
@@ -1165,9 +1234,15 @@ typedef struct {
     double s5;
     double c6;
     double s6;
+    double q0;
+    double q1;
+    double q2;
+    double q3;
+    double q4;
+    double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1189,24 +1264,40 @@ typedef struct {
 
 /* Chart 1 of block 7: generic.
  */
-static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
-    const double r50 = shared->r46 * shared->r46 + shared->r47 * shared->r47, r51 = sqrt(fmax(r50, 0.0));
-    const double c7 = shared->r46 / r51, s7 = shared->r47 / r51;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
-        angle(known->c3_, known->s3_),
-        angle(known->c4, known->s4),
-        angle(known->c5, known->s5),
-        angle(known->c6, known->s6),
-        angle(c7, s7),
+    const double r50 = shared->r46 * shared->r46 + shared->r47 * shared->r47, r52 = 1.0 / sqrt(fmax(r50, 0.0));
+    const double c7 = shared->r46 * r52, s7 = shared->r47 * r52;
+    const double at[PLACES] = {
+        known->c1,
+        known->s1,
+        known->c2,
+        known->s2,
+        known->c3_,
+        known->s3_,
+        known->c4,
+        known->s4,
+        known->c5,
+        known->s5,
+        known->c6,
+        known->s6,
+        c7,
+        s7,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        known->q2,
+        known->q3,
+        known->q4,
+        known->q5,
+        angle(at[12], at[13]),
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 7: A7. */
-static void block_7(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r12_ * known->c1 + p->r22_ * known->s1, r9 = known->c2 * r4 - p->r32_ * known->s2;
     const double r11 = p->r22_ * known->c1 - p->r12_ * known->s1;
@@ -1232,20 +1323,22 @@ typedef struct {
 
 /* Chart 1 of block 6: generic.
  */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r29 = shared->r25 * shared->r25 + shared->r26 * shared->r26, r30 = sqrt(fmax(r29, 0.0));
-    const double c6 = shared->r25 / r30, s6 = shared->r26 / r30;
+    const double r29 = shared->r25 * shared->r25 + shared->r26 * shared->r26, r31 = 1.0 / sqrt(fmax(r29, 0.0));
+    const double c6 = shared->r25 * r31, s6 = shared->r26 * r31, q5 = angle(c6, s6);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c6 = c6;
     next.s6 = s6;
+    next.q5 = q5;
     block_7(p, &next, answers);
 }
 
 /* Block 6: A6. */
-static void block_6(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1, r9 = known->c2 * r4 - p->r33_ * known->s2;
     const double r11 = p->r23_ * known->c1 - p->r13_ * known->s1, r15 = known->c3_ * r9 + known->s3_ * r11;
@@ -1258,6 +1351,12 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     chart_6_1(p, known, shared, answers);
 }
 
+/* Block 6 behind a chart that hardly ever runs. */
+COLD static void again_6(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_6(p, known, answers);
+}
+
 /* What the charts of block 5 share. */
 typedef struct {
     double r19;
@@ -1267,22 +1366,24 @@ typedef struct {
 /* Chart 1 of block 5: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r21 = shared->r19 * shared->r19, r22 = shared->r20 * shared->r20, r23 = r21 + r22;
-    if (!is_away(r23, 17650000.0)) {
+    const double r21 = shared->r19 * shared->r19, r22 = shared->r20 * shared->r20;
+    if (!is_away(r21 + r22, 17650000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r21 - r22, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->f2 * (42.01190307520001 * known->f1));
+    const Roots roots0 = square_roots(0.0 - r21 - r22, known->f2 * (42.01190307520001 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w5 = roots0.values[i0], r29 = w5 * shared->r19 / r23, r31 = w5 * shared->r20 / r23;
-        const double r35 = sqrt(fmax(r31 * r31 + r29 * r29, 0.0)), c5 = 0.0 - r31 / r35, s5 = r29 / r35;
+        const double w5 = roots0.values[i0], r28 = w5 * shared->r19, r29 = w5 * shared->r20;
+        const double r34 = 1.0 / sqrt(fmax(r29 * r29 + r28 * r28, 0.0)), c5 = 0.0 - r29 * r34, s5 = r28 * r34;
+        const double q4 = angle(c5, s5);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c5 = c5;
         next.s5 = s5;
+        next.q4 = q4;
         block_6(p, &next, answers);
     }
 }
@@ -1298,19 +1399,21 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
+        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1], q4 = angle(c5, s5);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[4] = true;
         next.c5 = c5;
         next.s5 = s5;
-        block_6(p, &next, answers);
+        next.q4 = q4;
+        again_6(p, &next, answers);
     }
 }
 
 /* Block 5: A5. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1, r9 = known->c2 * r4 - p->r33_ * known->s2;
     const double r11 = p->r23_ * known->c1 - p->r13_ * known->s1;
@@ -1321,6 +1424,12 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
+}
+
+/* Block 5 behind a chart that hardly ever runs. */
+COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_5(p, known, answers);
 }
 
 /* What the charts of block 4 share. */
@@ -1336,21 +1445,24 @@ typedef struct {
 /* Chart 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r21 = shared->r8 * shared->r8 + shared->r9 * shared->r9;
     if (!is_away(r21, 1042419.9999999999)) {
         return;
     }
-    const double f2 = 1.0, r25 = shared->r8 * shared->r13 - (0.0 - shared->r9 * shared->r12), r26 = r25 / r21;
-    const double r29 = shared->r8 * shared->r12 - shared->r9 * shared->r13, r30 = r29 / r21;
-    const double r34 = sqrt(fmax(r30 * r30 + r26 * r26, 0.0)), c2 = r30 / r34, s2 = r26 / r34;
+    const double f2 = 1.0, r25 = shared->r8 * shared->r13 - (0.0 - shared->r9 * shared->r12);
+    const double r28 = shared->r8 * shared->r12 - shared->r9 * shared->r13;
+    const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r25 * r25, 0.0)), c2 = r28 * r33, s2 = r25 * r33;
+    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
     next.f2 = f2;
+    next.q1 = q1;
     block_5(p, &next, answers);
 }
 
@@ -1366,20 +1478,22 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
         next.f2 = f2;
-        block_5(p, &next, answers);
+        next.q1 = q1;
+        again_5(p, &next, answers);
     }
 }
 
 /* Block 4: A2. */
-static void block_4(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r8 = 0.4 * known->c4 + 0.42, r9 = 0.4 * (known->c3_ * known->s4);
     const double r12 = p->pz - 0.126 * p->r33_ - 0.36;
@@ -1389,6 +1503,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
+}
+
+/* Block 4 behind a chart that hardly ever runs. */
+COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_4(p, known, answers);
 }
 
 /* What the charts of block 3 share. */
@@ -1403,26 +1523,28 @@ typedef struct {
 /* Chart 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r9 = shared->r2 * shared->r2, r10 = shared->r4 * shared->r4, r11 = r9 + r10;
-    const double r12 = shared->r8 * shared->r8, r13 = r12 + r12;
-    if (!is_away(r11, 10000.0 * r13)) {
+    const double r9 = shared->r2 * shared->r2, r10 = shared->r4 * shared->r4, r12 = shared->r8 * shared->r8;
+    const double r13 = r12 + r12;
+    if (!is_away(r9 + r10, 10000.0 * r13)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {shared->r5 * shared->r5 - r9 - r10, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r13, 0.0)));
+    const Roots roots0 = square_roots(shared->r5 * shared->r5 - r9 - r10, sqrt(fmax(r13, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r22 = w1 * shared->r2 - (0.0 - shared->r4 * shared->r5);
-        const double r23 = r22 / r11, r27 = (shared->r2 * shared->r5 - w1 * shared->r4) / r11;
-        const double r31 = sqrt(fmax(r27 * r27 + r23 * r23, 0.0)), c1 = r27 / r31, s1 = r23 / r31;
+        const double r25 = shared->r2 * shared->r5 - w1 * shared->r4;
+        const double r30 = 1.0 / sqrt(fmax(r25 * r25 + r22 * r22, 0.0)), c1 = r25 * r30, s1 = r22 * r30;
+        const double q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
+        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -1439,20 +1561,22 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        block_4(p, &next, answers);
+        next.q0 = q0;
+        again_4(p, &next, answers);
     }
 }
 
 /* Block 3: A1. */
-static void block_3(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = 0.126 * p->r23_ - p->py, r4 = p->px - 0.126 * p->r13_, r5 = 0.4 * (known->s3_ * known->s4);
     const double r6 = 0.0 - r5, r8 = fabs(p->magnitude + 2.486);
@@ -1469,26 +1593,27 @@ typedef struct {
 
 /* Chart 1 of block 2: generic.
  */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r26 = shared->r24 * shared->r24 - 0.11289600000000001;
-    const double choice0_0[3] = {r26, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
+    const Roots roots0 = square_roots(r26, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r28 = 0.336 * w4 / 0.11289600000000001;
-        const double r30 = 0.336 * shared->r24 / 0.11289600000000001;
-        const double r34 = sqrt(fmax(r30 * r30 + r28 * r28, 0.0)), c4 = 0.0 - r30 / r34, s4 = r28 / r34;
+        const double w4 = roots0.values[i0], r27 = 0.336 * w4, r28 = 0.336 * shared->r24;
+        const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r27 * r27, 0.0)), c4 = 0.0 - r28 * r33, s4 = r27 * r33;
+        const double q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
+        next.close = known->close || roots0.close;
         next.c4 = c4;
         next.s4 = s4;
+        next.q3 = q3;
         block_3(p, &next, answers);
     }
 }
 
 /* Block 2: A4. */
-static void block_2(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r14 = 2.0 * (p->px * (p->px - 0.126 * p->r13_)) + 2.0 * (p->py * (p->py - 0.126 * p->r23_));
     const double r16 = r14 + 2.0 * (p->pz * (p->pz - 0.126 * p->r33_));
@@ -1501,14 +1626,16 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 
 /* Chart 1 of block 1: given.
  */
-static void chart_1_1(const Parameters *p, Answers *answers)
+INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double c3_ = p->c3, s3_ = p->s3;
+    const double c3_ = p->c3, s3_ = p->s3, q2 = angle(c3_, s3_);
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
+    next.close = false;
     next.c3_ = c3_;
     next.s3_ = s3_;
+    next.q2 = q2;
     block_2(p, &next, answers);
 }
 
@@ -1586,8 +1713,9 @@ int iiwa14_solve(const double *given, iiwa14_solution *out)
 
 void iiwa14_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];
@@ -1610,7 +1738,9 @@ double iiwa14_residual(const double *given, const double *q)
         return NAN;
     }
     const Parameters p = parameters(target);
-    const Equations f = equations(&p, q);
+    double at[PLACES];
+    place(q, at);
+    const Equations f = equations(&p, at);
     double size = 0.0;
     for (size_t i = 0; i < EQUATIONS; i++) {
         if (isnan(f.value[i])) {

@@ -257,7 +257,7 @@ const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
 const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
-const POLISHED: f64 = 4e-15;
+const POLISHED: f64 = 1e-15;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
 /// A factor is not zero above this share of its scale.
@@ -287,6 +287,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 
 /// Chart 1: generic.
 /// It runs where pz is not zero and py^2 + pz^2 is not zero.
+#[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r0 = p.py * p.py;
     let r1 = p.pz * p.pz;
@@ -308,7 +309,7 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
         let c4 = (10.0 * p.py - 1050.0 * s2) / 1137.0;
         let at = [c2, s2, c4, s4];
         let q = [angle(at[0], at[1]), angle(at[2], at[3])];
-        answers.finish(p, i0, 2, &at, q, NONE_FREE);
+        answers.finish(p, i0, 2, roots0.close, &at, q, NONE_FREE);
     }
 }
 
@@ -328,7 +329,7 @@ fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
         let c4 = (r1 + 190269.0) / (22740.0 * p.py);
         let at = [c2, s2, c4, s4];
         let q = [angle(at[0], at[1]), angle(at[2], at[3])];
-        answers.finish(p, 2 + i0, 4, &at, q, NONE_FREE);
+        answers.finish(p, 2 + i0, 4, roots0.close, &at, q, NONE_FREE);
     }
 }
 
@@ -411,10 +412,12 @@ struct Answers<'a> {
 impl Answers<'_> {
     /// Keeps a candidate that solves the equations within rounding, and refines others.
     #[inline(always)]
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, at: &[f64; PLACES], q: [f64; JOINTS], free: [bool; JOINTS]) {
-        let fit = measure_at(p, at, &q);
-        if fit.accepted && fit.relative < RESOLUTION && is_round(at) {
-            return self.keep(p, branch, last, (q, fit), free);
+    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], q: [f64; JOINTS], free: [bool; JOINTS]) {
+        if !close {
+            let fit = measure_at(p, at, &q);
+            if fit.accepted && fit.relative < RESOLUTION && is_round(at) {
+                return self.keep(p, branch, last, (q, fit), free);
+            }
         }
         self.refine(p, branch, last, q, free);
     }
@@ -619,8 +622,8 @@ fn shorter(difference: f64) -> f64 {
 
 /// Whether joint values differ by `tolerance` at most.
 fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
-    (shorter(a[0] - b[0]).abs() <= tolerance)
-    && (shorter(a[1] - b[1]).abs() <= tolerance)
+    shorter(a[0] - b[0]).abs() <= tolerance
+    && shorter(a[1] - b[1]).abs() <= tolerance
 }
 
 fn is_isolated(answer: &Solution) -> bool {
@@ -811,58 +814,65 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
     next
 }
 
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by plane rotations.
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> Option<[f64; JOINTS]> {
     let at = place(q);
     let rows = jacobian(p, &at);
     let right = equations(p, &at).value;
-    let mut triangle = [[0.0; JOINTS + 1]; JOINTS];
-    let mut squares = [0.0; JOINTS];
-    for (row, right) in rows.iter().zip(right) {
-        let mut line = [0.0; JOINTS + 1];
-        for i in 0..JOINTS {
-            line[i] = row[i];
-            squares[i] += line[i] * line[i];
-        }
-        line[JOINTS] = right;
-        turn_in(&mut triangle, line);
-    }
-    let size = squares.iter().fold(0.0, |size, &square| f64::max(size, square));
+    let mut columns = [[0.0; ROWS]; JOINTS + 1];
+    let mut size = 0.0;
     for i in 0..JOINTS {
-        let mut line = [0.0; JOINTS + 1];
-        line[i] = (damping * size).sqrt();
-        turn_in(&mut triangle, line);
+        let mut square = 0.0;
+        for (k, row) in rows.iter().enumerate() {
+            let entry = row[i];
+            columns[i][k] = entry;
+            square += entry * entry;
+        }
+        size = f64::max(size, square);
     }
-    substituted(&triangle)
+    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
+    for i in 0..JOINTS {
+        columns[i][EQUATIONS + i] = (damping * size).sqrt();
+    }
+    reflect(&mut columns);
+    substituted(&columns)
 }
 
-/// Adds a row to a triangle by plane rotations that leave nothing of it.
-fn turn_in(triangle: &mut [[f64; JOINTS + 1]; JOINTS], mut line: [f64; JOINTS + 1]) {
-    for (pivot, top) in triangle.iter_mut().enumerate() {
-        let length = (top[pivot] * top[pivot] + line[pivot] * line[pivot]).sqrt();
-        if line[pivot] == 0.0 || length == 0.0 {
+/// Rows of the equations and of the damping.
+const ROWS: usize = EQUATIONS + JOINTS;
+
+/// Turns columns into a triangle by reflections.
+fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
+    for pivot in 0..JOINTS {
+        let mut mirror = columns[pivot];
+        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
+        if square == 0.0 {
             continue;
         }
-        let (cosine, sine) = (top[pivot] / length, line[pivot] / length);
-        for k in pivot..=JOINTS {
-            let (above, entry) = (top[k], line[k]);
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        let length = square.sqrt().copysign(mirror[pivot]);
+        mirror[pivot] += length;
+        let half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for column in &mut columns[pivot + 1..] {
+            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
+            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
+                *x -= along * y;
+            }
         }
     }
 }
 
 /// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> {
+fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
     let mut solution = [0.0; JOINTS];
     for row in (0..JOINTS).rev() {
-        let pivot = triangle[row][row];
+        let pivot = columns[row][row];
         if pivot == 0.0 || !pivot.is_finite() {
             return None;
         }
-        let mut sum = triangle[row][JOINTS];
+        let mut sum = columns[JOINTS][row];
         for k in row + 1..JOINTS {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -940,10 +950,12 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 struct Roots {
     values: [f64; DEGREE],
     count: usize,
+    /// Whether some are close to one another, or one is double.
+    close: bool,
 }
 
 impl Roots {
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0 };
+    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
 
     fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
@@ -972,6 +984,13 @@ fn largest(coefficients: &[f64]) -> f64 {
 /// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
 /// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
 fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
+    let mut roots = all_real_roots(coefficients, scale);
+    let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
+    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= SPLIT * scale);
+    roots
+}
+
+fn all_real_roots(coefficients: &[f64], scale: f64) -> Roots {
     let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
     if p.degree < 2 { p.linear_root() } else { p.quadratic_roots() }
 }

@@ -110,6 +110,13 @@ int nao_left_arm_nearest(const nao_left_arm_solution *list, int count, const dou
 #define INPUTS NAO_LEFT_ARM_INPUTS
 #define JOINTS NAO_LEFT_ARM_JOINTS
 #define EQUATIONS 6
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE __attribute__((always_inline)) inline
+#define COLD __attribute__((noinline, cold))
+#else
+#define INLINE
+#define COLD
+#endif
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -120,6 +127,8 @@ int nao_left_arm_nearest(const nao_left_arm_solution *list, int count, const dou
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
+/* So many steps in a row that do not halve the miss are the last. */
+#define PATIENCE 3
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -157,27 +166,17 @@ const double nao_left_arm_limits[2 * JOINTS] = {-2.0856684561332237, 2.085668456
 
 /* The highest degree of a polynomial. */
 #define DEGREE 2
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-#define NEGLIGIBLE 1e-290
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 #define TANGENT 1e-10
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-#define ROUNDING (2.0 * DBL_EPSILON)
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -187,87 +186,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -293,14 +228,14 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 #define TIP 6
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), r0 = c1 * c2, r1 = s1 * c2;
-    const double r2 = c1 * s2, r3 = s1 * s2, r6 = c2 * c3, r14 = c4 * r0, r15 = c3 * r2 - s1 * s3;
-    const double r16 = s4 * r15, r17 = s2 * c4, r18 = s4 * r6, r19 = c4 * r1, r20 = c3 * r3 + c1 * s3;
-    const double r21 = s4 * r20, r45 = 0.015 * c2 + 0.105 * s2 + 0.1137 * r17 + 0.1137 * r18;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r6 = c2 * c3;
+    const double r14 = c4 * r0, r15 = c3 * r2 - s1 * s3, r16 = s4 * r15, r17 = s2 * c4, r18 = s4 * r6;
+    const double r19 = c4 * r1, r20 = c3 * r3 + c1 * s3, r21 = s4 * r20;
+    const double r45 = 0.015 * c2 + 0.105 * s2 + 0.1137 * r17 + 0.1137 * r18;
     const double r49 = r45 - 0.01231 * (s5 * (s2 * s4 - c4 * r6)) + 0.01231 * (c5 * (c2 * s3));
     const double r56 = 0.015 * r2 - 0.105 * r0 - 0.1137 * r14 + 0.1137 * r16;
     const double r60 = r56 + 0.01231 * (s5 * (s4 * r0 + c4 * r15)) + 0.01231 * (c5 * (s3 * r2 + s1 * c3));
@@ -314,16 +249,38 @@ static void tip(const double *q, double *reached)
     reached[5] = r21 - r19;
 }
 
+/* What the equations read of joints: 10 numbers. */
+#define PLACES 10
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+}
+
+#define SIZES 2
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->px,
@@ -335,10 +292,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             0.3610777288643948,
-            0.3610777288643948,
-            0.3610777288643948,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -350,15 +303,15 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), r0 = c1 * c2, r1 = s1 * c2;
-    const double r2 = c1 * s2, r3 = s1 * s2, r6 = c2 * c3, r11 = c2 * s3, r14 = c4 * r0, r15 = c3 * r2 - s1 * s3;
-    const double r16 = s4 * r15, r17 = s2 * c4, r18 = s4 * r6, r19 = c4 * r1, r20 = c3 * r3 + c1 * s3;
-    const double r21 = s4 * r20, r29 = s3 * r2 + s1 * c3, r32 = s3 * r3 - c1 * c3, r42 = 0.1137 * r17;
-    const double r44 = 0.1137 * r18, r46 = 0.01231 * (s5 * (s2 * s4 - c4 * r6)), r48 = 0.01231 * (c5 * r11);
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r6 = c2 * c3;
+    const double r11 = c2 * s3, r14 = c4 * r0, r15 = c3 * r2 - s1 * s3, r16 = s4 * r15, r17 = s2 * c4;
+    const double r18 = s4 * r6, r19 = c4 * r1, r20 = c3 * r3 + c1 * s3, r21 = s4 * r20, r29 = s3 * r2 + s1 * c3;
+    const double r32 = s3 * r3 - c1 * c3, r42 = 0.1137 * r17, r44 = 0.1137 * r18;
+    const double r46 = 0.01231 * (s5 * (s2 * s4 - c4 * r6)), r48 = 0.01231 * (c5 * r11);
     const double r49 = 0.015 * c2 + 0.105 * s2 + r42 + r44 - r46 + r48, r53 = 0.1137 * r14, r55 = 0.1137 * r16;
     const double r57 = 0.01231 * (s5 * (s4 * r0 + c4 * r15)), r59 = 0.01231 * (c5 * r29);
     const double r60 = 0.015 * r2 - 0.105 * r0 - r53 + r55 + r57 + r59, r64 = 0.1137 * r19, r66 = 0.1137 * r21;
@@ -389,15 +342,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, DBL_MIN));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -406,16 +364,61 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+#define REST 3.061616997868383e-17
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -426,35 +429,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+#define ROWS (EQUATIONS + JOINTS)
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -471,32 +488,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -606,22 +623,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -655,7 +677,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -692,6 +714,16 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[3] - b[3])) <= tolerance
+        && fabs(shorter(a[2] - b[2])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -710,9 +742,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -815,10 +844,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -958,7 +990,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -990,6 +1022,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == NAO_LEFT_ARM_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1085,6 +1154,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double ux;
     double uy;
@@ -1104,9 +1175,13 @@ typedef struct {
     double s3;
     double c4;
     double s4;
+    double q0;
+    double q1;
+    double q2;
+    double q3;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1128,22 +1203,28 @@ typedef struct {
 
 /* Chart 1 of block 7: generic.
  */
-static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
-    const double r38 = 0.01231 * shared->r36 / 0.0001515361, r40 = 0.01231 * shared->r34 / 0.0001515361;
-    const double r44 = sqrt(fmax(r40 * r40 + r38 * r38, 0.0)), c5 = 0.0 - r40 / r44, s5 = 0.0 - r38 / r44;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
-        angle(known->c3, known->s3),
-        angle(known->c4, known->s4),
-        angle(c5, s5),
+    const double r37 = 0.01231 * shared->r36, r38 = 0.01231 * shared->r34;
+    const double r43 = 1.0 / sqrt(fmax(r38 * r38 + r37 * r37, 0.0)), c5 = 0.0 - r38 * r43, s5 = 0.0 - r37 * r43;
+    const double at[PLACES] = {
+        known->c1,
+        known->s1,
+        known->c2,
+        known->s2,
+        known->c3,
+        known->s3,
+        known->c4,
+        known->s4,
+        c5,
+        s5,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {known->q0, known->q1, known->q2, known->q3, angle(at[8], at[9])};
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 7: WristYaw. */
-static void block_7(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r1 = p->pz - 0.1, r8 = known->s2 * (p->px * known->c1 - known->s1 * r1);
     const double r12 = known->c3 * (known->c1 * r1 + p->px * known->s1);
@@ -1167,20 +1248,22 @@ typedef struct {
 
 /* Chart 1 of block 6: generic.
  */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14, r18 = sqrt(fmax(r17, 0.0));
-    const double c4 = shared->r13 / r18, s4 = shared->r14 / r18;
+    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14, r19 = 1.0 / sqrt(fmax(r17, 0.0));
+    const double c4 = shared->r13 * r19, s4 = shared->r14 * r19, q3 = angle(c4, s4);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c4 = c4;
     next.s4 = s4;
+    next.q3 = q3;
     block_7(p, &next, answers);
 }
 
 /* Block 6: ElbowRoll. */
-static void block_6(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->dx * known->c1 - p->dz * known->s1;
     const double r10 = known->c3 * (p->dy * known->c2 - known->s2 * r4);
@@ -1189,6 +1272,12 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const Shared6 own = { r13, r14 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
+}
+
+/* Block 6 behind a chart that hardly ever runs. */
+COLD static void again_6(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_6(p, known, answers);
 }
 
 /* What the charts of block 5 share. */
@@ -1200,22 +1289,24 @@ typedef struct {
 /* Chart 1 of block 5: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8, r11 = r9 + r10;
-    if (!is_away(r11, 610000.0)) {
+    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8;
+    if (!is_away(r9 + r10, 610000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r9 - r10, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->f1 * (7.810249675906654 * known->fr));
+    const Roots roots0 = square_roots(0.0 - r9 - r10, known->f1 * (7.810249675906654 * known->fr));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r17 = w3 * shared->r7 / r11, r19 = w3 * shared->r8 / r11;
-        const double r23 = sqrt(fmax(r19 * r19 + r17 * r17, 0.0)), c3 = 0.0 - r19 / r23, s3 = 0.0 - r17 / r23;
+        const double w3 = roots0.values[i0], r16 = w3 * shared->r7, r17 = w3 * shared->r8;
+        const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c3 = 0.0 - r17 * r22;
+        const double s3 = 0.0 - r16 * r22, q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
+        next.q2 = q2;
         block_6(p, &next, answers);
     }
 }
@@ -1231,19 +1322,21 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1];
+        const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1], q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[2] = true;
         next.c3 = c3;
         next.s3 = s3;
-        block_6(p, &next, answers);
+        next.q2 = q2;
+        again_6(p, &next, answers);
     }
 }
 
 /* Block 5: ElbowYaw. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r6 = known->s2 * (p->dx * known->c1 - p->dz * known->s1);
     const double r7 = p->dz * known->c1 + p->dx * known->s1, r8 = p->dy * known->c2 - r6;
@@ -1261,21 +1354,24 @@ typedef struct {
 
 /* Chart 1 of block 4: generic.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r32 = 0.015 * shared->r28 - (0.0 - 0.105 * shared->r27), r33 = r32 / 0.011249999999999998;
-    const double r37 = (0.015 * shared->r27 - 0.105 * shared->r28) / 0.011249999999999998;
-    const double r41 = sqrt(fmax(r37 * r37 + r33 * r33, 0.0)), c2 = r37 / r41, s2 = r33 / r41;
+    const double r32 = 0.015 * shared->r28 - (0.0 - 0.105 * shared->r27);
+    const double r35 = 0.015 * shared->r27 - 0.105 * shared->r28;
+    const double r40 = 1.0 / sqrt(fmax(r35 * r35 + r32 * r32, 0.0)), c2 = r35 * r40, s2 = r32 * r40;
+    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
+    next.q1 = q1;
     block_5(p, &next, answers);
 }
 
 /* Block 4: ShoulderRoll. */
-static void block_4(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r9 = p->px - 0.1137 * p->dx - 0.01231 * (known->sr * known->vx);
     const double r12 = known->c1 * (r9 + 0.01231 * (known->cr * known->ux));
@@ -1286,6 +1382,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const Shared4 own = { r27, r28 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
+}
+
+/* Block 4 behind a chart that hardly ever runs. */
+COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_4(p, known, answers);
 }
 
 /* What the charts of block 3 share. */
@@ -1299,25 +1401,27 @@ typedef struct {
 /* Chart 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r21 = shared->r10 * shared->r10, r22 = shared->r16 * shared->r16, r23 = r21 + r22;
+    const double r21 = shared->r10 * shared->r10, r22 = shared->r16 * shared->r16;
     const double r26 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
-    if (!is_away(r23, 10000.0 * r26)) {
+    if (!is_away(r21 + r22, 10000.0 * r26)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r21 - r22, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->fr * sqrt(fmax(r26, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r21 - r22, known->fr * sqrt(fmax(r26, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r33 = w1 * shared->r10 / r23, r35 = w1 * shared->r16 / r23;
-        const double r39 = sqrt(fmax(r35 * r35 + r33 * r33, 0.0)), c1 = r35 / r39, s1 = r33 / r39;
+        const double w1 = roots0.values[i0], r32 = w1 * shared->r10, r33 = w1 * shared->r16;
+        const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r32 * r32, 0.0)), c1 = r33 * r38, s1 = r32 * r38;
+        const double q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
+        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -1335,20 +1439,22 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        block_4(p, &next, answers);
+        next.q0 = q0;
+        again_4(p, &next, answers);
     }
 }
 
 /* Block 3: ShoulderPitch. */
-static void block_3(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r7 = p->pz - 0.1137 * p->dz - 0.01231 * (known->sr * known->vz);
     const double r10 = 0.1 - (r7 + 0.01231 * (known->cr * known->uz));
@@ -1359,6 +1465,12 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
+}
+
+/* Block 3 behind a chart that hardly ever runs. */
+COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_3(p, known, answers);
 }
 
 /* What the charts of block 2 share. */
@@ -1375,23 +1487,23 @@ typedef struct {
 /* Chart 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r70 = shared->r26 * shared->r26, r71 = shared->r35 * shared->r35, r72 = r70 + r71;
+    const double r70 = shared->r26 * shared->r26, r71 = shared->r35 * shared->r35;
     const double r75 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
-    if (!is_away(r72, 10000.0 * r75)) {
+    if (!is_away(r70 + r71, 10000.0 * r75)) {
         return;
     }
     const double fr = 1.0;
-    const double choice0_0[3] = {shared->r52 * shared->r52 - r70 - r71, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r75, 0.0)));
+    const Roots roots0 = square_roots(shared->r52 * shared->r52 - r70 - r71, sqrt(fmax(r75, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double wr = roots0.values[i0], r84 = wr * shared->r26 - (0.0 - shared->r35 * shared->r52);
-        const double r85 = r84 / r72, r89 = (shared->r26 * shared->r52 - wr * shared->r35) / r72;
-        const double r93 = sqrt(fmax(r89 * r89 + r85 * r85, 0.0)), cr = r89 / r93, sr = r85 / r93;
+        const double r87 = shared->r26 * shared->r52 - wr * shared->r35;
+        const double r92 = 1.0 / sqrt(fmax(r87 * r87 + r84 * r84, 0.0)), cr = r87 * r92, sr = r84 * r92;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.cr = cr;
         next.sr = sr;
         next.fr = fr;
@@ -1416,11 +1528,12 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[0] = true;
         next.cr = cr;
         next.sr = sr;
         next.fr = fr;
-        block_3(p, &next, answers);
+        again_3(p, &next, answers);
     }
 }
 
@@ -1457,6 +1570,7 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
+    next.close = false;
     next.ux = ux;
     next.uy = uy;
     next.uz = uz;
@@ -1482,6 +1596,7 @@ static void chart_1_2(const Parameters *p, Answers *answers)
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
+    next.close = false;
     next.ux = ux;
     next.uy = uy;
     next.uz = uz;
@@ -1506,6 +1621,7 @@ static void chart_1_3(const Parameters *p, Answers *answers)
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
+    next.close = false;
     next.ux = ux;
     next.uy = uy;
     next.uz = uz;
@@ -1595,8 +1711,9 @@ int nao_left_arm_solve(const double *given, nao_left_arm_solution *out)
 
 void nao_left_arm_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];
@@ -1612,7 +1729,9 @@ double nao_left_arm_residual(const double *given, const double *q)
         return NAN;
     }
     const Parameters p = parameters(target);
-    const Equations f = equations(&p, q);
+    double at[PLACES];
+    place(q, at);
+    const Equations f = equations(&p, at);
     double size = 0.0;
     for (size_t i = 0; i < EQUATIONS; i++) {
         if (isnan(f.value[i])) {

@@ -23,7 +23,7 @@
 //! answer is polished by 32 Newton steps at most.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
-//! `sin`, `cos`, `atan2`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
+//! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
 //! are those of the C library, and the file needs `core` only: then it may be a module of a `#![no_std]` crate.
 #![allow(unexpected_cfgs, non_snake_case, clippy::all)]
 
@@ -100,7 +100,7 @@ pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
         return f64::NAN;
     }
     let mut largest = 0.0;
-    for value in equations(&parameters(target), q).value {
+    for value in equations(&parameters(target), &place(q)).value {
         if value.is_nan() {
             return value;
         }
@@ -112,7 +112,7 @@ pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
 /// The target that joint values `q` reach.
 #[allow(dead_code)]
 pub fn forward(q: &[f64; JOINTS]) -> [f64; INPUTS] {
-    let reached = tip(q);
+    let reached = tip(&place(q));
     [reached[0], reached[1], reached[2], q[2]]
 }
 
@@ -273,6 +273,8 @@ const BLUR: f64 = 0.05;
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
 const POLISH_STEPS: usize = 32;
+/// So many steps in a row that do not halve the miss are the last.
+const PATIENCE: usize = 3;
 /// Shares of the squared Jacobian's size that are added where a plain step fails.
 const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 0.001];
 /// A candidate that misses the equations by this share of their size at most may be a double root.
@@ -331,6 +333,8 @@ struct Known {
     branch: usize,
     /// The end of the branch numbers of the first block's chart.
     last: usize,
+    /// Whether roots on the way are so near one another that rounding moves them.
+    close: bool,
     free: [bool; JOINTS],
     c3_: f64,
     s3_: f64,
@@ -339,9 +343,12 @@ struct Known {
     f4: f64,
     c1: f64,
     s1: f64,
+    q0: f64,
+    q2: f64,
+    q3: f64,
 }
 
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, free: NONE_FREE, c3_: 0.0, s3_: 0.0, c4: 0.0, s4: 0.0, f4: 0.0, c1: 0.0, s1: 0.0 };
+const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c3_: 0.0, s3_: 0.0, c4: 0.0, s4: 0.0, f4: 0.0, c1: 0.0, s1: 0.0, q0: 0.0, q2: 0.0, q3: 0.0 };
 
 /// Where charts put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
@@ -361,14 +368,17 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 }
 
 /// Chart 1 of block 1: given.
+#[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let c3_ = p.c3;
     let s3_ = p.s3;
-    let next = Known { branch: 0, last: 1, c3_, s3_, ..NOTHING_KNOWN };
+    let q2 = angle(c3_, s3_);
+    let next = Known { branch: 0, last: 1, close: false, c3_, s3_, q2, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
 
 /// Block 2: ElbowRoll.
+#[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r3 = 0.003411 * known.c3_;
     let r6 = 0.0003693 * known.s3_ - p.px * p.px - p.py * p.py;
@@ -386,22 +396,23 @@ struct Shared2 {
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r13 = shared.r3 * shared.r3;
-    let r14 = r13 + 0.0005701111289999999;
-    if !is_away(r14, 20000.0) {
+    if !is_away(r13 + 0.0005701111289999999, 20000.0) {
         return;
     }
     let f4 = 1.0;
     let r16 = shared.r12 * shared.r12 - 0.0005701111289999999;
-    let roots0 = real_roots(&[r16 - r13, 0.0, 1.0], 1.4142135623730951);
+    let roots0 = square_roots(r16 - r13, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r21 = (0.023877 * w4 - shared.r3 * shared.r12) / r14;
-        let r25 = (w4 * shared.r3 + 0.023877 * shared.r12) / r14;
-        let r29 = f64::max(r25 * r25 + r21 * r21, 0.0).sqrt();
-        let c4 = 0.0 - r25 / r29;
-        let s4 = r21 / r29;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, f4, ..*known };
+        let r20 = 0.023877 * w4 - shared.r3 * shared.r12;
+        let r23 = w4 * shared.r3 + 0.023877 * shared.r12;
+        let r28 = 1.0 / f64::max(r23 * r23 + r20 * r20, 0.0).sqrt();
+        let c4 = 0.0 - r23 * r28;
+        let s4 = r20 * r28;
+        let q3 = angle(c4, s4);
+        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c4, s4, f4, q3, ..*known };
         block_3(p, &next, answers);
     }
 }
@@ -416,12 +427,14 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
     let f4 = 1000000.0;
     for [c4, s4] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, free: [known.free[0], known.free[1], known.free[2], true], c4, s4, f4, ..*known };
-        block_3(p, &next, answers);
+        let q3 = angle(c4, s4);
+        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true], c4, s4, f4, q3, ..*known };
+        again_3(p, &next, answers);
     }
 }
 
 /// Block 3: ShoulderPitch.
+#[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r1 = 0.1 - p.pz;
     let r4 = 0.1137 * (known.s3_ * known.s4) - 0.01231 * known.c3_;
@@ -429,6 +442,13 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let shared = &Shared3 { r1, r4, r6 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
+}
+
+/// Block 3 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_3(p, known, answers);
 }
 
 /// What the charts of block 3 share.
@@ -440,26 +460,23 @@ struct Shared3 {
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r7 = shared.r1 * shared.r1;
     let r8 = p.px * p.px;
-    let r9 = r7 + r8;
     let r12 = shared.r6 * shared.r6 + p.magnitude * p.magnitude;
-    if !is_away(r9, 10000.0 * r12) {
+    if !is_away(r7 + r8, 10000.0 * r12) {
         return;
     }
-    let roots0 = real_roots(&[
-        shared.r4 * shared.r4 - r7 - r8,
-        0.0,
-        1.0,
-    ], known.f4 * f64::max(r12, 0.0).sqrt());
+    let roots0 = square_roots(shared.r4 * shared.r4 - r7 - r8, known.f4 * f64::max(r12, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r23 = (w1 * shared.r1 - (0.0 - p.px * shared.r4)) / r9;
-        let r27 = (p.px * w1 - shared.r1 * shared.r4) / r9;
-        let r31 = f64::max(r27 * r27 + r23 * r23, 0.0).sqrt();
-        let c1 = r27 / r31;
-        let s1 = r23 / r31;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c1, s1, ..*known };
+        let r22 = w1 * shared.r1 - (0.0 - p.px * shared.r4);
+        let r25 = p.px * w1 - shared.r1 * shared.r4;
+        let r30 = 1.0 / f64::max(r25 * r25 + r22 * r22, 0.0).sqrt();
+        let c1 = r25 * r30;
+        let s1 = r22 * r30;
+        let q0 = angle(c1, s1);
+        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, q0, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -473,12 +490,14 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         return;
     }
     for [c1, s1] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, free: [true, known.free[1], known.free[2], known.free[3]], c1, s1, ..*known };
-        block_4(p, &next, answers);
+        let q0 = angle(c1, s1);
+        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3]], c1, s1, q0, ..*known };
+        again_4(p, &next, answers);
     }
 }
 
 /// Block 4: ShoulderRoll.
+#[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r6 = 0.1137 * (known.c3_ * known.s4) + 0.01231 * known.s3_;
     let r7 = r6 + 0.015;
@@ -490,6 +509,13 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let shared = &Shared4 { r7, r9, r10, r11, r15, r16 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
+}
+
+/// Block 4 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_4(p, known, answers);
 }
 
 /// What the charts of block 4 share.
@@ -504,25 +530,20 @@ struct Shared4 {
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r19 = shared.r7 * shared.r7 + shared.r9 * shared.r9;
     if !is_away(r19, 87456.27862900001) {
         return;
     }
     let r23 = shared.r7 * shared.r11 - (0.0 - shared.r9 * shared.r10);
-    let r24 = r23 / r19;
-    let r27 = shared.r7 * shared.r10 - shared.r9 * shared.r11;
-    let r28 = r27 / r19;
-    let r32 = f64::max(r28 * r28 + r24 * r24, 0.0).sqrt();
-    let c2 = r28 / r32;
-    let s2 = r24 / r32;
-    let q = [
-        angle(known.c1, known.s1),
-        angle(c2, s2),
-        angle(known.c3_, known.s3_),
-        angle(known.c4, known.s4),
-    ];
-    answers.finish(p, 2 * known.branch, 2 * known.last, q, known.free);
+    let r26 = shared.r7 * shared.r10 - shared.r9 * shared.r11;
+    let r31 = 1.0 / f64::max(r26 * r26 + r23 * r23, 0.0).sqrt();
+    let c2 = r26 * r31;
+    let s2 = r23 * r31;
+    let at = [known.c1, known.s1, c2, s2, known.c3_, known.s3_, known.c4, known.s4];
+    let q = [known.q0, angle(at[2], at[3]), known.q2, known.q3];
+    answers.finish(p, 2 * known.branch, 2 * known.last, known.close, &at, q, known.free);
 }
 
 /// Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
@@ -534,29 +555,25 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         return;
     }
     for [c2, s2] in SAMPLES_1 {
-        let q = [
-            angle(known.c1, known.s1),
-            angle(c2, s2),
-            angle(known.c3_, known.s3_),
-            angle(known.c4, known.s4),
-        ];
-        answers.finish(p, 2 * known.branch + 1, 2 * known.last, q, [known.free[0], true, known.free[2], known.free[3]]);
+        let at = [known.c1, known.s1, c2, s2, known.c3_, known.s3_, known.c4, known.s4];
+        let q = [known.q0, angle(at[2], at[3]), known.q2, known.q3];
+        answers.finish(p, 2 * known.branch + 1, 2 * known.last, known.close, &at, q, [known.free[0], true, known.free[2], known.free[3]]);
     }
 }
 
 /// What the equations compare with the target.
 const TIP: usize = 5;
 
-/// The tip at joint values `q`, as the equations compare it.
-fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
-    let c1 = q[0].cos();
-    let s1 = q[0].sin();
-    let c2 = q[1].cos();
-    let s2 = q[1].sin();
-    let c3_ = q[2].cos();
-    let s3_ = q[2].sin();
-    let c4 = q[3].cos();
-    let s4 = q[3].sin();
+/// The tip, as the equations compare it.
+fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
+    let c1 = at[0];
+    let s1 = at[1];
+    let c2 = at[2];
+    let s2 = at[3];
+    let c3_ = at[4];
+    let s3_ = at[5];
+    let c4 = at[6];
+    let s4 = at[7];
     let r0 = c1 * c2;
     let r1 = s1 * c2;
     let r2 = c1 * s2;
@@ -575,14 +592,35 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     ]
 }
 
+/// What the equations read of joints: 8 numbers.
+const PLACES: usize = 8;
+
+/// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin().
+fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
+    [
+        q[0].cos(),
+        q[0].sin(),
+        q[1].cos(),
+        q[1].sin(),
+        q[2].cos(),
+        q[2].sin(),
+        q[3].cos(),
+        q[3].sin(),
+    ]
+}
+
 /// The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes.
 struct Equations {
     value: [f64; EQUATIONS],
-    size: [f64; EQUATIONS],
+    size: [f64; SIZES],
 }
 
-fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
-    let reached = tip(q);
+const SIZES: usize = 2;
+/// Which of the sizes is that of each equation.
+const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1];
+
+fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
+    let reached = tip(at);
     Equations {
         value: [
             reached[0] - p.px,
@@ -593,24 +631,21 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
         ],
         size: [
             0.36044474637583046,
-            0.36044474637583046,
-            0.36044474637583046,
-            1.0,
             1.0,
         ],
     }
 }
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
-fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
-    let c1 = q[0].cos();
-    let s1 = q[0].sin();
-    let c2 = q[1].cos();
-    let s2 = q[1].sin();
-    let c3_ = q[2].cos();
-    let s3_ = q[2].sin();
-    let c4 = q[3].cos();
-    let s4 = q[3].sin();
+fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
+    let c1 = at[0];
+    let s1 = at[1];
+    let c2 = at[2];
+    let s2 = at[3];
+    let c3_ = at[4];
+    let s3_ = at[5];
+    let c4 = at[6];
+    let s4 = at[7];
     let r0 = c1 * c2;
     let r1 = s1 * c2;
     let r2 = c1 * s2;
@@ -656,9 +691,23 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Keeps a candidate that solves the equations within rounding, and refines others.
+    #[inline(always)]
+    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], q: [f64; JOINTS], free: [bool; JOINTS]) {
+        if free == NONE_FREE && !close {
+            let fit = measure_at(p, at, &q);
+            if fit.accepted && fit.relative < RESOLUTION && is_round(at) {
+                return self.keep(p, branch, last, (q, fit), free);
+            }
+        }
+        self.refine(p, branch, last, q, free);
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    #[cold]
+    #[inline(never)]
+    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
             if self.has_member(branch, &free) {
@@ -723,6 +772,25 @@ impl Answers<'_> {
         if !fit.accepted {
             return;
         }
+        if self.is_apart(branch, &q, &free) {
+            self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
+            self.relative[self.count] = fit.relative;
+            self.count += 1;
+            return;
+        }
+        self.keep_one(p, branch, last, (q, fit), free);
+    }
+
+    /// Whether there is room for an isolated answer of this branch, and none of the others is near it.
+    fn is_apart(&self, branch: usize, q: &[f64; JOINTS], free: &[bool; JOINTS]) -> bool {
+        let apart = |other: &Solution| other.branch != branch && is_isolated(other) && !is_within(&other.q, q, BLUR);
+        self.count < CAPACITY && *free == NONE_FREE && self.out[..self.count].iter().all(apart)
+    }
+
+    /// As [`Answers::keep`], where others are near.
+    #[cold]
+    #[inline(never)]
+    fn keep_one(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
         let next = if free == NONE_FREE { last } else { branch };
         let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
         let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
@@ -830,6 +898,9 @@ struct Rated {
 
 /// Whether two answers are one.
 fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
+    if is_isolated(&a.answer) && is_isolated(&b.answer) && !close(&a.answer, &b.answer, BLUR) {
+        return false;
+    }
     if close(&a.answer, &b.answer, MERGE) {
         return true;
     }
@@ -904,7 +975,21 @@ fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
 }
 
 fn shorter(difference: f64) -> f64 {
-    difference - TAU * (difference / TAU).round()
+    if difference > PI {
+        difference - TAU
+    } else if difference < -PI {
+        difference + TAU
+    } else {
+        difference
+    }
+}
+
+/// Whether joint values differ by `tolerance` at most.
+fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
+    shorter(a[1] - b[1]).abs() <= tolerance
+    && shorter(a[0] - b[0]).abs() <= tolerance
+    && shorter(a[3] - b[3]).abs() <= tolerance
+    && shorter(a[2] - b[2]).abs() <= tolerance
 }
 
 fn is_isolated(answer: &Solution) -> bool {
@@ -936,9 +1021,6 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// Whether two answers near one another are one at a singular configuration: half-way between them, on a way that may be bent, the
 /// equations hold as well as at the worse of the two, or within rounding.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if !close(&a.answer, &b.answer, BLUR) {
-        return false;
-    }
     let way = differences(&a.answer.q, &b.answer.q);
     let mut middle = b.answer.q;
     for i in 0..JOINTS {
@@ -969,27 +1051,46 @@ struct Fit {
 }
 
 fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
-    let Equations { value, size } = equations(p, q);
+    measure_at(p, &place(q), q)
+}
+
+/// As [`measure`], where the cosines and sines of `q` are known.
+#[inline(always)]
+fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
+    let Equations { value, size } = equations(p, at);
     let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: q.iter().all(|value| value.is_finite()) };
-    for (value, size) in value.iter().zip(size) {
-        fit.residual = f64::max(fit.residual, value.abs());
-        fit.relative = f64::max(fit.relative, value.abs() / f64::max(size, f64::MIN_POSITIVE));
-        fit.accepted &= value.abs() <= ACCEPT * size;
+    let mut largest = [0.0; SIZES];
+    for i in 0..EQUATIONS {
+        largest[SIZE_OF[i]] = f64::max(largest[SIZE_OF[i]], value[i].abs());
+        fit.accepted &= value[i].abs() <= ACCEPT * size[SIZE_OF[i]];
+    }
+    for (largest, size) in largest.iter().zip(size) {
+        fit.residual = f64::max(fit.residual, *largest);
+        fit.relative = f64::max(fit.relative, largest / f64::max(size, f64::MIN_POSITIVE));
     }
     fit.accepted &= fit.residual.is_finite();
     fit
+}
+
+/// Whether the cosines and sines of all angles are on the circle.
+fn is_round(at: &[f64; PLACES]) -> bool {
+    (at[0] * at[0] + at[1] * at[1] - 1.0).abs() < RESOLUTION
+    && (at[2] * at[2] + at[3] * at[3] - 1.0).abs() < RESOLUTION
+    && (at[4] * at[4] + at[5] * at[5] - 1.0).abs() < RESOLUTION
+    && (at[6] * at[6] + at[7] * at[7] - 1.0).abs() < RESOLUTION
 }
 
 /// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
 /// after a leap.
 /// Joints that are `held` stay.
 fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    let mut end = start;
+    let (mut end, mut slow) = (start, 0);
     for _ in 0..POLISH_STEPS {
-        if end.1.relative <= POLISHED {
+        if end.1.relative <= POLISHED || slow == PATIENCE {
             return end;
         }
         let Some(next) = improved(p, &end, held) else { return end };
+        slow = if next.1.relative <= 0.5 * end.1.relative { 0 } else { slow + 1 };
         end = next;
     }
     end
@@ -1061,10 +1162,12 @@ fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
 fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
-    let rows = jacobian(p, q);
-    let size = equations(p, q).size;
+    let at = place(q);
+    let rows = jacobian(p, &at);
+    let sizes = equations(p, &at).size;
     let mut weights = [0.0; JOINTS];
-    for (row, size) in rows.iter().zip(size) {
+    for (row, size) in rows.iter().zip(SIZE_OF) {
+        let size = sizes[size];
         for i in 0..JOINTS {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
@@ -1090,57 +1193,65 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
     next
 }
 
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by plane rotations.
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
-    let rows = jacobian(p, q);
-    let right = equations(p, q).value;
-    let mut triangle = [[0.0; JOINTS + 1]; JOINTS];
-    let mut squares = [0.0; JOINTS];
-    for (row, right) in rows.iter().zip(right) {
-        let mut line = [0.0; JOINTS + 1];
-        for i in 0..JOINTS {
-            line[i] = if held[i] { 0.0 } else { row[i] };
-            squares[i] += line[i] * line[i];
-        }
-        line[JOINTS] = right;
-        turn_in(&mut triangle, line);
-    }
-    let size = squares.iter().fold(0.0, |size, &square| f64::max(size, square));
+    let at = place(q);
+    let rows = jacobian(p, &at);
+    let right = equations(p, &at).value;
+    let mut columns = [[0.0; ROWS]; JOINTS + 1];
+    let mut size = 0.0;
     for i in 0..JOINTS {
-        let mut line = [0.0; JOINTS + 1];
-        line[i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
-        turn_in(&mut triangle, line);
+        let mut square = 0.0;
+        for (k, row) in rows.iter().enumerate() {
+            let entry = if held[i] { 0.0 } else { row[i] };
+            columns[i][k] = entry;
+            square += entry * entry;
+        }
+        size = f64::max(size, square);
     }
-    substituted(&triangle)
+    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
+    for i in 0..JOINTS {
+        columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
+    }
+    reflect(&mut columns);
+    substituted(&columns)
 }
 
-/// Adds a row to a triangle by plane rotations that leave nothing of it.
-fn turn_in(triangle: &mut [[f64; JOINTS + 1]; JOINTS], mut line: [f64; JOINTS + 1]) {
-    for (pivot, top) in triangle.iter_mut().enumerate() {
-        let length = (top[pivot] * top[pivot] + line[pivot] * line[pivot]).sqrt();
-        if line[pivot] == 0.0 || length == 0.0 {
+/// Rows of the equations and of the damping.
+const ROWS: usize = EQUATIONS + JOINTS;
+
+/// Turns columns into a triangle by reflections.
+fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
+    for pivot in 0..JOINTS {
+        let mut mirror = columns[pivot];
+        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
+        if square == 0.0 {
             continue;
         }
-        let (cosine, sine) = (top[pivot] / length, line[pivot] / length);
-        for k in pivot..=JOINTS {
-            let (above, entry) = (top[k], line[k]);
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        let length = square.sqrt().copysign(mirror[pivot]);
+        mirror[pivot] += length;
+        let half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for column in &mut columns[pivot + 1..] {
+            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
+            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
+                *x -= along * y;
+            }
         }
     }
 }
 
 /// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> {
+fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
     let mut solution = [0.0; JOINTS];
     for row in (0..JOINTS).rev() {
-        let pivot = triangle[row][row];
+        let pivot = columns[row][row];
         if pivot == 0.0 || !pivot.is_finite() {
             return None;
         }
-        let mut sum = triangle[row][JOINTS];
+        let mut sum = columns[JOINTS][row];
         for k in row + 1..JOINTS {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -1150,9 +1261,38 @@ fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> 
 const PI: f64 = core::f64::consts::PI;
 const TAU: f64 = core::f64::consts::TAU;
 
-/// The angle of a cosine and a sine, in (-pi, pi].
+/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
+/// interpolates at eleven Chebyshev points.
+#[inline(always)]
 fn angle(cosine: f64, sine: f64) -> f64 {
-    half_open(sine.atan2(cosine))
+    let (across, up) = (cosine.abs(), sine.abs());
+    let steep = up > across;
+    let (low, high) = if steep { (across, up) } else { (up, across) };
+    let far = low > 0.41421356237309503 * high;
+    let (top, bottom) = if far { (low - high, low + high) } else { (low, high) };
+    let z = top / bottom;
+    let mut angle = z + z * (z * z) * series(z * z);
+    if far {
+        angle = 0.25 * PI + (angle + REST);
+    }
+    if steep {
+        angle = 0.5 * PI - (angle - 2.0 * REST);
+    }
+    if cosine < 0.0 {
+        angle = PI - (angle - 4.0 * REST);
+    }
+    half_open(angle.copysign(sine))
+}
+
+/// What the double nearest to pi/4 lacks.
+const REST: f64 = 3.061616997868383e-17;
+
+fn series(u: f64) -> f64 {
+    let (square, fourth) = (u * u, u * u * (u * u));
+    let first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    let second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    let third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    first + (second + third * fourth) * fourth
 }
 
 /// The angle in (-pi, pi]: -pi, which `atan2` gives for a negative zero sine, becomes pi.
@@ -1177,22 +1317,20 @@ fn is_away(value: f64, scale: f64) -> bool {
 
 /// The highest degree of a polynomial.
 const DEGREE: usize = 2;
-/// A leading coefficient below this share of the largest coefficient counts as zero.
-const NEGLIGIBLE: f64 = 1e-290;
 /// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
 /// typical size.
 const TANGENT: f64 = 1e-10;
-/// Values of `p` up to `degree ROUNDING sum |a_i x^i|` have no sign.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Real roots, ascending.
 struct Roots {
     values: [f64; DEGREE],
     count: usize,
+    /// Whether some are close to one another, or one is double.
+    close: bool,
 }
 
 impl Roots {
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0 };
+    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
 
     fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
@@ -1206,78 +1344,22 @@ impl Roots {
     }
 }
 
-/// A polynomial with coefficients of magnitude one and less, constant term first.
-struct Polynomial {
-    a: [f64; DEGREE + 1],
-    degree: usize,
-    /// The unknown's typical size.
-    scale: f64,
-}
-
-fn largest(coefficients: &[f64]) -> f64 {
-    coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()))
-}
-
-/// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
-/// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
-fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
-    let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
-    if p.degree < 2 { p.linear_root() } else { p.quadratic_roots() }
-}
-
-impl Polynomial {
-    /// Drops negligible leading coefficients and divides by the largest; none when nothing solvable is left.
-    fn new(coefficients: &[f64], scale: f64) -> Option<Self> {
-        let largest = largest(coefficients);
-        let mut length = coefficients.len();
-        while length > 0 && coefficients[length - 1].abs() <= NEGLIGIBLE * largest {
-            length -= 1;
-        }
-        if length == 0 || !coefficients.iter().all(|c| c.is_finite()) {
-            return None;
-        }
-        let mut a = [0.0; DEGREE + 1];
-        a[..length].copy_from_slice(&coefficients[..length]);
-        Some(Polynomial { a, degree: length - 1, scale }.scaled())
+/// All real roots of x^2 + constant; a miss is measured against the unknown's typical size `scale`.
+fn square_roots(constant: f64, scale: f64) -> Roots {
+    let mut roots = Roots::NONE;
+    if constant.is_nan() || constant > TANGENT * f64::max(constant, scale * scale) {
+        return roots;
     }
-
-    /// The polynomial divided by its largest coefficient.
-    fn scaled(mut self) -> Self {
-        let largest = largest(&self.a);
-        for c in &mut self.a {
-            *c /= largest;
-        }
-        self
+    if constant >= 0.0 {
+        roots.push(0.0);
+        roots.close = true;
+        return roots;
     }
-
-    fn linear_root(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        if self.degree == 1 {
-            roots.push(-self.a[0] / self.a[1]);
-        }
-        roots
-    }
-
-    /// The roots of a quadratic polynomial without cancellation, and the double root of a tangency once.
-    fn quadratic_roots(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
-        let discriminant = b * b - 4.0 * a * c;
-        let size = b * b + (4.0 * a * c).abs();
-        let typical = 2.0 * a * self.scale;
-        if discriminant < -TANGENT * f64::max(size, typical * typical) {
-            return roots;
-        }
-        if discriminant <= ROUNDING * size {
-            roots.push(-b / (2.0 * a));
-            return roots;
-        }
-        let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-        let (first, second) = (q / a, c / q);
-        roots.push(f64::min(first, second));
-        roots.push(f64::max(first, second));
-        roots
-    }
+    let root = (-constant).sqrt();
+    roots.close = root <= SPLIT * scale;
+    roots.push(-root);
+    roots.push(root);
+    roots
 }
 
 /// What `core` lacks, from the C library.
@@ -1288,7 +1370,6 @@ mod libm {
         pub safe fn sqrt(x: f64) -> f64;
         pub safe fn sin(x: f64) -> f64;
         pub safe fn cos(x: f64) -> f64;
-        pub safe fn atan2(y: f64, x: f64) -> f64;
         pub safe fn round(x: f64) -> f64;
         pub safe fn floor(x: f64) -> f64;
         pub safe fn ceil(x: f64) -> f64;
@@ -1302,7 +1383,6 @@ trait Math: Sized {
     fn sqrt(self) -> Self;
     fn sin(self) -> Self;
     fn cos(self) -> Self;
-    fn atan2(self, x: Self) -> Self;
     fn round(self) -> Self;
     fn floor(self) -> Self;
     fn ceil(self) -> Self;
@@ -1318,9 +1398,6 @@ impl Math for f64 {
     }
     fn cos(self) -> Self {
         libm::cos(self)
-    }
-    fn atan2(self, x: Self) -> Self {
-        libm::atan2(self, x)
     }
     fn round(self) -> Self {
         libm::round(self)

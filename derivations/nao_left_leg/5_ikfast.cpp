@@ -102,6 +102,8 @@ static const double BLUR = 0.05;
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
 static const int POLISH_STEPS = 32;
+/* So many steps in a row that do not halve the miss are the last. */
+static const int PATIENCE = 3;
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 static const double APART = 0.7;
 static const double SPLIT = 0.001;
@@ -135,27 +137,17 @@ typedef nao_left_leg_solution Solution;
 
 /* The highest degree of a polynomial. */
 static const int DEGREE = 2;
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-static const double NEGLIGIBLE = 1e-290;
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 static const double TANGENT = 1e-10;
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-static const double ROUNDING = (2.0 * std::numeric_limits<double>::epsilon());
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -165,87 +157,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -279,24 +207,23 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 static const int TIP = 12;
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = s1 * c2, r1 = s1 * s2, r2 = c1 + 1.0, r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4;
-    const double r6 = c2 * r4, r7 = s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = c1 * s3;
-    const double r17 = c3 * r9, r18 = s1 * s3, r19 = c3 * r12, r20 = c3 * r14;
-    const double r22 = c1 * c3 + 0.7071067811865475 * (s3 * r9), r25 = r16 - 0.7071067811865475 * r17;
-    const double r27 = 0.7071067811865475 * (s1 * c3), r29 = r27 - 0.5 * (s3 * r12);
-    const double r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19, r36 = r27 - 0.5 * (s3 * r14);
-    const double r39 = r31 + 0.5 * r20, r41 = s4 * r22, r42 = c4 * r25, r43 = s4 * r29, r44 = c4 * r33;
-    const double r45 = s4 * r36, r46 = c4 * r39, r47 = c4 * r22 - s4 * r25, r49 = r41 + r42;
-    const double r51 = c4 * r29 - s4 * r33, r53 = r43 + r44, r55 = c4 * r36 - s4 * r39, r57 = r45 + r46;
-    const double r65 = r0 + r1, r67 = s5 * r47 + c5 * r49, r69 = r3 + r5, r71 = s5 * r51 + c5 * r53;
-    const double r73 = r6 + r7, r75 = s5 * r55 + c5 * r57, r77 = s6 * r65, r78 = c6 * r67, r79 = s6 * r69;
-    const double r80 = c6 * r71, r81 = s6 * r73, r82 = c6 * r75, r83 = 0.07071067811865475 * r18;
-    const double r89 = r83 + 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = s1 * s2, r2 = c1 + 1.0;
+    const double r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4, r6 = c2 * r4, r7 = s2 * r2, r9 = r1 - r0;
+    const double r12 = r7 - r6, r14 = r5 - r3, r16 = c1 * s3, r17 = c3 * r9, r18 = s1 * s3, r19 = c3 * r12;
+    const double r20 = c3 * r14, r22 = c1 * c3 + 0.7071067811865475 * (s3 * r9);
+    const double r25 = r16 - 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (s1 * c3);
+    const double r29 = r27 - 0.5 * (s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19;
+    const double r36 = r27 - 0.5 * (s3 * r14), r39 = r31 + 0.5 * r20, r41 = s4 * r22, r42 = c4 * r25;
+    const double r43 = s4 * r29, r44 = c4 * r33, r45 = s4 * r36, r46 = c4 * r39, r47 = c4 * r22 - s4 * r25;
+    const double r49 = r41 + r42, r51 = c4 * r29 - s4 * r33, r53 = r43 + r44, r55 = c4 * r36 - s4 * r39;
+    const double r57 = r45 + r46, r65 = r0 + r1, r67 = s5 * r47 + c5 * r49, r69 = r3 + r5;
+    const double r71 = s5 * r51 + c5 * r53, r73 = r6 + r7, r75 = s5 * r55 + c5 * r57, r77 = s6 * r65;
+    const double r78 = c6 * r67, r79 = s6 * r69, r80 = c6 * r71, r81 = s6 * r73, r82 = c6 * r75;
+    const double r83 = 0.07071067811865475 * r18, r89 = r83 + 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
     const double r99 = r83 + 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
     const double r108 = 0.1 * r16 - 0.07071067811865475 * r17 + 0.1029 * r41;
     const double r112 = r108 + 0.1029 * r42 - 0.03195415544182008 * r77;
@@ -314,16 +241,40 @@ static void tip(const double *q, double *reached)
     reached[11] = 0.0 - (r82 + 0.5 * r81);
 }
 
+/* What the equations read of joints: 12 numbers. */
+static const int PLACES = 12;
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+    at[10] = cos(q[5]);
+    at[11] = sin(q[5]);
+}
+
+static const int SIZES = 2;
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->px,
@@ -341,16 +292,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             0.3467054146165801,
-            0.3467054146165801,
-            0.3467054146165801,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -362,20 +303,19 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = s1 * c2, r1 = s1 * s2, r2 = c1 + 1.0, r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4;
-    const double r6 = c2 * r4, r7 = s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = c1 * s3;
-    const double r17 = c3 * r9, r18 = s1 * s3, r19 = c3 * r12, r20 = c3 * r14;
-    const double r22 = c1 * c3 + 0.7071067811865475 * (s3 * r9), r25 = r16 - 0.7071067811865475 * r17;
-    const double r27 = 0.7071067811865475 * (s1 * c3), r29 = r27 - 0.5 * (s3 * r12);
-    const double r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19, r36 = r27 - 0.5 * (s3 * r14);
-    const double r39 = r31 + 0.5 * r20, r41 = s4 * r22, r42 = c4 * r25, r43 = s4 * r29, r44 = c4 * r33;
-    const double r45 = s4 * r36, r46 = c4 * r39, r47 = c4 * r22 - s4 * r25, r49 = r41 + r42;
-    const double r51 = c4 * r29 - s4 * r33, r52 = c5 * r51, r53 = r43 + r44, r54 = s5 * r53;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = s1 * s2, r2 = c1 + 1.0;
+    const double r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4, r6 = c2 * r4, r7 = s2 * r2, r9 = r1 - r0;
+    const double r12 = r7 - r6, r14 = r5 - r3, r16 = c1 * s3, r17 = c3 * r9, r18 = s1 * s3, r19 = c3 * r12;
+    const double r20 = c3 * r14, r22 = c1 * c3 + 0.7071067811865475 * (s3 * r9);
+    const double r25 = r16 - 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (s1 * c3);
+    const double r29 = r27 - 0.5 * (s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19;
+    const double r36 = r27 - 0.5 * (s3 * r14), r39 = r31 + 0.5 * r20, r41 = s4 * r22, r42 = c4 * r25;
+    const double r43 = s4 * r29, r44 = c4 * r33, r45 = s4 * r36, r46 = c4 * r39, r47 = c4 * r22 - s4 * r25;
+    const double r49 = r41 + r42, r51 = c4 * r29 - s4 * r33, r52 = c5 * r51, r53 = r43 + r44, r54 = s5 * r53;
     const double r55 = c4 * r36 - s4 * r39, r57 = r45 + r46, r65 = r0 + r1, r66 = c6 * r65;
     const double r67 = s5 * r47 + c5 * r49, r68 = s6 * r67, r69 = r3 + r5, r70 = c6 * r69;
     const double r71 = s5 * r51 + c5 * r53, r72 = s6 * r71, r73 = r6 + r7, r74 = c6 * r73;
@@ -455,15 +395,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, (std::numeric_limits<double>::min)()));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -472,16 +417,62 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION
+        && fabs(at[10] * at[10] + at[11] * at[11] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+static const double REST = 3.061616997868383e-17;
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -492,35 +483,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+static const int ROWS = (EQUATIONS + JOINTS);
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -537,32 +542,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -674,22 +679,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], (std::numeric_limits<double>::min)()));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -725,7 +735,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -764,6 +774,17 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[2] - b[2])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[3] - b[3])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -782,9 +803,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -887,10 +905,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1030,7 +1051,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1062,6 +1083,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == NAO_LEFT_LEG_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1143,6 +1201,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double c4;
     double s4;
@@ -1156,9 +1216,14 @@ typedef struct {
     double s1;
     double c2;
     double s2;
+    double q0;
+    double q1;
+    double q3;
+    double q4;
+    double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1182,17 +1247,31 @@ typedef struct {
  */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r64 = 0.1 * shared->r59 / 0.010000000000000002, r66 = 0.1 * shared->r62 / 0.010000000000000002;
-    const double r70 = sqrt(fmax(r66 * r66 + r64 * r64, 0.0)), c3 = r66 / r70, s3 = 0.0 - r64 / r70;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
-        angle(c3, s3),
-        angle(known->c4, known->s4),
-        angle(known->c5, known->s5),
-        angle(known->c6, known->s6),
+    const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
+    const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), c3 = r64 * r69, s3 = 0.0 - r63 * r69;
+    const double at[PLACES] = {
+        known->c1,
+        known->s1,
+        known->c2,
+        known->s2,
+        c3,
+        s3,
+        known->c4,
+        known->s4,
+        known->c5,
+        known->s5,
+        known->c6,
+        known->s6,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        angle(at[4], at[5]),
+        known->q3,
+        known->q4,
+        known->q5,
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 6: HipPitch. */
@@ -1226,13 +1305,15 @@ typedef struct {
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r33 = sqrt(fmax(r32, 0.0));
-    const double c2 = shared->r29 / r33, s2 = shared->r26 / r33;
+    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
+    const double c2 = shared->r29 * r34, s2 = shared->r26 * r34, q1 = angle(c2, s2);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
+    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
@@ -1249,6 +1330,12 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     chart_5_1(p, known, shared, answers);
 }
 
+/* Block 5 behind a chart that hardly ever runs. */
+static void again_5(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_5(p, known, answers);
+}
+
 /* What the charts of block 4 share. */
 typedef struct {
     double r6;
@@ -1260,20 +1347,22 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10, r13 = r11 + r12;
-    if (!is_away(r13, 119999.99999999999)) {
+    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10;
+    if (!is_away(r11 + r12, 119999.99999999999)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r11 - r12, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->f5 * (3.4641016151377544 * known->f6));
+    const Roots roots0 = square_roots(0.0 - r11 - r12, known->f5 * (3.4641016151377544 * known->f6));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r19 = w1 * shared->r6 / r13, r21 = w1 * shared->r10 / r13;
-        const double r25 = sqrt(fmax(r21 * r21 + r19 * r19, 0.0)), c1 = 0.0 - r21 / r25, s1 = r19 / r25;
+        const double w1 = roots0.values[i0], r18 = w1 * shared->r6, r19 = w1 * shared->r10;
+        const double r24 = 1.0 / sqrt(fmax(r19 * r19 + r18 * r18, 0.0)), c1 = 0.0 - r19 * r24, s1 = r18 * r24;
+        const double q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c1 = c1;
         next.s1 = s1;
+        next.q0 = q0;
         block_5(p, &next, answers);
     }
 }
@@ -1289,14 +1378,16 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
-        block_5(p, &next, answers);
+        next.q0 = q0;
+        again_5(p, &next, answers);
     }
 }
 
@@ -1310,6 +1401,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
+}
+
+/* Block 4 behind a chart that hardly ever runs. */
+static void again_4(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_4(p, known, answers);
 }
 
 /* What the charts of block 3 share. */
@@ -1334,15 +1431,18 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     if (!is_away(r88, 10000.0 * r91)) {
         return;
     }
-    const double f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67), r97 = r96 / r88;
-    const double r100 = shared->r50 * shared->r68 - shared->r41 * shared->r67, r101 = r100 / r88;
-    const double r105 = sqrt(fmax(r101 * r101 + r97 * r97, 0.0)), c5 = r101 / r105, s5 = r97 / r105;
+    const double f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
+    const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
+    const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), c5 = r99 * r104, s5 = r96 * r104;
+    const double q4 = angle(c5, s5);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
     next.f5 = f5;
+    next.q4 = q4;
     block_4(p, &next, answers);
 }
 
@@ -1359,15 +1459,17 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f5 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
+        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1], q4 = angle(c5, s5);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[4] = true;
         next.c5 = c5;
         next.s5 = s5;
         next.f5 = f5;
-        block_4(p, &next, answers);
+        next.q4 = q4;
+        again_4(p, &next, answers);
     }
 }
 
@@ -1396,6 +1498,12 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     chart_3_2(p, known, shared, answers);
 }
 
+/* Block 3 behind a chart that hardly ever runs. */
+static void again_3(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_3(p, known, answers);
+}
+
 /* What the charts of block 2 share. */
 typedef struct {
     double r11;
@@ -1409,23 +1517,25 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18, r26 = r24 + r25;
+    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    if (!is_away(r26, 10000.0 * r29)) {
+    if (!is_away(r24 + r25, 10000.0 * r29)) {
         return;
     }
     const double f6 = 1.0;
-    const double choice0_0[3] = {0.0 - r24 - r25, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r29, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(fmax(r29, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w6 = roots0.values[i0], r35 = w6 * shared->r11 / r26, r37 = w6 * shared->r18 / r26;
-        const double r41 = sqrt(fmax(r37 * r37 + r35 * r35, 0.0)), c6 = 0.0 - r37 / r41, s6 = r35 / r41;
+        const double w6 = roots0.values[i0], r34 = w6 * shared->r11, r35 = w6 * shared->r18;
+        const double r40 = 1.0 / sqrt(fmax(r35 * r35 + r34 * r34, 0.0)), c6 = 0.0 - r35 * r40, s6 = r34 * r40;
+        const double q5 = angle(c6, s6);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
+        next.q5 = q5;
         block_3(p, &next, answers);
     }
 }
@@ -1443,15 +1553,17 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
+        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1], q5 = angle(c6, s6);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[5] = true;
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
-        block_3(p, &next, answers);
+        next.q5 = q5;
+        again_3(p, &next, answers);
     }
 }
 
@@ -1479,17 +1591,18 @@ typedef struct {
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
-    const double choice0_0[3] = {r30, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
+    const Roots roots0 = square_roots(r30, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r32 = 0.02058 * w4 / 0.00042353640000000005;
-        const double r34 = 0.02058 * shared->r28 / 0.00042353640000000005;
-        const double r38 = sqrt(fmax(r34 * r34 + r32 * r32, 0.0)), c4 = 0.0 - r34 / r38, s4 = r32 / r38;
+        const double w4 = roots0.values[i0], r31 = 0.02058 * w4, r32 = 0.02058 * shared->r28;
+        const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), c4 = 0.0 - r32 * r37, s4 = r31 * r37;
+        const double q3 = angle(c4, s4);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
+        next.close = roots0.close;
         next.c4 = c4;
         next.s4 = s4;
+        next.q3 = q3;
         block_2(p, &next, answers);
     }
 }
@@ -1575,8 +1688,9 @@ int nao_left_leg_solve(const double *given, nao_left_leg_solution *out)
 
 void nao_left_leg_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];

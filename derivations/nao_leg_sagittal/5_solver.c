@@ -127,7 +127,7 @@ int nao_leg_sagittal_nearest(const nao_leg_sagittal_solution *list, int count, c
 #define RETURNS 4
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
-#define POLISHED 4e-15
+#define POLISHED 1e-15
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -153,6 +153,8 @@ const double nao_leg_sagittal_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINI
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
 
 static void push(Roots *roots, double x)
@@ -215,7 +217,7 @@ static bool polynomial(const double *coefficients, size_t length, Polynomial *re
 
 static Roots linear_root(const Polynomial *p)
 {
-    Roots roots = {{0.0}, 0};
+    Roots roots = {{0.0}, 0, false};
     if (p->degree == 1) {
         push(&roots, -p->a[0] / p->a[1]);
     }
@@ -225,7 +227,7 @@ static Roots linear_root(const Polynomial *p)
 /* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
 static Roots quadratic_roots(const Polynomial *p)
 {
-    Roots roots = {{0.0}, 0};
+    Roots roots = {{0.0}, 0, false};
     const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
     const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
     if (discriminant < -TANGENT * fmax(size, typical * typical)) {
@@ -243,15 +245,25 @@ static Roots quadratic_roots(const Polynomial *p)
 
 /* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
  * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
+static Roots all_real_roots(const double *coefficients, size_t length, double scale)
 {
     Polynomial p;
     if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
+        const Roots none = {{0.0}, 0, false};
         return none;
     }
     p.scale = scale;
     return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
+}
+
+static Roots real_roots(const double *coefficients, size_t length, double scale)
+{
+    Roots roots = all_real_roots(coefficients, length, scale);
+    roots.close = roots.count > 0 && roots.count % 2 == length % 2;
+    for (size_t i = 1; i < roots.count; i++) {
+        roots.close = roots.close || roots.values[i] - roots.values[i - 1] <= SPLIT * scale;
+    }
+    return roots;
 }
 
 /* Parameters of the equations. */
@@ -418,69 +430,81 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+#define ROWS (EQUATIONS + JOINTS)
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, double *step)
 {
     double at[PLACES];
     place(q, at);
     const Jacobian j = jacobian(p, at);
     const Equations f = equations(p, at);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -852,10 +876,10 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
 }
 
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *at, const double *q, const bool *free, Answers *answers)
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
 {
     const Fit fit = measure_at(p, at, q);
-    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+    if (!(!close && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -949,7 +973,7 @@ static bool is_away(double value, double scale)
 /* Chart 1: generic.
  * It runs where px^2 + pz^2 is not zero.
  */
-static void chart_1_1(const Parameters *p, Answers *answers)
+INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->px * p->px, r1 = p->pz * p->pz;
     if (!is_away(r0 + r1, 2.0 * (p->magnitude * p->magnitude))) {
@@ -969,7 +993,7 @@ static void chart_1_1(const Parameters *p, Answers *answers)
         const double c4 = (r17 - 2058841.0) / 2058000.0;
         const double at[PLACES] = {c3, s3, c4, s4};
         const double q[JOINTS] = {angle(at[0], at[1]), angle(at[2], at[3])};
-        finish(p, i0, 2, at, q, NONE_FREE, answers);
+        finish(p, i0, 2, roots0.close, at, q, NONE_FREE, answers);
     }
 }
 

@@ -128,6 +128,13 @@ int nao_legs_nearest(const nao_legs_solution *list, int count, const double *ref
 #define INPUTS NAO_LEGS_INPUTS
 #define JOINTS NAO_LEGS_JOINTS
 #define EQUATIONS 18
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE __attribute__((always_inline)) inline
+#define COLD __attribute__((noinline, cold))
+#else
+#define INLINE
+#define COLD
+#endif
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -138,6 +145,8 @@ int nao_legs_nearest(const nao_legs_solution *list, int count, const double *ref
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
+/* So many steps in a row that do not halve the miss are the last. */
+#define PATIENCE 3
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -175,27 +184,17 @@ const double nao_legs_limits[2 * JOINTS] = {-1.145285055158679, 0.74071773454639
 
 /* The highest degree of a polynomial. */
 #define DEGREE 2
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-#define NEGLIGIBLE 1e-290
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 #define TANGENT 1e-10
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-#define ROUNDING (2.0 * DBL_EPSILON)
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -205,87 +204,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -327,15 +262,14 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 #define TIP 18
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double left_c1 = cos(q[0]), left_s1 = sin(q[0]), left_c2 = cos(q[1]), left_s2 = sin(q[1]);
-    const double left_c3 = cos(q[2]), left_s3 = sin(q[2]), left_c4 = cos(q[3]), left_s4 = sin(q[3]);
-    const double left_c5 = cos(q[4]), left_s5 = sin(q[4]), left_c6 = cos(q[5]), left_s6 = sin(q[5]);
-    const double right_c2 = cos(q[6]), right_s2 = sin(q[6]), right_c3 = cos(q[7]), right_s3 = sin(q[7]);
-    const double right_c4 = cos(q[8]), right_s4 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
-    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
+    const double left_c1 = at[0], left_s1 = at[1], left_c2 = at[2], left_s2 = at[3], left_c3 = at[4];
+    const double left_s3 = at[5], left_c4 = at[6], left_s4 = at[7], left_c5 = at[8], left_s5 = at[9];
+    const double left_c6 = at[10], left_s6 = at[11], right_c2 = at[12], right_s2 = at[13], right_c3 = at[14];
+    const double right_s3 = at[15], right_c4 = at[16], right_s4 = at[17], right_c5 = at[18], right_s5 = at[19];
+    const double right_c6 = at[20], right_s6 = at[21], r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
     const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4, r6 = left_c2 * r4;
     const double r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = left_c1 * left_s3;
     const double r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12, r20 = left_c3 * r14;
@@ -397,16 +331,50 @@ static void tip(const double *q, double *reached)
     reached[17] = 0.5 * r214 - r215;
 }
 
+/* What the equations read of joints: 22 numbers. */
+#define PLACES 22
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]), cos(q[6]), sin(q[6]), cos(q[7]), sin(q[7]), cos(q[8]), sin(q[8]), cos(q[9]), sin(q[9]), cos(q[10]), sin(q[10]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+    at[10] = cos(q[5]);
+    at[11] = sin(q[5]);
+    at[12] = cos(q[6]);
+    at[13] = sin(q[6]);
+    at[14] = cos(q[7]);
+    at[15] = sin(q[7]);
+    at[16] = cos(q[8]);
+    at[17] = sin(q[8]);
+    at[18] = cos(q[9]);
+    at[19] = sin(q[9]);
+    at[20] = cos(q[10]);
+    at[21] = sin(q[10]);
+}
+
+#define SIZES 2
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->left_px,
@@ -430,22 +398,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             0.3467054146165801,
-            0.3467054146165801,
-            0.3467054146165801,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            0.3467054146165801,
-            0.3467054146165801,
-            0.3467054146165801,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -457,15 +409,14 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double left_c1 = cos(q[0]), left_s1 = sin(q[0]), left_c2 = cos(q[1]), left_s2 = sin(q[1]);
-    const double left_c3 = cos(q[2]), left_s3 = sin(q[2]), left_c4 = cos(q[3]), left_s4 = sin(q[3]);
-    const double left_c5 = cos(q[4]), left_s5 = sin(q[4]), left_c6 = cos(q[5]), left_s6 = sin(q[5]);
-    const double right_c2 = cos(q[6]), right_s2 = sin(q[6]), right_c3 = cos(q[7]), right_s3 = sin(q[7]);
-    const double right_c4 = cos(q[8]), right_s4 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
-    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
+    const double left_c1 = at[0], left_s1 = at[1], left_c2 = at[2], left_s2 = at[3], left_c3 = at[4];
+    const double left_s3 = at[5], left_c4 = at[6], left_s4 = at[7], left_c5 = at[8], left_s5 = at[9];
+    const double left_c6 = at[10], left_s6 = at[11], right_c2 = at[12], right_s2 = at[13], right_c3 = at[14];
+    const double right_s3 = at[15], right_c4 = at[16], right_s4 = at[17], right_c5 = at[18], right_s5 = at[19];
+    const double right_c6 = at[20], right_s6 = at[21], r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
     const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4, r6 = left_c2 * r4;
     const double r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = left_c1 * left_s3;
     const double r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12, r20 = left_c3 * r14;
@@ -615,15 +566,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, DBL_MIN));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -632,16 +588,67 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION
+        && fabs(at[10] * at[10] + at[11] * at[11] - 1.0) < RESOLUTION
+        && fabs(at[12] * at[12] + at[13] * at[13] - 1.0) < RESOLUTION
+        && fabs(at[14] * at[14] + at[15] * at[15] - 1.0) < RESOLUTION
+        && fabs(at[16] * at[16] + at[17] * at[17] - 1.0) < RESOLUTION
+        && fabs(at[18] * at[18] + at[19] * at[19] - 1.0) < RESOLUTION
+        && fabs(at[20] * at[20] + at[21] * at[21] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+#define REST 3.061616997868383e-17
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -652,35 +659,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+#define ROWS (EQUATIONS + JOINTS)
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -697,32 +718,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -844,22 +865,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -905,7 +931,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -954,6 +980,22 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[10] - b[10])) <= tolerance
+        && fabs(shorter(a[9] - b[9])) <= tolerance
+        && fabs(shorter(a[7] - b[7])) <= tolerance
+        && fabs(shorter(a[8] - b[8])) <= tolerance
+        && fabs(shorter(a[6] - b[6])) <= tolerance
+        && fabs(shorter(a[2] - b[2])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[3] - b[3])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -972,9 +1014,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -1077,10 +1116,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1220,7 +1262,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1252,6 +1294,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == NAO_LEGS_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1347,6 +1426,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double left_c4;
     double left_s4;
@@ -1374,9 +1455,20 @@ typedef struct {
     double right_s5;
     double right_c6;
     double right_s6;
+    double q0;
+    double q1;
+    double q2;
+    double q3;
+    double q4;
+    double q5;
+    double q6;
+    double q7;
+    double q8;
+    double q9;
+    double q10;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1392,26 +1484,50 @@ static const double SAMPLES_1[8][2] = {
 
 /* Chart 1 of block 13: generic.
  */
-static void chart_13_1(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void chart_13_1(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double q[JOINTS] = {
-        angle(known->left_c1, known->left_s1),
-        angle(known->left_c2, known->left_s2),
-        angle(known->left_c3, known->left_s3),
-        angle(known->left_c4, known->left_s4),
-        angle(known->left_c5, known->left_s5),
-        angle(known->left_c6, known->left_s6),
-        angle(known->right_c2, known->right_s2),
-        angle(known->right_c3, known->right_s3),
-        angle(known->right_c4, known->right_s4),
-        angle(known->right_c5, known->right_s5),
-        angle(known->right_c6, known->right_s6),
+    const double at[PLACES] = {
+        known->left_c1,
+        known->left_s1,
+        known->left_c2,
+        known->left_s2,
+        known->left_c3,
+        known->left_s3,
+        known->left_c4,
+        known->left_s4,
+        known->left_c5,
+        known->left_s5,
+        known->left_c6,
+        known->left_s6,
+        known->right_c2,
+        known->right_s2,
+        known->right_c3,
+        known->right_s3,
+        known->right_c4,
+        known->right_s4,
+        known->right_c5,
+        known->right_s5,
+        known->right_c6,
+        known->right_s6,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        known->q2,
+        known->q3,
+        known->q4,
+        known->q5,
+        known->q6,
+        known->q7,
+        known->q8,
+        known->q9,
+        known->q10,
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 13: turn about the ray. */
-static void block_13(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_13(const Parameters *p, const Known *known, Answers *answers)
 {
     chart_13_1(p, known, answers);
 }
@@ -1424,20 +1540,23 @@ typedef struct {
 
 /* Chart 1 of block 12: generic.
  */
-static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
+INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
-    const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38, r43 = sqrt(fmax(r42, 0.0));
-    const double right_c6 = shared->r39 / r43, right_s6 = 0.0 - shared->r38 / r43;
+    const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38, r44 = 1.0 / sqrt(fmax(r42, 0.0));
+    const double right_c6 = shared->r39 * r44, right_s6 = 0.0 - shared->r38 * r44;
+    const double q10 = angle(right_c6, right_s6);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.right_c6 = right_c6;
     next.right_s6 = right_s6;
+    next.q10 = q10;
     block_13(p, &next, answers);
 }
 
 /* Block 12: AnkleRoll. */
-static void block_12(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_12(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r1 = p->right_dz - p->right_dy, r9 = 0.5 * p->right_dy + 0.5 * p->right_dz;
     const double r10 = 0.5 * (known->left_c1 * (p->right_dy - p->right_dz));
@@ -1456,6 +1575,12 @@ static void block_12(const Parameters *p, const Known *known, Answers *answers)
     chart_12_1(p, known, shared, answers);
 }
 
+/* Block 12 behind a chart that hardly ever runs. */
+COLD static void again_12(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_12(p, known, answers);
+}
+
 /* What the charts of block 11 share. */
 typedef struct {
     double r32;
@@ -1465,24 +1590,25 @@ typedef struct {
 /* Chart 1 of block 11: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r34 = shared->r32 * shared->r32, r35 = shared->r33 * shared->r33, r36 = r34 + r35;
-    if (!is_away(r36, 23120000.0)) {
+    const double r34 = shared->r32 * shared->r32, r35 = shared->r33 * shared->r33;
+    if (!is_away(r34 + r35, 23120000.0)) {
         return;
     }
     const double r40 = known->right_f3 * (48.08326112068523 * known->right_f2);
-    const double choice0_0[3] = {0.0 - r34 - r35, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, r40);
+    const Roots roots0 = square_roots(0.0 - r34 - r35, r40);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w5 = roots0.values[i0], r42 = right_w5 * shared->r32 / r36;
-        const double r44 = right_w5 * shared->r33 / r36, r48 = sqrt(fmax(r44 * r44 + r42 * r42, 0.0));
-        const double right_c5 = 0.0 - r44 / r48, right_s5 = r42 / r48;
+        const double right_w5 = roots0.values[i0], r41 = right_w5 * shared->r32, r42 = right_w5 * shared->r33;
+        const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r41 * r41, 0.0)), right_c5 = 0.0 - r42 * r47;
+        const double right_s5 = r41 * r47, q9 = angle(right_c5, right_s5);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.right_c5 = right_c5;
         next.right_s5 = right_s5;
+        next.q9 = q9;
         block_12(p, &next, answers);
     }
 }
@@ -1498,19 +1624,21 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1];
+        const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1], q9 = angle(right_c5, right_s5);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[9] = true;
         next.right_c5 = right_c5;
         next.right_s5 = right_s5;
-        block_12(p, &next, answers);
+        next.q9 = q9;
+        again_12(p, &next, answers);
     }
 }
 
 /* Block 11: AnklePitch. */
-static void block_11(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_11(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r1 = p->right_dz - p->right_dy, r9 = 0.5 * p->right_dy + 0.5 * p->right_dz;
     const double r10 = 0.5 * (known->left_c1 * (p->right_dy - p->right_dz));
@@ -1528,6 +1656,12 @@ static void block_11(const Parameters *p, const Known *known, Answers *answers)
     chart_11_2(p, known, shared, answers);
 }
 
+/* Block 11 behind a chart that hardly ever runs. */
+COLD static void again_11(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_11(p, known, answers);
+}
+
 /* What the charts of block 10 share. */
 typedef struct {
     double r36;
@@ -1541,21 +1675,24 @@ typedef struct {
 /* Chart 1 of block 10: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
+INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r50 = shared->r36 * shared->r36 + shared->r38 * shared->r38;
     if (!is_away(r50, 7755.348199999999)) {
         return;
     }
-    const double right_f3 = 1.0, r53 = shared->r38 * shared->r40 + shared->r36 * shared->r41, r54 = r53 / r50;
-    const double r57 = shared->r38 * shared->r41 - shared->r36 * shared->r40, r58 = r57 / r50;
-    const double r62 = sqrt(fmax(r58 * r58 + r54 * r54, 0.0)), right_c3 = r58 / r62, right_s3 = 0.0 - r54 / r62;
+    const double right_f3 = 1.0, r53 = shared->r38 * shared->r40 + shared->r36 * shared->r41;
+    const double r56 = shared->r38 * shared->r41 - shared->r36 * shared->r40;
+    const double r61 = 1.0 / sqrt(fmax(r56 * r56 + r53 * r53, 0.0)), right_c3 = r56 * r61;
+    const double right_s3 = 0.0 - r53 * r61, q7 = angle(right_c3, right_s3);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.right_c3 = right_c3;
     next.right_s3 = right_s3;
     next.right_f3 = right_f3;
+    next.q7 = q7;
     block_11(p, &next, answers);
 }
 
@@ -1571,20 +1708,22 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
     }
     const double right_f3 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c3 = SAMPLES_1[i0][0], right_s3 = SAMPLES_1[i0][1];
+        const double right_c3 = SAMPLES_1[i0][0], right_s3 = SAMPLES_1[i0][1], q7 = angle(right_c3, right_s3);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[7] = true;
         next.right_c3 = right_c3;
         next.right_s3 = right_s3;
         next.right_f3 = right_f3;
-        block_11(p, &next, answers);
+        next.q7 = q7;
+        again_11(p, &next, answers);
     }
 }
 
 /* Block 10: HipPitch. */
-static void block_10(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r1 = p->right_px + 0.04519 * p->right_dx;
     const double r5 = p->right_pz + 0.04519 * p->right_dz - p->right_py;
@@ -1610,27 +1749,27 @@ typedef struct {
 
 /* Chart 1 of block 9: generic.
  */
-static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
-    const double choice0_0[3] = {r30, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->right_f2);
+    const Roots roots0 = square_roots(r30, 1.4142135623730951 * known->right_f2);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w4 = roots0.values[i0], r33 = 0.02058 * right_w4 / 0.00042353640000000005;
-        const double r35 = 0.02058 * shared->r28 / 0.00042353640000000005;
-        const double r39 = sqrt(fmax(r35 * r35 + r33 * r33, 0.0)), right_c4 = 0.0 - r35 / r39;
-        const double right_s4 = r33 / r39;
+        const double right_w4 = roots0.values[i0], r32 = 0.02058 * right_w4, r33 = 0.02058 * shared->r28;
+        const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r32 * r32, 0.0)), right_c4 = 0.0 - r33 * r38;
+        const double right_s4 = r32 * r38, q8 = angle(right_c4, right_s4);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
+        next.close = known->close || roots0.close;
         next.right_c4 = right_c4;
         next.right_s4 = right_s4;
+        next.q8 = q8;
         block_10(p, &next, answers);
     }
 }
 
 /* Block 9: KneePitch. */
-static void block_9(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_9(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->right_px * (p->right_px + 0.04519 * p->right_dx);
     const double r5 = p->right_py * (p->right_py + 0.04519 * p->right_dy);
@@ -1644,6 +1783,12 @@ static void block_9(const Parameters *p, const Known *known, Answers *answers)
     chart_9_1(p, known, shared, answers);
 }
 
+/* Block 9 behind a chart that hardly ever runs. */
+COLD static void again_9(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_9(p, known, answers);
+}
+
 /* What the charts of block 8 share. */
 typedef struct {
     double r22;
@@ -1655,26 +1800,27 @@ typedef struct {
 /* Chart 1 of block 8: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r31 = shared->r22 * shared->r22, r32 = shared->r25 * shared->r25, r33 = r31 + r32;
+    const double r31 = shared->r22 * shared->r22, r32 = shared->r25 * shared->r25;
     const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
-    if (!is_away(r33, 10000.0 * r36)) {
+    if (!is_away(r31 + r32, 10000.0 * r36)) {
         return;
     }
     const double right_f2 = 1.0;
-    const double choice0_0[3] = {0.0 - r31 - r32, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r36, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r31 - r32, sqrt(fmax(r36, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w2 = roots0.values[i0], r42 = right_w2 * shared->r22 / r33;
-        const double r44 = right_w2 * shared->r25 / r33, r48 = sqrt(fmax(r44 * r44 + r42 * r42, 0.0));
-        const double right_c2 = r44 / r48, right_s2 = 0.0 - r42 / r48;
+        const double right_w2 = roots0.values[i0], r41 = right_w2 * shared->r22, r42 = right_w2 * shared->r25;
+        const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r41 * r41, 0.0)), right_c2 = r42 * r47;
+        const double right_s2 = 0.0 - r41 * r47, q6 = angle(right_c2, right_s2);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.right_c2 = right_c2;
         next.right_s2 = right_s2;
         next.right_f2 = right_f2;
+        next.q6 = q6;
         block_9(p, &next, answers);
     }
 }
@@ -1692,15 +1838,17 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
     }
     const double right_f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c2 = SAMPLES_1[i0][0], right_s2 = SAMPLES_1[i0][1];
+        const double right_c2 = SAMPLES_1[i0][0], right_s2 = SAMPLES_1[i0][1], q6 = angle(right_c2, right_s2);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[6] = true;
         next.right_c2 = right_c2;
         next.right_s2 = right_s2;
         next.right_f2 = right_f2;
-        block_9(p, &next, answers);
+        next.q6 = q6;
+        again_9(p, &next, answers);
     }
 }
 
@@ -1726,6 +1874,7 @@ static void chart_7_1(const Parameters *p, const Known *known, Answers *answers)
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     block_8(p, &next, answers);
 }
 
@@ -1743,6 +1892,7 @@ static void chart_7_2(const Parameters *p, const Known *known, Answers *answers)
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     block_8(p, &next, answers);
 }
 
@@ -1760,6 +1910,7 @@ static void chart_7_3(const Parameters *p, const Known *known, Answers *answers)
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     block_8(p, &next, answers);
 }
 
@@ -1771,7 +1922,7 @@ static double claim_7_3(const Parameters *p)
 }
 
 /* Block 7: directions across the ray. */
-static void block_7(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
     const double claims0[] = { claim_7_1(p), claim_7_2(p), claim_7_3(p) };
     switch (greatest(claims0, 3)) {
@@ -1797,20 +1948,23 @@ typedef struct {
 
 /* Chart 1 of block 6: generic.
  */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r64 = 0.1 * shared->r59 / 0.010000000000000002, r66 = 0.1 * shared->r62 / 0.010000000000000002;
-    const double r70 = sqrt(fmax(r66 * r66 + r64 * r64, 0.0)), left_c3 = r66 / r70, left_s3 = 0.0 - r64 / r70;
+    const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
+    const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
+    const double left_s3 = 0.0 - r63 * r69, q2 = angle(left_c3, left_s3);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.left_c3 = left_c3;
     next.left_s3 = left_s3;
+    next.q2 = q2;
     block_7(p, &next, answers);
 }
 
 /* Block 6: HipPitch. */
-static void block_6(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = known->left_c5 * known->left_s6, r5 = 0.1029 * (known->left_c5 * known->left_c6) + 0.04519;
     const double r14 = p->left_px - 0.1029 * (p->left_r11 * known->left_s5);
@@ -1841,20 +1995,22 @@ typedef struct {
 
 /* Chart 1 of block 5: generic.
  */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r33 = sqrt(fmax(r32, 0.0));
-    const double left_c2 = shared->r29 / r33, left_s2 = shared->r26 / r33;
+    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
+    const double left_c2 = shared->r29 * r34, left_s2 = shared->r26 * r34, q1 = angle(left_c2, left_s2);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.left_c2 = left_c2;
     next.left_s2 = left_s2;
+    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
 /* Block 5: HipRoll. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->left_r22 * known->left_c6, r3 = p->left_r23 * known->left_s6;
     const double r4 = p->left_r32 * known->left_c6, r5 = p->left_r33 * known->left_s6;
@@ -1868,6 +2024,12 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     chart_5_1(p, known, shared, answers);
 }
 
+/* Block 5 behind a chart that hardly ever runs. */
+COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_5(p, known, answers);
+}
+
 /* What the charts of block 4 share. */
 typedef struct {
     double r6;
@@ -1877,24 +2039,25 @@ typedef struct {
 /* Chart 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10, r13 = r11 + r12;
-    if (!is_away(r13, 119999.99999999999)) {
+    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10;
+    if (!is_away(r11 + r12, 119999.99999999999)) {
         return;
     }
     const double r17 = known->left_f5 * (3.4641016151377544 * known->left_f6);
-    const double choice0_0[3] = {0.0 - r11 - r12, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, r17);
+    const Roots roots0 = square_roots(0.0 - r11 - r12, r17);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r19 = left_w1 * shared->r6 / r13;
-        const double r21 = left_w1 * shared->r10 / r13, r25 = sqrt(fmax(r21 * r21 + r19 * r19, 0.0));
-        const double left_c1 = 0.0 - r21 / r25, left_s1 = r19 / r25;
+        const double left_w1 = roots0.values[i0], r18 = left_w1 * shared->r6, r19 = left_w1 * shared->r10;
+        const double r24 = 1.0 / sqrt(fmax(r19 * r19 + r18 * r18, 0.0)), left_c1 = 0.0 - r19 * r24;
+        const double left_s1 = r18 * r24, q0 = angle(left_c1, left_s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
+        next.q0 = q0;
         block_5(p, &next, answers);
     }
 }
@@ -1910,19 +2073,21 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
+        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1], q0 = angle(left_c1, left_s1);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[0] = true;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        block_5(p, &next, answers);
+        next.q0 = q0;
+        again_5(p, &next, answers);
     }
 }
 
 /* Block 4: HipYawPitch. */
-static void block_4(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r6 = p->left_r13 * known->left_s6 - p->left_r12 * known->left_c6;
     const double r7 = p->left_r32 * known->left_c6 - p->left_r33 * known->left_s6;
@@ -1932,6 +2097,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
+}
+
+/* Block 4 behind a chart that hardly ever runs. */
+COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_4(p, known, answers);
 }
 
 /* What the charts of block 3 share. */
@@ -1949,7 +2120,7 @@ typedef struct {
 /* Chart 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
@@ -1957,15 +2128,17 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     const double left_f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
-    const double r97 = r96 / r88, r100 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
-    const double r101 = r100 / r88, r105 = sqrt(fmax(r101 * r101 + r97 * r97, 0.0)), left_c5 = r101 / r105;
-    const double left_s5 = r97 / r105;
+    const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
+    const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104, left_s5 = r96 * r104;
+    const double q4 = angle(left_c5, left_s5);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.left_c5 = left_c5;
     next.left_s5 = left_s5;
     next.left_f5 = left_f5;
+    next.q4 = q4;
     block_4(p, &next, answers);
 }
 
@@ -1982,20 +2155,22 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double left_f5 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1];
+        const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1], q4 = angle(left_c5, left_s5);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[4] = true;
         next.left_c5 = left_c5;
         next.left_s5 = left_s5;
         next.left_f5 = left_f5;
-        block_4(p, &next, answers);
+        next.q4 = q4;
+        again_4(p, &next, answers);
     }
 }
 
 /* Block 3: AnklePitch. */
-static void block_3(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->left_r22 * known->left_s6, r3 = p->left_r23 * known->left_c6;
     const double r4 = p->left_r32 * known->left_s6, r5 = p->left_r33 * known->left_c6;
@@ -2024,6 +2199,12 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     chart_3_2(p, known, shared, answers);
 }
 
+/* Block 3 behind a chart that hardly ever runs. */
+COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_3(p, known, answers);
+}
+
 /* What the charts of block 2 share. */
 typedef struct {
     double r11;
@@ -2035,26 +2216,27 @@ typedef struct {
 /* Chart 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18, r26 = r24 + r25;
+    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    if (!is_away(r26, 10000.0 * r29)) {
+    if (!is_away(r24 + r25, 10000.0 * r29)) {
         return;
     }
     const double left_f6 = 1.0;
-    const double choice0_0[3] = {0.0 - r24 - r25, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r29, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(fmax(r29, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w6 = roots0.values[i0], r35 = left_w6 * shared->r11 / r26;
-        const double r37 = left_w6 * shared->r18 / r26, r41 = sqrt(fmax(r37 * r37 + r35 * r35, 0.0));
-        const double left_c6 = 0.0 - r37 / r41, left_s6 = r35 / r41;
+        const double left_w6 = roots0.values[i0], r34 = left_w6 * shared->r11, r35 = left_w6 * shared->r18;
+        const double r40 = 1.0 / sqrt(fmax(r35 * r35 + r34 * r34, 0.0)), left_c6 = 0.0 - r35 * r40;
+        const double left_s6 = r34 * r40, q5 = angle(left_c6, left_s6);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c6 = left_c6;
         next.left_s6 = left_s6;
         next.left_f6 = left_f6;
+        next.q5 = q5;
         block_3(p, &next, answers);
     }
 }
@@ -2072,20 +2254,22 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double left_f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
+        const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1], q5 = angle(left_c6, left_s6);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[5] = true;
         next.left_c6 = left_c6;
         next.left_s6 = left_s6;
         next.left_f6 = left_f6;
-        block_3(p, &next, answers);
+        next.q5 = q5;
+        again_3(p, &next, answers);
     }
 }
 
 /* Block 2: AnkleRoll. */
-static void block_2(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r9 = 0.05 * p->left_r22 - 0.085 * p->left_r32 - p->left_px * p->left_r12;
     const double r11 = p->left_pz * p->left_r32 - (r9 - p->left_py * p->left_r22);
@@ -2105,21 +2289,21 @@ typedef struct {
 
 /* Chart 1 of block 1: generic.
  */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
-    const double choice0_0[3] = {r30, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
+    const Roots roots0 = square_roots(r30, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0], r32 = 0.02058 * left_w4 / 0.00042353640000000005;
-        const double r34 = 0.02058 * shared->r28 / 0.00042353640000000005;
-        const double r38 = sqrt(fmax(r34 * r34 + r32 * r32, 0.0)), left_c4 = 0.0 - r34 / r38;
-        const double left_s4 = r32 / r38;
+        const double left_w4 = roots0.values[i0], r31 = 0.02058 * left_w4, r32 = 0.02058 * shared->r28;
+        const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), left_c4 = 0.0 - r32 * r37;
+        const double left_s4 = r31 * r37, q3 = angle(left_c4, left_s4);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
+        next.close = roots0.close;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
+        next.q3 = q3;
         block_2(p, &next, answers);
     }
 }
@@ -2220,8 +2404,9 @@ int nao_legs_solve(const double *given, nao_legs_solution *out)
 
 void nao_legs_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];
@@ -2249,7 +2434,9 @@ double nao_legs_residual(const double *given, const double *q)
         return NAN;
     }
     const Parameters p = parameters(target);
-    const Equations f = equations(&p, q);
+    double at[PLACES];
+    place(q, at);
+    const Equations f = equations(&p, at);
     double size = 0.0;
     for (size_t i = 0; i < EQUATIONS; i++) {
         if (isnan(f.value[i])) {

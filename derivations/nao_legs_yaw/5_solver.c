@@ -139,6 +139,13 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define INPUTS NAO_LEGS_YAW_INPUTS
 #define JOINTS NAO_LEGS_YAW_JOINTS
 #define EQUATIONS 28
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE __attribute__((always_inline)) inline
+#define COLD __attribute__((noinline, cold))
+#else
+#define INLINE
+#define COLD
+#endif
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -149,6 +156,8 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
+/* So many steps in a row that do not halve the miss are the last. */
+#define PATIENCE 3
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -200,15 +209,9 @@ const double nao_legs_yaw_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINITY, 
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -217,6 +220,33 @@ static void push(Roots *roots, double x)
         roots->count++;
     }
 }
+
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
+{
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+        return roots;
+    }
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
+        return roots;
+    }
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
+    return roots;
+}
+
+/* A polynomial with coefficients of magnitude one and less, constant term first. */
+typedef struct {
+    double a[DEGREE + 1];
+    size_t degree;
+    /* The unknown's typical size. */
+    double scale;
+} Polynomial;
 
 static double largest(const double *coefficients, size_t length)
 {
@@ -262,7 +292,7 @@ static bool polynomial(const double *coefficients, size_t length, Polynomial *re
 
 static Roots linear_root(const Polynomial *p)
 {
-    Roots roots = {{0.0}, 0};
+    Roots roots = {{0.0}, 0, false};
     if (p->degree == 1) {
         push(&roots, -p->a[0] / p->a[1]);
     }
@@ -272,7 +302,7 @@ static Roots linear_root(const Polynomial *p)
 /* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
 static Roots quadratic_roots(const Polynomial *p)
 {
-    Roots roots = {{0.0}, 0};
+    Roots roots = {{0.0}, 0, false};
     const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
     const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
     if (discriminant < -TANGENT * fmax(size, typical * typical)) {
@@ -417,7 +447,7 @@ static double root_between(const Polynomial *p, double low, double high)
  * and the critical points where p touches the axis. */
 static Roots roots_between(const Polynomial *p, const Roots *critical, double bound)
 {
-    Roots roots = {{0.0}, 0};
+    Roots roots = {{0.0}, 0, false};
     double low = -bound, low_sign = sign(p, low);
     bool touched = false;
     for (size_t i = 0; i <= critical->count; i++) {
@@ -437,11 +467,11 @@ static Roots roots_between(const Polynomial *p, const Roots *critical, double bo
 
 /* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
  * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
+static Roots all_real_roots(const double *coefficients, size_t length, double scale)
 {
     Polynomial p;
     if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
+        const Roots none = {{0.0}, 0, false};
         return none;
     }
     p.scale = scale;
@@ -455,6 +485,16 @@ static Roots real_roots(const double *coefficients, size_t length, double scale)
         current = derivative(&p, order);
         const Roots critical = roots;
         roots = roots_between(&current, &critical, bound);
+    }
+    return roots;
+}
+
+static Roots real_roots(const double *coefficients, size_t length, double scale)
+{
+    Roots roots = all_real_roots(coefficients, length, scale);
+    roots.close = roots.count > 0 && roots.count % 2 == length % 2;
+    for (size_t i = 1; i < roots.count; i++) {
+        roots.close = roots.close || roots.values[i] - roots.values[i - 1] <= SPLIT * scale;
     }
     return roots;
 }
@@ -511,19 +551,18 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 #define TIP 28
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double left_c1 = cos(q[0]), left_s1 = sin(q[0]), left_c2_ = cos(q[1]), left_s2_ = sin(q[1]);
-    const double left_c3_ = cos(q[2]), left_s3_ = sin(q[2]), left_c4 = cos(q[3]), left_s4 = sin(q[3]);
-    const double left_c5 = cos(q[4]), left_s5 = sin(q[4]), left_c6 = cos(q[5]), left_s6 = sin(q[5]);
-    const double left_c7 = cos(q[6]), left_s7 = sin(q[6]), left_c8 = cos(q[7]), left_s8 = sin(q[7]);
-    const double left_c9 = cos(q[8]), left_s9 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
-    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), right_c7 = cos(q[11]), right_s7 = sin(q[11]);
-    const double right_c8 = cos(q[12]), right_s8 = sin(q[12]), right_c9 = cos(q[13]), right_s9 = sin(q[13]);
-    const double r4 = left_c1 * left_c2_, r5 = left_s1 * left_c2_, r6 = left_c1 * left_s2_;
-    const double r7 = left_s1 * left_s2_, r8 = left_s1 * left_c3_, r9 = left_s3_ * r6, r10 = left_c1 * left_c3_;
-    const double r11 = left_s3_ * r7, r12 = left_c2_ * left_s3_, r13 = left_s1 * left_s3_, r14 = left_c3_ * r6;
+    const double left_c1 = at[0], left_s1 = at[1], left_c2_ = at[2], left_s2_ = at[3], left_c3_ = at[4];
+    const double left_s3_ = at[5], left_c4 = at[6], left_s4 = at[7], left_c5 = at[8], left_s5 = at[9];
+    const double left_c6 = at[10], left_s6 = at[11], left_c7 = at[12], left_s7 = at[13], left_c8 = at[14];
+    const double left_s8 = at[15], left_c9 = at[16], left_s9 = at[17], right_c5 = at[18], right_s5 = at[19];
+    const double right_c6 = at[20], right_s6 = at[21], right_c7 = at[22], right_s7 = at[23], right_c8 = at[24];
+    const double right_s8 = at[25], right_c9 = at[26], right_s9 = at[27], r4 = left_c1 * left_c2_;
+    const double r5 = left_s1 * left_c2_, r6 = left_c1 * left_s2_, r7 = left_s1 * left_s2_;
+    const double r8 = left_s1 * left_c3_, r9 = left_s3_ * r6, r10 = left_c1 * left_c3_, r11 = left_s3_ * r7;
+    const double r12 = left_c2_ * left_s3_, r13 = left_s1 * left_s3_, r14 = left_c3_ * r6;
     const double r15 = left_c1 * left_s3_, r16 = left_c3_ * r7, r17 = left_c2_ * left_c3_, r18 = left_c4 * r4;
     const double r19 = r8 - r9, r21 = r13 + r14, r23 = left_c4 * r5, r24 = r10 + r11, r26 = r15 - r16;
     const double r28 = left_s2_ * left_c4, r32 = left_c4 + 1.0, r34 = left_c4 - 1.0;
@@ -613,16 +652,56 @@ static void tip(const double *q, double *reached)
     reached[27] = 0.0 - (r341 + r342);
 }
 
+/* What the equations read of joints: 28 numbers. */
+#define PLACES 28
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]), cos(q[6]), sin(q[6]), cos(q[7]), sin(q[7]), cos(q[8]), sin(q[8]), cos(q[9]), sin(q[9]), cos(q[10]), sin(q[10]), cos(q[11]), sin(q[11]), cos(q[12]), sin(q[12]), cos(q[13]), sin(q[13]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+    at[10] = cos(q[5]);
+    at[11] = sin(q[5]);
+    at[12] = cos(q[6]);
+    at[13] = sin(q[6]);
+    at[14] = cos(q[7]);
+    at[15] = sin(q[7]);
+    at[16] = cos(q[8]);
+    at[17] = sin(q[8]);
+    at[18] = cos(q[9]);
+    at[19] = sin(q[9]);
+    at[20] = cos(q[10]);
+    at[21] = sin(q[10]);
+    at[22] = cos(q[11]);
+    at[23] = sin(q[11]);
+    at[24] = cos(q[12]);
+    at[25] = sin(q[12]);
+    at[26] = cos(q[13]);
+    at[27] = sin(q[13]);
+}
+
+#define SIZES 2
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->left_c2,
@@ -656,33 +735,7 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             1.0,
-            1.0,
-            1.0,
-            1.0,
             0.3467054146165801,
-            0.3467054146165801,
-            0.3467054146165801,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            0.3467054146165801,
-            0.3467054146165801,
-            0.3467054146165801,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
         },
     };
     return result;
@@ -693,19 +746,18 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double left_c1 = cos(q[0]), left_s1 = sin(q[0]), left_c2_ = cos(q[1]), left_s2_ = sin(q[1]);
-    const double left_c3_ = cos(q[2]), left_s3_ = sin(q[2]), left_c4 = cos(q[3]), left_s4 = sin(q[3]);
-    const double left_c5 = cos(q[4]), left_s5 = sin(q[4]), left_c6 = cos(q[5]), left_s6 = sin(q[5]);
-    const double left_c7 = cos(q[6]), left_s7 = sin(q[6]), left_c8 = cos(q[7]), left_s8 = sin(q[7]);
-    const double left_c9 = cos(q[8]), left_s9 = sin(q[8]), right_c5 = cos(q[9]), right_s5 = sin(q[9]);
-    const double right_c6 = cos(q[10]), right_s6 = sin(q[10]), right_c7 = cos(q[11]), right_s7 = sin(q[11]);
-    const double right_c8 = cos(q[12]), right_s8 = sin(q[12]), right_c9 = cos(q[13]), right_s9 = sin(q[13]);
-    const double r4 = left_c1 * left_c2_, r5 = left_s1 * left_c2_, r6 = left_c1 * left_s2_;
-    const double r7 = left_s1 * left_s2_, r8 = left_s1 * left_c3_, r9 = left_s3_ * r6, r10 = left_c1 * left_c3_;
-    const double r11 = left_s3_ * r7, r12 = left_c2_ * left_s3_, r13 = left_s1 * left_s3_, r14 = left_c3_ * r6;
+    const double left_c1 = at[0], left_s1 = at[1], left_c2_ = at[2], left_s2_ = at[3], left_c3_ = at[4];
+    const double left_s3_ = at[5], left_c4 = at[6], left_s4 = at[7], left_c5 = at[8], left_s5 = at[9];
+    const double left_c6 = at[10], left_s6 = at[11], left_c7 = at[12], left_s7 = at[13], left_c8 = at[14];
+    const double left_s8 = at[15], left_c9 = at[16], left_s9 = at[17], right_c5 = at[18], right_s5 = at[19];
+    const double right_c6 = at[20], right_s6 = at[21], right_c7 = at[22], right_s7 = at[23], right_c8 = at[24];
+    const double right_s8 = at[25], right_c9 = at[26], right_s9 = at[27], r4 = left_c1 * left_c2_;
+    const double r5 = left_s1 * left_c2_, r6 = left_c1 * left_s2_, r7 = left_s1 * left_s2_;
+    const double r8 = left_s1 * left_c3_, r9 = left_s3_ * r6, r10 = left_c1 * left_c3_, r11 = left_s3_ * r7;
+    const double r12 = left_c2_ * left_s3_, r13 = left_s1 * left_s3_, r14 = left_c3_ * r6;
     const double r15 = left_c1 * left_s3_, r16 = left_c3_ * r7, r17 = left_c2_ * left_c3_, r18 = left_c4 * r4;
     const double r19 = r8 - r9, r21 = r13 + r14, r23 = left_c4 * r5, r24 = r10 + r11, r26 = r15 - r16;
     const double r28 = left_s2_ * left_c4, r32 = left_c4 + 1.0, r34 = left_c4 - 1.0;
@@ -857,15 +909,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, DBL_MIN));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -874,16 +931,70 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION
+        && fabs(at[10] * at[10] + at[11] * at[11] - 1.0) < RESOLUTION
+        && fabs(at[12] * at[12] + at[13] * at[13] - 1.0) < RESOLUTION
+        && fabs(at[14] * at[14] + at[15] * at[15] - 1.0) < RESOLUTION
+        && fabs(at[16] * at[16] + at[17] * at[17] - 1.0) < RESOLUTION
+        && fabs(at[18] * at[18] + at[19] * at[19] - 1.0) < RESOLUTION
+        && fabs(at[20] * at[20] + at[21] * at[21] - 1.0) < RESOLUTION
+        && fabs(at[22] * at[22] + at[23] * at[23] - 1.0) < RESOLUTION
+        && fabs(at[24] * at[24] + at[25] * at[25] - 1.0) < RESOLUTION
+        && fabs(at[26] * at[26] + at[27] * at[27] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+#define REST 3.061616997868383e-17
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -894,35 +1005,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+#define ROWS (EQUATIONS + JOINTS)
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -939,32 +1064,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -1092,22 +1217,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -1159,7 +1289,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -1214,6 +1344,25 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[10] - b[10])) <= tolerance
+        && fabs(shorter(a[9] - b[9])) <= tolerance
+        && fabs(shorter(a[12] - b[12])) <= tolerance
+        && fabs(shorter(a[13] - b[13])) <= tolerance
+        && fabs(shorter(a[11] - b[11])) <= tolerance
+        && fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[7] - b[7])) <= tolerance
+        && fabs(shorter(a[8] - b[8])) <= tolerance
+        && fabs(shorter(a[6] - b[6])) <= tolerance
+        && fabs(shorter(a[3] - b[3])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance
+        && fabs(shorter(a[2] - b[2])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -1232,9 +1381,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -1337,10 +1483,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1480,7 +1629,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1512,6 +1661,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == NAO_LEGS_YAW_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Insertion sort by branch. */
@@ -1558,6 +1744,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double left_c2_;
     double left_s2_;
@@ -1585,9 +1773,22 @@ typedef struct {
     double right_s8;
     double right_c5;
     double right_s5;
+    double q0;
+    double q1;
+    double q2;
+    double q3;
+    double q4;
+    double q5;
+    double q6;
+    double q7;
+    double q8;
+    double q9;
+    double q11;
+    double q12;
+    double q13;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1609,33 +1810,62 @@ typedef struct {
 
 /* Chart 1 of block 14: generic.
  */
-static void chart_14_1(const Parameters *p, const Known *known, const Shared14 *shared, Answers *answers)
+INLINE static void chart_14_1(const Parameters *p, const Known *known, const Shared14 *shared, Answers *answers)
 {
-    const double r100 = 0.1 * shared->r95 / 0.010000000000000002;
-    const double r102 = 0.1 * shared->r98 / 0.010000000000000002;
-    const double r106 = sqrt(fmax(r102 * r102 + r100 * r100, 0.0)), right_c6 = r102 / r106;
-    const double right_s6 = 0.0 - r100 / r106;
-    const double q[JOINTS] = {
-        angle(known->left_c1, known->left_s1),
-        angle(known->left_c2_, known->left_s2_),
-        angle(known->left_c3_, known->left_s3_),
-        angle(known->left_c4, known->left_s4),
-        angle(known->left_c5, known->left_s5),
-        angle(known->left_c6, known->left_s6),
-        angle(known->left_c7, known->left_s7),
-        angle(known->left_c8, known->left_s8),
-        angle(known->left_c9, known->left_s9),
-        angle(known->right_c5, known->right_s5),
-        angle(right_c6, right_s6),
-        angle(known->right_c7, known->right_s7),
-        angle(known->right_c8, known->right_s8),
-        angle(known->right_c9, known->right_s9),
+    const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
+    const double r105 = 1.0 / sqrt(fmax(r100 * r100 + r99 * r99, 0.0)), right_c6 = r100 * r105;
+    const double right_s6 = 0.0 - r99 * r105;
+    const double at[PLACES] = {
+        known->left_c1,
+        known->left_s1,
+        known->left_c2_,
+        known->left_s2_,
+        known->left_c3_,
+        known->left_s3_,
+        known->left_c4,
+        known->left_s4,
+        known->left_c5,
+        known->left_s5,
+        known->left_c6,
+        known->left_s6,
+        known->left_c7,
+        known->left_s7,
+        known->left_c8,
+        known->left_s8,
+        known->left_c9,
+        known->left_s9,
+        known->right_c5,
+        known->right_s5,
+        right_c6,
+        right_s6,
+        known->right_c7,
+        known->right_s7,
+        known->right_c8,
+        known->right_s8,
+        known->right_c9,
+        known->right_s9,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        known->q2,
+        known->q3,
+        known->q4,
+        known->q5,
+        known->q6,
+        known->q7,
+        known->q8,
+        known->q9,
+        angle(at[20], at[21]),
+        known->q11,
+        known->q12,
+        known->q13,
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 14: HipPitch. */
-static void block_14(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_14(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = known->right_c8 * known->right_s9;
     const double r5 = 0.1029 * (known->right_c8 * known->right_c9) + 0.04519;
@@ -1678,20 +1908,22 @@ typedef struct {
 
 /* Chart 1 of block 13: generic.
  */
-static void chart_13_1(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
+INLINE static void chart_13_1(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
 {
-    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r51 = sqrt(fmax(r50, 0.0));
-    const double right_c5 = shared->r47 / r51, right_s5 = shared->r44 / r51;
+    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
+    const double right_c5 = shared->r47 * r52, right_s5 = shared->r44 * r52, q9 = angle(right_c5, right_s5);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.right_c5 = right_c5;
     next.right_s5 = right_s5;
+    next.q9 = q9;
     block_14(p, &next, answers);
 }
 
 /* Block 13: HipRoll. */
-static void block_13(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_13(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r6 = p->right_r12 * known->right_c9 - p->right_r13 * known->right_s9;
     const double r8 = p->right_r22 * known->right_c9 - p->right_r23 * known->right_s9;
@@ -1710,6 +1942,12 @@ static void block_13(const Parameters *p, const Known *known, Answers *answers)
     chart_13_1(p, known, shared, answers);
 }
 
+/* Block 13 behind a chart that hardly ever runs. */
+COLD static void again_13(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_13(p, known, answers);
+}
+
 /* What the charts of block 12 share. */
 typedef struct {
     double r77;
@@ -1722,21 +1960,23 @@ typedef struct {
 /* Chart 1 of block 12: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
+INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
     if (!is_away(r98, 10000.0 * (r99 + r99))) {
         return;
     }
-    const double r105 = shared->r77 * shared->r92 - (0.0 - shared->r89 * shared->r91), r106 = r105 / r98;
-    const double r109 = shared->r77 * shared->r91 - shared->r89 * shared->r92, r110 = r109 / r98;
-    const double r114 = sqrt(fmax(r110 * r110 + r106 * r106, 0.0)), right_c8 = r110 / r114;
-    const double right_s8 = r106 / r114;
+    const double r105 = shared->r77 * shared->r92 - (0.0 - shared->r89 * shared->r91);
+    const double r108 = shared->r77 * shared->r91 - shared->r89 * shared->r92;
+    const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r105 * r105, 0.0)), right_c8 = r108 * r113;
+    const double right_s8 = r105 * r113, q12 = angle(right_c8, right_s8);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.right_c8 = right_c8;
     next.right_s8 = right_s8;
+    next.q12 = q12;
     block_13(p, &next, answers);
 }
 
@@ -1751,19 +1991,21 @@ static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c8 = SAMPLES_1[i0][0], right_s8 = SAMPLES_1[i0][1];
+        const double right_c8 = SAMPLES_1[i0][0], right_s8 = SAMPLES_1[i0][1], q12 = angle(right_c8, right_s8);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[12] = true;
         next.right_c8 = right_c8;
         next.right_s8 = right_s8;
-        block_13(p, &next, answers);
+        next.q12 = q12;
+        again_13(p, &next, answers);
     }
 }
 
 /* Block 12: AnklePitch. */
-static void block_12(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_12(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = known->right_c7 * known->right_s9, r1 = known->right_s7 * known->right_s9;
     const double r2 = known->right_c7 * known->right_c9, r3 = known->right_s7 * known->right_c9;
@@ -1793,6 +2035,12 @@ static void block_12(const Parameters *p, const Known *known, Answers *answers)
     chart_12_2(p, known, shared, answers);
 }
 
+/* Block 12 behind a chart that hardly ever runs. */
+COLD static void again_12(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_12(p, known, answers);
+}
+
 /* What the charts of block 11 share. */
 typedef struct {
     double r57;
@@ -1811,17 +2059,19 @@ typedef struct {
 /* Chart 1 of block 11: generic.
  * It runs where B*E - A*F is not zero.
  */
-static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     if (!is_away(shared->r80 - shared->r78, 10000.0 * shared->r84)) {
         return;
     }
-    const double right_c9 = -0.0, right_s9 = -0.0;
+    const double right_c9 = 0.0, right_s9 = 0.0, q13 = angle(right_c9, right_s9);
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
+    next.close = known->close;
     next.right_c9 = right_c9;
     next.right_s9 = right_s9;
+    next.q13 = q13;
     block_12(p, &next, answers);
 }
 
@@ -1830,23 +2080,24 @@ static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *
  */
 static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68, r88 = r86 + r87;
+    const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68;
     const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r88, 10000.0 * r91))) {
+    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 10000.0 * r91))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r86 - r87, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r91, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r86 - r87, sqrt(fmax(r91, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w9 = roots0.values[i0], r97 = right_w9 * shared->r57 / r88;
-        const double r99 = right_w9 * shared->r68 / r88, r103 = sqrt(fmax(r99 * r99 + r97 * r97, 0.0));
-        const double right_c9 = r99 / r103, right_s9 = r97 / r103;
+        const double right_w9 = roots0.values[i0], r96 = right_w9 * shared->r57, r97 = right_w9 * shared->r68;
+        const double r102 = 1.0 / sqrt(fmax(r97 * r97 + r96 * r96, 0.0)), right_c9 = r97 * r102;
+        const double right_s9 = r96 * r102, q13 = angle(right_c9, right_s9);
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
+        next.close = known->close || roots0.close;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
-        block_12(p, &next, answers);
+        next.q13 = q13;
+        again_12(p, &next, answers);
     }
 }
 
@@ -1862,14 +2113,16 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1];
+        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1], q13 = angle(right_c9, right_s9);
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
+        next.close = known->close;
         next.free[13] = true;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
-        block_12(p, &next, answers);
+        next.q13 = q13;
+        again_12(p, &next, answers);
     }
 }
 
@@ -1878,22 +2131,23 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
  */
 static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72, r88 = r86 + r87;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r88, 27380000.0))) {
+    const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72;
+    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 27380000.0))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r86 - r87, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 52.32590180780452);
+    const Roots roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w9 = roots0.values[i0], r92 = right_w9 * shared->r70 / r88;
-        const double r94 = right_w9 * shared->r72 / r88, r98 = sqrt(fmax(r94 * r94 + r92 * r92, 0.0));
-        const double right_c9 = 0.0 - r94 / r98, right_s9 = r92 / r98;
+        const double right_w9 = roots0.values[i0], r91 = right_w9 * shared->r70, r92 = right_w9 * shared->r72;
+        const double r97 = 1.0 / sqrt(fmax(r92 * r92 + r91 * r91, 0.0)), right_c9 = 0.0 - r92 * r97;
+        const double right_s9 = r91 * r97, q13 = angle(right_c9, right_s9);
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
+        next.close = known->close || roots0.close;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
-        block_12(p, &next, answers);
+        next.q13 = q13;
+        again_12(p, &next, answers);
     }
 }
 
@@ -1908,19 +2162,21 @@ static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1];
+        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1], q13 = angle(right_c9, right_s9);
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
+        next.close = known->close;
         next.free[13] = true;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
-        block_12(p, &next, answers);
+        next.q13 = q13;
+        again_12(p, &next, answers);
     }
 }
 
 /* Block 11: AnkleRoll. */
-static void block_11(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_11(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r14 = p->right_r12 * known->left_c1 + p->right_r22 * known->left_s1;
     const double r16 = p->right_r13 * known->left_c1 + p->right_r23 * known->left_s1;
@@ -1961,27 +2217,27 @@ typedef struct {
 
 /* Chart 1 of block 10: generic.
  */
-static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
+INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
-    const double choice0_0[3] = {r43, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
+    const Roots roots0 = square_roots(r43, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w7 = roots0.values[i0], r45 = 0.02058 * right_w7 / 0.00042353640000000005;
-        const double r47 = 0.02058 * shared->r41 / 0.00042353640000000005;
-        const double r51 = sqrt(fmax(r47 * r47 + r45 * r45, 0.0)), right_c7 = 0.0 - r47 / r51;
-        const double right_s7 = r45 / r51;
+        const double right_w7 = roots0.values[i0], r44 = 0.02058 * right_w7, r45 = 0.02058 * shared->r41;
+        const double r50 = 1.0 / sqrt(fmax(r45 * r45 + r44 * r44, 0.0)), right_c7 = 0.0 - r45 * r50;
+        const double right_s7 = r44 * r50, q11 = angle(right_c7, right_s7);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
+        next.close = known->close || roots0.close;
         next.right_c7 = right_c7;
         next.right_s7 = right_s7;
+        next.q11 = q11;
         block_11(p, &next, answers);
     }
 }
 
 /* Block 10: KneePitch. */
-static void block_10(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r1 = p->right_px + 0.04519 * p->right_r13, r4 = p->right_py + 0.04519 * p->right_r23;
     const double r7 = p->right_pz + 0.04519 * p->right_r33;
@@ -2006,22 +2262,23 @@ typedef struct {
 
 /* Chart 1 of block 9: generic.
  */
-static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
-    const double r100 = 0.1 * shared->r95 / 0.010000000000000002;
-    const double r102 = 0.1 * shared->r98 / 0.010000000000000002;
-    const double r106 = sqrt(fmax(r102 * r102 + r100 * r100, 0.0)), left_c6 = r102 / r106;
-    const double left_s6 = 0.0 - r100 / r106;
+    const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
+    const double r105 = 1.0 / sqrt(fmax(r100 * r100 + r99 * r99, 0.0)), left_c6 = r100 * r105;
+    const double left_s6 = 0.0 - r99 * r105, q5 = angle(left_c6, left_s6);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.left_c6 = left_c6;
     next.left_s6 = left_s6;
+    next.q5 = q5;
     block_10(p, &next, answers);
 }
 
 /* Block 9: HipPitch. */
-static void block_9(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_9(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = known->left_c8 * known->left_s9, r5 = 0.1029 * (known->left_c8 * known->left_c9) + 0.04519;
     const double r14 = p->left_px - 0.1029 * (p->left_r11 * known->left_s8);
@@ -2063,20 +2320,22 @@ typedef struct {
 
 /* Chart 1 of block 8: generic.
  */
-static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r51 = sqrt(fmax(r50, 0.0));
-    const double left_c5 = shared->r47 / r51, left_s5 = shared->r44 / r51;
+    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
+    const double left_c5 = shared->r47 * r52, left_s5 = shared->r44 * r52, q4 = angle(left_c5, left_s5);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.left_c5 = left_c5;
     next.left_s5 = left_s5;
+    next.q4 = q4;
     block_9(p, &next, answers);
 }
 
 /* Block 8: HipRoll. */
-static void block_8(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_8(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r6 = p->left_r12 * known->left_c9 - p->left_r13 * known->left_s9;
     const double r8 = p->left_r22 * known->left_c9 - p->left_r23 * known->left_s9;
@@ -2095,6 +2354,12 @@ static void block_8(const Parameters *p, const Known *known, Answers *answers)
     chart_8_1(p, known, shared, answers);
 }
 
+/* Block 8 behind a chart that hardly ever runs. */
+COLD static void again_8(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_8(p, known, answers);
+}
+
 /* What the charts of block 7 share. */
 typedef struct {
     double r77;
@@ -2107,20 +2372,23 @@ typedef struct {
 /* Chart 1 of block 7: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
     if (!is_away(r98, 10000.0 * (r99 + r99))) {
         return;
     }
-    const double r104 = shared->r77 * shared->r92 - shared->r89 * shared->r91, r105 = r104 / r98;
-    const double r109 = shared->r89 * shared->r92 - (0.0 - shared->r77 * shared->r91), r110 = r109 / r98;
-    const double r114 = sqrt(fmax(r110 * r110 + r105 * r105, 0.0)), left_c8 = r110 / r114, left_s8 = r105 / r114;
+    const double r104 = shared->r77 * shared->r92 - shared->r89 * shared->r91;
+    const double r108 = shared->r89 * shared->r92 - (0.0 - shared->r77 * shared->r91);
+    const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r104 * r104, 0.0)), left_c8 = r108 * r113;
+    const double left_s8 = r104 * r113, q7 = angle(left_c8, left_s8);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.left_c8 = left_c8;
     next.left_s8 = left_s8;
+    next.q7 = q7;
     block_8(p, &next, answers);
 }
 
@@ -2135,19 +2403,21 @@ static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c8 = SAMPLES_1[i0][0], left_s8 = SAMPLES_1[i0][1];
+        const double left_c8 = SAMPLES_1[i0][0], left_s8 = SAMPLES_1[i0][1], q7 = angle(left_c8, left_s8);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[7] = true;
         next.left_c8 = left_c8;
         next.left_s8 = left_s8;
-        block_8(p, &next, answers);
+        next.q7 = q7;
+        again_8(p, &next, answers);
     }
 }
 
 /* Block 7: AnklePitch. */
-static void block_7(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = known->left_c7 * known->left_s9, r1 = known->left_s7 * known->left_s9;
     const double r2 = known->left_c7 * known->left_c9, r3 = known->left_s7 * known->left_c9;
@@ -2176,6 +2446,12 @@ static void block_7(const Parameters *p, const Known *known, Answers *answers)
     chart_7_2(p, known, shared, answers);
 }
 
+/* Block 7 behind a chart that hardly ever runs. */
+COLD static void again_7(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_7(p, known, answers);
+}
+
 /* What the charts of block 6 share. */
 typedef struct {
     double r57;
@@ -2194,17 +2470,19 @@ typedef struct {
 /* Chart 1 of block 6: generic.
  * It runs where B*E - A*F is not zero.
  */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     if (!is_away(shared->r79 - shared->r78, 10000.0 * shared->r83)) {
         return;
     }
-    const double left_c9 = -0.0, left_s9 = -0.0;
+    const double left_c9 = 0.0, left_s9 = 0.0, q8 = angle(left_c9, left_s9);
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
+    next.close = known->close;
     next.left_c9 = left_c9;
     next.left_s9 = left_s9;
+    next.q8 = q8;
     block_7(p, &next, answers);
 }
 
@@ -2213,23 +2491,24 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
  */
 static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68, r87 = r85 + r86;
+    const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68;
     const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r87, 10000.0 * r90))) {
+    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 10000.0 * r90))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r85 - r86, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r90, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r85 - r86, sqrt(fmax(r90, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w9 = roots0.values[i0], r96 = left_w9 * shared->r57 / r87;
-        const double r98 = left_w9 * shared->r68 / r87, r102 = sqrt(fmax(r98 * r98 + r96 * r96, 0.0));
-        const double left_c9 = 0.0 - r98 / r102, left_s9 = r96 / r102;
+        const double left_w9 = roots0.values[i0], r95 = left_w9 * shared->r57, r96 = left_w9 * shared->r68;
+        const double r101 = 1.0 / sqrt(fmax(r96 * r96 + r95 * r95, 0.0)), left_c9 = 0.0 - r96 * r101;
+        const double left_s9 = r95 * r101, q8 = angle(left_c9, left_s9);
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
-        block_7(p, &next, answers);
+        next.q8 = q8;
+        again_7(p, &next, answers);
     }
 }
 
@@ -2245,14 +2524,16 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1];
+        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1], q8 = angle(left_c9, left_s9);
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
+        next.close = known->close;
         next.free[8] = true;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
-        block_7(p, &next, answers);
+        next.q8 = q8;
+        again_7(p, &next, answers);
     }
 }
 
@@ -2261,22 +2542,23 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
  */
 static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72, r87 = r85 + r86;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r87, 27380000.0))) {
+    const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72;
+    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 27380000.0))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r85 - r86, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 52.32590180780452);
+    const Roots roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w9 = roots0.values[i0], r91 = left_w9 * shared->r70 / r87;
-        const double r93 = left_w9 * shared->r72 / r87, r97 = sqrt(fmax(r93 * r93 + r91 * r91, 0.0));
-        const double left_c9 = 0.0 - r93 / r97, left_s9 = r91 / r97;
+        const double left_w9 = roots0.values[i0], r90 = left_w9 * shared->r70, r91 = left_w9 * shared->r72;
+        const double r96 = 1.0 / sqrt(fmax(r91 * r91 + r90 * r90, 0.0)), left_c9 = 0.0 - r91 * r96;
+        const double left_s9 = r90 * r96, q8 = angle(left_c9, left_s9);
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
-        block_7(p, &next, answers);
+        next.q8 = q8;
+        again_7(p, &next, answers);
     }
 }
 
@@ -2291,19 +2573,21 @@ static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1];
+        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1], q8 = angle(left_c9, left_s9);
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
+        next.close = known->close;
         next.free[8] = true;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
-        block_7(p, &next, answers);
+        next.q8 = q8;
+        again_7(p, &next, answers);
     }
 }
 
 /* Block 6: AnkleRoll. */
-static void block_6(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r14 = p->left_r12 * known->left_c1 + p->left_r22 * known->left_s1;
     const double r16 = p->left_r13 * known->left_c1 + p->left_r23 * known->left_s1;
@@ -2341,27 +2625,27 @@ typedef struct {
 
 /* Chart 1 of block 5: generic.
  */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
-    const double choice0_0[3] = {r43, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
+    const Roots roots0 = square_roots(r43, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w7 = roots0.values[i0], r45 = 0.02058 * left_w7 / 0.00042353640000000005;
-        const double r47 = 0.02058 * shared->r41 / 0.00042353640000000005;
-        const double r51 = sqrt(fmax(r47 * r47 + r45 * r45, 0.0)), left_c7 = 0.0 - r47 / r51;
-        const double left_s7 = r45 / r51;
+        const double left_w7 = roots0.values[i0], r44 = 0.02058 * left_w7, r45 = 0.02058 * shared->r41;
+        const double r50 = 1.0 / sqrt(fmax(r45 * r45 + r44 * r44, 0.0)), left_c7 = 0.0 - r45 * r50;
+        const double left_s7 = r44 * r50, q6 = angle(left_c7, left_s7);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c7 = left_c7;
         next.left_s7 = left_s7;
+        next.q6 = q6;
         block_6(p, &next, answers);
     }
 }
 
 /* Block 5: KneePitch. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r1 = p->left_px + 0.04519 * p->left_r13, r4 = p->left_py + 0.04519 * p->left_r23;
     const double r7 = p->left_pz + 0.04519 * p->left_r33;
@@ -2376,6 +2660,12 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const Shared5 own = { r41 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
+}
+
+/* Block 5 behind a chart that hardly ever runs. */
+COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_5(p, known, answers);
 }
 
 /* What the charts of block 4 share. */
@@ -2396,17 +2686,19 @@ typedef struct {
 /* Chart 1 of block 4: generic.
  * It runs where B*E - A*F is not zero.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     if (!is_away(shared->r139 + shared->r141, 10000.0 * shared->r144)) {
         return;
     }
-    const double left_c4 = -0.0, left_s4 = -0.0;
+    const double left_c4 = 0.0, left_s4 = 0.0, q3 = angle(left_c4, left_s4);
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
+    next.close = known->close;
     next.left_c4 = left_c4;
     next.left_s4 = left_s4;
+    next.q3 = q3;
     block_5(p, &next, answers);
 }
 
@@ -2415,23 +2707,24 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110, r148 = r146 + r147;
+    const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r148, 10000.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 10000.0 * r151))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r146 - r147, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r151, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0], r158 = left_w4 * shared->r98 / r148;
-        const double r162 = left_w4 * shared->r110 / r148, r166 = sqrt(fmax(r162 * r162 + r158 * r158, 0.0));
-        const double left_c4 = r162 / r166, left_s4 = 0.0 - r158 / r166;
+        const double left_w4 = roots0.values[i0], r156 = left_w4 * shared->r98, r160 = left_w4 * shared->r110;
+        const double r167 = 1.0 / sqrt(fmax(r160 * r160 + r156 * r156, 0.0)), left_c4 = r160 * r167;
+        const double left_s4 = 0.0 - r156 * r167, q3 = angle(left_c4, left_s4);
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        block_5(p, &next, answers);
+        next.q3 = q3;
+        again_5(p, &next, answers);
     }
 }
 
@@ -2447,14 +2740,16 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
+        const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1], q3 = angle(left_c4, left_s4);
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
+        next.close = known->close;
         next.free[3] = true;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        block_5(p, &next, answers);
+        next.q3 = q3;
+        again_5(p, &next, answers);
     }
 }
 
@@ -2463,23 +2758,24 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132, r148 = r146 + r147;
+    const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r148, 10000.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 10000.0 * r151))) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r146 - r147, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r151, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0], r158 = left_w4 * shared->r120 / r148;
-        const double r162 = left_w4 * shared->r132 / r148, r167 = sqrt(fmax(r162 * r162 + r158 * r158, 0.0));
-        const double left_c4 = 0.0 - r162 / r167, left_s4 = 0.0 - r158 / r167;
+        const double left_w4 = roots0.values[i0], r156 = left_w4 * shared->r120, r160 = left_w4 * shared->r132;
+        const double r168 = 1.0 / sqrt(fmax(r160 * r160 + r156 * r156, 0.0)), left_c4 = 0.0 - r160 * r168;
+        const double left_s4 = 0.0 - r156 * r168, q3 = angle(left_c4, left_s4);
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        block_5(p, &next, answers);
+        next.q3 = q3;
+        again_5(p, &next, answers);
     }
 }
 
@@ -2495,14 +2791,16 @@ static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
+        const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1], q3 = angle(left_c4, left_s4);
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
+        next.close = known->close;
         next.free[3] = true;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        block_5(p, &next, answers);
+        next.q3 = q3;
+        again_5(p, &next, answers);
     }
 }
 
@@ -2561,6 +2859,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     chart_4_5(p, known, shared, answers);
 }
 
+/* Block 4 behind a chart that hardly ever runs. */
+COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_4(p, known, answers);
+}
+
 /* What the charts of block 3 share. */
 typedef struct {
     double r175;
@@ -2602,13 +2906,15 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         const double r339 = left_w1 * (shared->r184 * r331 + shared->r175 * r336);
         const double r345 = shared->r175 * shared->r175 + shared->r184 * shared->r184;
         const double r347 = (r339 + shared->r175 * (r321 + r322)) / r345, r352 = 1.0 - (0.0 - left_w1 * r347);
-        const double r356 = sqrt(fmax(r352 * r352 + r347 * r347, 0.0)), left_c1 = r352 / r356;
-        const double left_s1 = 0.0 - r347 / r356;
+        const double r357 = 1.0 / sqrt(fmax(r352 * r352 + r347 * r347, 0.0)), left_c1 = r352 * r357;
+        const double left_s1 = 0.0 - r347 * r357, q0 = angle(left_c1, left_s1);
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
+        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -2649,13 +2955,15 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         const double r341 = shared->r175 * shared->r175;
         const double r343 = left_w1 * (r332 + r337) + (shared->r184 * r334 - r341);
         const double r347 = r343 / (r341 + shared->r184 * shared->r184), r350 = left_w1 * (1.0 - r347);
-        const double r355 = sqrt(fmax(r350 * r350 + r347 * r347, 0.0)), left_c1 = 0.0 - r350 / r355;
-        const double left_s1 = 0.0 - r347 / r355;
+        const double r356 = 1.0 / sqrt(fmax(r350 * r350 + r347 * r347, 0.0)), left_c1 = 0.0 - r350 * r356;
+        const double left_s1 = 0.0 - r347 * r356, q0 = angle(left_c1, left_s1);
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
+        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -2693,13 +3001,15 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
         const double r335 = shared->r175 * (r323 + left_w1 * (0.0 - r319 - r320));
         const double r340 = left_w1 * (shared->r184 * r329 + r335) + shared->r175 * (r319 - r320);
         const double r343 = shared->r175 * shared->r175 + shared->r184 * shared->r184, r345 = r340 / r343;
-        const double r350 = left_w1 * r345 - 1.0, r354 = sqrt(fmax(r350 * r350 + r345 * r345, 0.0));
-        const double left_c1 = r350 / r354, left_s1 = 0.0 - r345 / r354;
+        const double r350 = left_w1 * r345 - 1.0, r355 = 1.0 / sqrt(fmax(r350 * r350 + r345 * r345, 0.0));
+        const double left_c1 = r350 * r355, left_s1 = 0.0 - r345 * r355, q0 = angle(left_c1, left_s1);
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
+        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -2740,13 +3050,15 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
         const double r342 = shared->r175 * shared->r175;
         const double r344 = left_w1 * (left_w1 * r333 + r338) + (shared->r184 * r335 + r342);
         const double r348 = r344 / (r342 + shared->r184 * shared->r184), r351 = left_w1 * (0.0 - r348 - 1.0);
-        const double r356 = sqrt(fmax(r351 * r351 + r348 * r348, 0.0)), left_c1 = 0.0 - r351 / r356;
-        const double left_s1 = 0.0 - r348 / r356;
+        const double r357 = 1.0 / sqrt(fmax(r351 * r351 + r348 * r348, 0.0)), left_c1 = 0.0 - r351 * r357;
+        const double left_s1 = 0.0 - r348 * r357, q0 = angle(left_c1, left_s1);
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
+        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -2799,13 +3111,15 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
         const double r398 = shared->r175 * (r352 + (r350 + r389)) + shared->r184 * r396;
         const double r402 = shared->r175 * shared->r175 + shared->r184 * shared->r184;
         const double r404 = (left_w1 * r384 + r398) / r402, r409 = 0.6 - left_w1 * (0.8 - r404);
-        const double r413 = sqrt(fmax(r409 * r409 + r404 * r404, 0.0)), left_c1 = r409 / r413;
-        const double left_s1 = 0.0 - r404 / r413;
+        const double r414 = 1.0 / sqrt(fmax(r409 * r409 + r404 * r404, 0.0)), left_c1 = r409 * r414;
+        const double left_s1 = 0.0 - r404 * r414, q0 = angle(left_c1, left_s1);
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
+        next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
+        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -2830,19 +3144,21 @@ static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
+        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1], q0 = angle(left_c1, left_s1);
         Known next = *known;
         next.branch = 5 * known->branch + 4;
         next.last = 5 * known->last;
+        next.close = known->close;
         next.free[0] = true;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        block_4(p, &next, answers);
+        next.q0 = q0;
+        again_4(p, &next, answers);
     }
 }
 
 /* Block 3: TorsoYaw. */
-static void block_3(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r9 = p->left_r31 * known->left_c2_, r10 = p->left_r11 * known->left_s2_;
     const double r11 = p->left_r21 * known->left_s2_, r12 = p->left_py * p->left_r31 - p->left_pz * p->left_r21;
@@ -2938,33 +3254,37 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* Chart 1 of block 2: given.
  */
-static void chart_2_1(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void chart_2_1(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double left_c3_ = p->left_c3, left_s3_ = p->left_s3;
+    const double left_c3_ = p->left_c3, left_s3_ = p->left_s3, q2 = angle(left_c3_, left_s3_);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.left_c3_ = left_c3_;
     next.left_s3_ = left_s3_;
+    next.q2 = q2;
     block_3(p, &next, answers);
 }
 
 /* Block 2: TorsoRoll. */
-static void block_2(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     chart_2_1(p, known, answers);
 }
 
 /* Chart 1 of block 1: given.
  */
-static void chart_1_1(const Parameters *p, Answers *answers)
+INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double left_c2_ = p->left_c2, left_s2_ = p->left_s2;
+    const double left_c2_ = p->left_c2, left_s2_ = p->left_s2, q1 = angle(left_c2_, left_s2_);
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
+    next.close = false;
     next.left_c2_ = left_c2_;
     next.left_s2_ = left_s2_;
+    next.q1 = q1;
     block_2(p, &next, answers);
 }
 
@@ -3041,8 +3361,9 @@ int nao_legs_yaw_solve(const double *given, nao_legs_yaw_solution *out)
 
 void nao_legs_yaw_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[4];
     target[1] = reached[5];
     target[2] = reached[6];
@@ -3078,7 +3399,9 @@ double nao_legs_yaw_residual(const double *given, const double *q)
         return NAN;
     }
     const Parameters p = parameters(target);
-    const Equations f = equations(&p, q);
+    double at[PLACES];
+    place(q, at);
+    const Equations f = equations(&p, at);
     double size = 0.0;
     for (size_t i = 0; i < EQUATIONS; i++) {
         if (isnan(f.value[i])) {

@@ -55,7 +55,7 @@
 //! answer is polished by 32 Newton steps at most.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
-//! `sin`, `cos`, `atan2`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
+//! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
 //! are those of the C library, and the file needs `core` only: then it may be a module of a `#![no_std]` crate.
 #![allow(unexpected_cfgs, non_snake_case, clippy::all)]
 
@@ -127,7 +127,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
 pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
     let Some(target) = &conform(target) else { return f64::NAN };
     let mut largest = 0.0;
-    for value in equations(&parameters(target), q).value {
+    for value in equations(&parameters(target), &place(q)).value {
         if value.is_nan() {
             return value;
         }
@@ -139,7 +139,7 @@ pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
 /// The target that joint values `q` reach.
 #[allow(dead_code)]
 pub fn forward(q: &[f64; JOINTS]) -> [f64; INPUTS] {
-    let reached = tip(q);
+    let reached = tip(&place(q));
     [reached[4], reached[5], reached[6], reached[7], reached[10], reached[13], reached[8], reached[11], reached[14], reached[9], reached[12], reached[15], angle(reached[0], reached[1]), angle(reached[2], reached[3]), reached[16], reached[17], reached[18], reached[19], reached[22], reached[25], reached[20], reached[23], reached[26], reached[21], reached[24], reached[27]]
 }
 
@@ -301,6 +301,8 @@ const BLUR: f64 = 0.05;
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
 const POLISH_STEPS: usize = 32;
+/// So many steps in a row that do not halve the miss are the last.
+const PATIENCE: usize = 3;
 /// Shares of the squared Jacobian's size that are added where a plain step fails.
 const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 0.001];
 /// A candidate that misses the equations by this share of their size at most may be a double root.
@@ -444,6 +446,8 @@ struct Known {
     branch: usize,
     /// The end of the branch numbers of the first block's chart.
     last: usize,
+    /// Whether roots on the way are so near one another that rounding moves them.
+    close: bool,
     free: [bool; JOINTS],
     left_c2_: f64,
     left_s2_: f64,
@@ -471,9 +475,22 @@ struct Known {
     right_s8: f64,
     right_c5: f64,
     right_s5: f64,
+    q0: f64,
+    q1: f64,
+    q2: f64,
+    q3: f64,
+    q4: f64,
+    q5: f64,
+    q6: f64,
+    q7: f64,
+    q8: f64,
+    q9: f64,
+    q11: f64,
+    q12: f64,
+    q13: f64,
 }
 
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, free: NONE_FREE, left_c2_: 0.0, left_s2_: 0.0, left_c3_: 0.0, left_s3_: 0.0, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c7: 0.0, left_s7: 0.0, left_c9: 0.0, left_s9: 0.0, left_c8: 0.0, left_s8: 0.0, left_c5: 0.0, left_s5: 0.0, left_c6: 0.0, left_s6: 0.0, right_c7: 0.0, right_s7: 0.0, right_c9: 0.0, right_s9: 0.0, right_c8: 0.0, right_s8: 0.0, right_c5: 0.0, right_s5: 0.0 };
+const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, left_c2_: 0.0, left_s2_: 0.0, left_c3_: 0.0, left_s3_: 0.0, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c7: 0.0, left_s7: 0.0, left_c9: 0.0, left_s9: 0.0, left_c8: 0.0, left_s8: 0.0, left_c5: 0.0, left_s5: 0.0, left_c6: 0.0, left_s6: 0.0, right_c7: 0.0, right_s7: 0.0, right_c9: 0.0, right_s9: 0.0, right_c8: 0.0, right_s8: 0.0, right_c5: 0.0, right_s5: 0.0, q0: 0.0, q1: 0.0, q2: 0.0, q3: 0.0, q4: 0.0, q5: 0.0, q6: 0.0, q7: 0.0, q8: 0.0, q9: 0.0, q11: 0.0, q12: 0.0, q13: 0.0 };
 
 /// Where charts put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
@@ -493,27 +510,33 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 }
 
 /// Chart 1 of block 1: given.
+#[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let left_c2_ = p.left_c2;
     let left_s2_ = p.left_s2;
-    let next = Known { branch: 0, last: 1, left_c2_, left_s2_, ..NOTHING_KNOWN };
+    let q1 = angle(left_c2_, left_s2_);
+    let next = Known { branch: 0, last: 1, close: false, left_c2_, left_s2_, q1, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
 
 /// Block 2: TorsoRoll.
+#[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_2_1(p, known, answers);
 }
 
 /// Chart 1 of block 2: given.
+#[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let left_c3_ = p.left_c3;
     let left_s3_ = p.left_s3;
-    let next = Known { branch: known.branch, last: known.last, left_c3_, left_s3_, ..*known };
+    let q2 = angle(left_c3_, left_s3_);
+    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c3_, left_s3_, q2, ..*known };
     block_3(p, &next, answers);
 }
 
 /// Block 3: TorsoYaw.
+#[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r9 = p.left_r31 * known.left_c2_;
     let r10 = p.left_r11 * known.left_s2_;
@@ -667,9 +690,11 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r347 = (r339 + shared.r175 * (r321 + r322)) / r345;
         let r352 = 1.0 - (0.0 - left_w1 * r347);
         let r356 = f64::max(r352 * r352 + r347 * r347, 0.0).sqrt();
-        let left_c1 = r352 / r356;
-        let left_s1 = 0.0 - r347 / r356;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
+        let r357 = 1.0 / r356;
+        let left_c1 = r352 * r357;
+        let left_s1 = 0.0 - r347 * r357;
+        let q0 = angle(left_c1, left_s1);
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -711,9 +736,11 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r347 = (r339 + (shared.r184 * r334 - r341)) / (r341 + shared.r184 * shared.r184);
         let r350 = left_w1 * (1.0 - r347);
         let r355 = f64::max(r350 * r350 + r347 * r347, 0.0).sqrt();
-        let left_c1 = 0.0 - r350 / r355;
-        let left_s1 = 0.0 - r347 / r355;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
+        let r356 = 1.0 / r355;
+        let left_c1 = 0.0 - r350 * r356;
+        let left_s1 = 0.0 - r347 * r356;
+        let q0 = angle(left_c1, left_s1);
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -753,9 +780,11 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r345 = r340 / r343;
         let r350 = left_w1 * r345 - 1.0;
         let r354 = f64::max(r350 * r350 + r345 * r345, 0.0).sqrt();
-        let left_c1 = r350 / r354;
-        let left_s1 = 0.0 - r345 / r354;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
+        let r355 = 1.0 / r354;
+        let left_c1 = r350 * r355;
+        let left_s1 = 0.0 - r345 * r355;
+        let q0 = angle(left_c1, left_s1);
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -798,9 +827,11 @@ fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r348 = r344 / (r342 + shared.r184 * shared.r184);
         let r351 = left_w1 * (0.0 - r348 - 1.0);
         let r356 = f64::max(r351 * r351 + r348 * r348, 0.0).sqrt();
-        let left_c1 = 0.0 - r351 / r356;
-        let left_s1 = 0.0 - r348 / r356;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
+        let r357 = 1.0 / r356;
+        let left_c1 = 0.0 - r351 * r357;
+        let left_s1 = 0.0 - r348 * r357;
+        let q0 = angle(left_c1, left_s1);
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -861,9 +892,11 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r404 = r399 / r402;
         let r409 = 0.6 - left_w1 * (0.8 - r404);
         let r413 = f64::max(r409 * r409 + r404 * r404, 0.0).sqrt();
-        let left_c1 = r409 / r413;
-        let left_s1 = 0.0 - r404 / r413;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, left_c1, left_s1, ..*known };
+        let r414 = 1.0 / r413;
+        let left_c1 = r409 * r414;
+        let left_s1 = 0.0 - r404 * r414;
+        let q0 = angle(left_c1, left_s1);
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -885,8 +918,9 @@ fn chart_3_6(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
-        let next = Known { branch: 5 * known.branch + 4, last: 5 * known.last, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c1, left_s1, ..*known };
-        block_4(p, &next, answers);
+        let q0 = angle(left_c1, left_s1);
+        let next = Known { branch: 5 * known.branch + 4, last: 5 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c1, left_s1, q0, ..*known };
+        again_4(p, &next, answers);
     }
 }
 
@@ -951,6 +985,13 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_4_5(p, known, shared, answers);
 }
 
+/// Block 4 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_4(p, known, answers);
+}
+
 /// What the charts of block 4 share.
 struct Shared4 {
     r98: f64,
@@ -968,13 +1009,15 @@ struct Shared4 {
 
 /// Chart 1 of block 4: generic.
 /// It runs where B*E - A*F is not zero.
+#[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     if !is_away(shared.r139 + shared.r141, 10000.0 * shared.r144) {
         return;
     }
-    let left_c4 = -0.0;
-    let left_s4 = -0.0;
-    let next = Known { branch: 7 * known.branch, last: 7 * known.last, left_c4, left_s4, ..*known };
+    let left_c4 = 0.0;
+    let left_s4 = 0.0;
+    let q3 = angle(left_c4, left_s4);
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c4, left_s4, q3, ..*known };
     block_5(p, &next, answers);
 }
 
@@ -983,20 +1026,21 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r146 = shared.r98 * shared.r98;
     let r147 = shared.r110 * shared.r110;
-    let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r148, 10000.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 10000.0 * r151)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r146 - r147, 0.0, 1.0], f64::max(r151, 0.0).sqrt());
+    let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r158 = left_w4 * shared.r98 / r148;
-        let r162 = left_w4 * shared.r110 / r148;
-        let r166 = f64::max(r162 * r162 + r158 * r158, 0.0).sqrt();
-        let left_c4 = r162 / r166;
-        let left_s4 = 0.0 - r158 / r166;
-        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, left_c4, left_s4, ..*known };
-        block_5(p, &next, answers);
+        let r156 = left_w4 * shared.r98;
+        let r160 = left_w4 * shared.r110;
+        let r166 = f64::max(r160 * r160 + r156 * r156, 0.0).sqrt();
+        let r167 = 1.0 / r166;
+        let left_c4 = r160 * r167;
+        let left_s4 = 0.0 - r156 * r167;
+        let q3 = angle(left_c4, left_s4);
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, q3, ..*known };
+        again_5(p, &next, answers);
     }
 }
 
@@ -1010,8 +1054,9 @@ fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         return;
     }
     for [left_c4, left_s4] in SAMPLES_1 {
-        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, ..*known };
-        block_5(p, &next, answers);
+        let q3 = angle(left_c4, left_s4);
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, q3, ..*known };
+        again_5(p, &next, answers);
     }
 }
 
@@ -1020,20 +1065,21 @@ fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r146 = shared.r120 * shared.r120;
     let r147 = shared.r132 * shared.r132;
-    let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r148, 10000.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 10000.0 * r151)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r146 - r147, 0.0, 1.0], f64::max(r151, 0.0).sqrt());
+    let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r158 = left_w4 * shared.r120 / r148;
-        let r162 = left_w4 * shared.r132 / r148;
-        let r167 = f64::max(r162 * r162 + r158 * r158, 0.0).sqrt();
-        let left_c4 = 0.0 - r162 / r167;
-        let left_s4 = 0.0 - r158 / r167;
-        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, left_c4, left_s4, ..*known };
-        block_5(p, &next, answers);
+        let r156 = left_w4 * shared.r120;
+        let r160 = left_w4 * shared.r132;
+        let r167 = f64::max(r160 * r160 + r156 * r156, 0.0).sqrt();
+        let r168 = 1.0 / r167;
+        let left_c4 = 0.0 - r160 * r168;
+        let left_s4 = 0.0 - r156 * r168;
+        let q3 = angle(left_c4, left_s4);
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, q3, ..*known };
+        again_5(p, &next, answers);
     }
 }
 
@@ -1047,12 +1093,14 @@ fn chart_4_5(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         return;
     }
     for [left_c4, left_s4] in SAMPLES_1 {
-        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, ..*known };
-        block_5(p, &next, answers);
+        let q3 = angle(left_c4, left_s4);
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, q3, ..*known };
+        again_5(p, &next, answers);
     }
 }
 
 /// Block 5: KneePitch.
+#[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r1 = p.left_px + 0.04519 * p.left_r13;
     let r4 = p.left_py + 0.04519 * p.left_r23;
@@ -1070,27 +1118,37 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_5_1(p, known, shared, answers);
 }
 
+/// Block 5 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_5(p, known, answers);
+}
+
 /// What the charts of block 5 share.
 struct Shared5 {
     r41: f64,
 }
 
 /// Chart 1 of block 5: generic.
+#[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
-    let roots0 = real_roots(&[r43, 0.0, 1.0], 1.4142135623730951);
+    let roots0 = square_roots(r43, 1.4142135623730951);
     for (i0, &left_w7) in roots0.as_slice().iter().enumerate() {
-        let r45 = 0.02058 * left_w7 / 0.00042353640000000005;
-        let r47 = 0.02058 * shared.r41 / 0.00042353640000000005;
-        let r51 = f64::max(r47 * r47 + r45 * r45, 0.0).sqrt();
-        let left_c7 = 0.0 - r47 / r51;
-        let left_s7 = r45 / r51;
-        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, left_c7, left_s7, ..*known };
+        let r44 = 0.02058 * left_w7;
+        let r45 = 0.02058 * shared.r41;
+        let r50 = 1.0 / f64::max(r45 * r45 + r44 * r44, 0.0).sqrt();
+        let left_c7 = 0.0 - r45 * r50;
+        let left_s7 = r44 * r50;
+        let q6 = angle(left_c7, left_s7);
+        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, left_c7, left_s7, q6, ..*known };
         block_6(p, &next, answers);
     }
 }
 
 /// Block 6: AnkleRoll.
+#[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r14 = p.left_r12 * known.left_c1 + p.left_r22 * known.left_s1;
     let r16 = p.left_r13 * known.left_c1 + p.left_r23 * known.left_s1;
@@ -1151,13 +1209,15 @@ struct Shared6 {
 
 /// Chart 1 of block 6: generic.
 /// It runs where B*E - A*F is not zero.
+#[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     if !is_away(shared.r79 - shared.r78, 10000.0 * shared.r83) {
         return;
     }
-    let left_c9 = -0.0;
-    let left_s9 = -0.0;
-    let next = Known { branch: 7 * known.branch, last: 7 * known.last, left_c9, left_s9, ..*known };
+    let left_c9 = 0.0;
+    let left_s9 = 0.0;
+    let q8 = angle(left_c9, left_s9);
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c9, left_s9, q8, ..*known };
     block_7(p, &next, answers);
 }
 
@@ -1166,20 +1226,20 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r85 = shared.r57 * shared.r57;
     let r86 = shared.r68 * shared.r68;
-    let r87 = r85 + r86;
     let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r80, shared.r84) && is_away(r87, 10000.0 * r90)) {
+    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 10000.0 * r90)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r85 - r86, 0.0, 1.0], f64::max(r90, 0.0).sqrt());
+    let roots0 = square_roots(0.0 - r85 - r86, f64::max(r90, 0.0).sqrt());
     for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r96 = left_w9 * shared.r57 / r87;
-        let r98 = left_w9 * shared.r68 / r87;
-        let r102 = f64::max(r98 * r98 + r96 * r96, 0.0).sqrt();
-        let left_c9 = 0.0 - r98 / r102;
-        let left_s9 = r96 / r102;
-        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, left_c9, left_s9, ..*known };
-        block_7(p, &next, answers);
+        let r95 = left_w9 * shared.r57;
+        let r96 = left_w9 * shared.r68;
+        let r101 = 1.0 / f64::max(r96 * r96 + r95 * r95, 0.0).sqrt();
+        let left_c9 = 0.0 - r96 * r101;
+        let left_s9 = r95 * r101;
+        let q8 = angle(left_c9, left_s9);
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, q8, ..*known };
+        again_7(p, &next, answers);
     }
 }
 
@@ -1193,8 +1253,9 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
         return;
     }
     for [left_c9, left_s9] in SAMPLES_1 {
-        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
-        block_7(p, &next, answers);
+        let q8 = angle(left_c9, left_s9);
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, q8, ..*known };
+        again_7(p, &next, answers);
     }
 }
 
@@ -1203,19 +1264,19 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r85 = shared.r70 * shared.r70;
     let r86 = shared.r72 * shared.r72;
-    let r87 = r85 + r86;
-    if !(is_near(shared.r80, shared.r84) && is_away(r87, 27380000.0)) {
+    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 27380000.0)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r85 - r86, 0.0, 1.0], 52.32590180780452);
+    let roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
     for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r91 = left_w9 * shared.r70 / r87;
-        let r93 = left_w9 * shared.r72 / r87;
-        let r97 = f64::max(r93 * r93 + r91 * r91, 0.0).sqrt();
-        let left_c9 = 0.0 - r93 / r97;
-        let left_s9 = r91 / r97;
-        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, left_c9, left_s9, ..*known };
-        block_7(p, &next, answers);
+        let r90 = left_w9 * shared.r70;
+        let r91 = left_w9 * shared.r72;
+        let r96 = 1.0 / f64::max(r91 * r91 + r90 * r90, 0.0).sqrt();
+        let left_c9 = 0.0 - r91 * r96;
+        let left_s9 = r90 * r96;
+        let q8 = angle(left_c9, left_s9);
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, q8, ..*known };
+        again_7(p, &next, answers);
     }
 }
 
@@ -1228,12 +1289,14 @@ fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
         return;
     }
     for [left_c9, left_s9] in SAMPLES_1 {
-        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
-        block_7(p, &next, answers);
+        let q8 = angle(left_c9, left_s9);
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, q8, ..*known };
+        again_7(p, &next, answers);
     }
 }
 
 /// Block 7: AnklePitch.
+#[inline(always)]
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = known.left_c7 * known.left_s9;
     let r1 = known.left_s7 * known.left_s9;
@@ -1267,6 +1330,13 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_7_2(p, known, shared, answers);
 }
 
+/// Block 7 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_7(p, known, answers);
+}
+
 /// What the charts of block 7 share.
 struct Shared7 {
     r77: f64,
@@ -1278,6 +1348,7 @@ struct Shared7 {
 
 /// Chart 1 of block 7: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
     let r99 = shared.r95 * shared.r95;
@@ -1285,13 +1356,13 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
         return;
     }
     let r104 = shared.r77 * shared.r92 - shared.r89 * shared.r91;
-    let r105 = r104 / r98;
-    let r109 = shared.r89 * shared.r92 - (0.0 - shared.r77 * shared.r91);
-    let r110 = r109 / r98;
-    let r114 = f64::max(r110 * r110 + r105 * r105, 0.0).sqrt();
-    let left_c8 = r110 / r114;
-    let left_s8 = r105 / r114;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, left_c8, left_s8, ..*known };
+    let r108 = shared.r89 * shared.r92 - (0.0 - shared.r77 * shared.r91);
+    let r112 = f64::max(r108 * r108 + r104 * r104, 0.0).sqrt();
+    let r113 = 1.0 / r112;
+    let left_c8 = r108 * r113;
+    let left_s8 = r104 * r113;
+    let q7 = angle(left_c8, left_s8);
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, left_c8, left_s8, q7, ..*known };
     block_8(p, &next, answers);
 }
 
@@ -1305,12 +1376,14 @@ fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
         return;
     }
     for [left_c8, left_s8] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], true, known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c8, left_s8, ..*known };
-        block_8(p, &next, answers);
+        let q7 = angle(left_c8, left_s8);
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], true, known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c8, left_s8, q7, ..*known };
+        again_8(p, &next, answers);
     }
 }
 
 /// Block 8: HipRoll.
+#[inline(always)]
 fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r6 = p.left_r12 * known.left_c9 - p.left_r13 * known.left_s9;
     let r8 = p.left_r22 * known.left_c9 - p.left_r23 * known.left_s9;
@@ -1333,6 +1406,13 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_8_1(p, known, shared, answers);
 }
 
+/// Block 8 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_8(p, known, answers);
+}
+
 /// What the charts of block 8 share.
 struct Shared8 {
     r44: f64,
@@ -1340,16 +1420,19 @@ struct Shared8 {
 }
 
 /// Chart 1 of block 8: generic.
+#[inline(always)]
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44;
-    let r51 = f64::max(r50, 0.0).sqrt();
-    let left_c5 = shared.r47 / r51;
-    let left_s5 = shared.r44 / r51;
-    let next = Known { branch: known.branch, last: known.last, left_c5, left_s5, ..*known };
+    let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
+    let left_c5 = shared.r47 * r52;
+    let left_s5 = shared.r44 * r52;
+    let q4 = angle(left_c5, left_s5);
+    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c5, left_s5, q4, ..*known };
     block_9(p, &next, answers);
 }
 
 /// Block 9: HipPitch.
+#[inline(always)]
 fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = known.left_c8 * known.left_s9;
     let r5 = 0.1029 * (known.left_c8 * known.left_c9) + 0.04519;
@@ -1391,17 +1474,21 @@ struct Shared9 {
 }
 
 /// Chart 1 of block 9: generic.
+#[inline(always)]
 fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
-    let r100 = 0.1 * shared.r95 / 0.010000000000000002;
-    let r102 = 0.1 * shared.r98 / 0.010000000000000002;
-    let r106 = f64::max(r102 * r102 + r100 * r100, 0.0).sqrt();
-    let left_c6 = r102 / r106;
-    let left_s6 = 0.0 - r100 / r106;
-    let next = Known { branch: known.branch, last: known.last, left_c6, left_s6, ..*known };
+    let r99 = 0.1 * shared.r95;
+    let r100 = 0.1 * shared.r98;
+    let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt();
+    let r105 = 1.0 / r104;
+    let left_c6 = r100 * r105;
+    let left_s6 = 0.0 - r99 * r105;
+    let q5 = angle(left_c6, left_s6);
+    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c6, left_s6, q5, ..*known };
     block_10(p, &next, answers);
 }
 
 /// Block 10: KneePitch.
+#[inline(always)]
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r1 = p.right_px + 0.04519 * p.right_r13;
     let r4 = p.right_py + 0.04519 * p.right_r23;
@@ -1425,21 +1512,24 @@ struct Shared10 {
 }
 
 /// Chart 1 of block 10: generic.
+#[inline(always)]
 fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
     let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
-    let roots0 = real_roots(&[r43, 0.0, 1.0], 1.4142135623730951);
+    let roots0 = square_roots(r43, 1.4142135623730951);
     for (i0, &right_w7) in roots0.as_slice().iter().enumerate() {
-        let r45 = 0.02058 * right_w7 / 0.00042353640000000005;
-        let r47 = 0.02058 * shared.r41 / 0.00042353640000000005;
-        let r51 = f64::max(r47 * r47 + r45 * r45, 0.0).sqrt();
-        let right_c7 = 0.0 - r47 / r51;
-        let right_s7 = r45 / r51;
-        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, right_c7, right_s7, ..*known };
+        let r44 = 0.02058 * right_w7;
+        let r45 = 0.02058 * shared.r41;
+        let r50 = 1.0 / f64::max(r45 * r45 + r44 * r44, 0.0).sqrt();
+        let right_c7 = 0.0 - r45 * r50;
+        let right_s7 = r44 * r50;
+        let q11 = angle(right_c7, right_s7);
+        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c7, right_s7, q11, ..*known };
         block_11(p, &next, answers);
     }
 }
 
 /// Block 11: AnkleRoll.
+#[inline(always)]
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r14 = p.right_r12 * known.left_c1 + p.right_r22 * known.left_s1;
     let r16 = p.right_r13 * known.left_c1 + p.right_r23 * known.left_s1;
@@ -1501,13 +1591,15 @@ struct Shared11 {
 
 /// Chart 1 of block 11: generic.
 /// It runs where B*E - A*F is not zero.
+#[inline(always)]
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     if !is_away(shared.r80 - shared.r78, 10000.0 * shared.r84) {
         return;
     }
-    let right_c9 = -0.0;
-    let right_s9 = -0.0;
-    let next = Known { branch: 7 * known.branch, last: 7 * known.last, right_c9, right_s9, ..*known };
+    let right_c9 = 0.0;
+    let right_s9 = 0.0;
+    let q13 = angle(right_c9, right_s9);
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, right_c9, right_s9, q13, ..*known };
     block_12(p, &next, answers);
 }
 
@@ -1516,20 +1608,20 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r86 = shared.r57 * shared.r57;
     let r87 = shared.r68 * shared.r68;
-    let r88 = r86 + r87;
     let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r81, shared.r85) && is_away(r88, 10000.0 * r91)) {
+    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 10000.0 * r91)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r86 - r87, 0.0, 1.0], f64::max(r91, 0.0).sqrt());
+    let roots0 = square_roots(0.0 - r86 - r87, f64::max(r91, 0.0).sqrt());
     for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r97 = right_w9 * shared.r57 / r88;
-        let r99 = right_w9 * shared.r68 / r88;
-        let r103 = f64::max(r99 * r99 + r97 * r97, 0.0).sqrt();
-        let right_c9 = r99 / r103;
-        let right_s9 = r97 / r103;
-        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, right_c9, right_s9, ..*known };
-        block_12(p, &next, answers);
+        let r96 = right_w9 * shared.r57;
+        let r97 = right_w9 * shared.r68;
+        let r102 = 1.0 / f64::max(r97 * r97 + r96 * r96, 0.0).sqrt();
+        let right_c9 = r97 * r102;
+        let right_s9 = r96 * r102;
+        let q13 = angle(right_c9, right_s9);
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, q13, ..*known };
+        again_12(p, &next, answers);
     }
 }
 
@@ -1543,8 +1635,9 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
         return;
     }
     for [right_c9, right_s9] in SAMPLES_1 {
-        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
-        block_12(p, &next, answers);
+        let q13 = angle(right_c9, right_s9);
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, q13, ..*known };
+        again_12(p, &next, answers);
     }
 }
 
@@ -1553,19 +1646,19 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r86 = shared.r70 * shared.r70;
     let r87 = shared.r72 * shared.r72;
-    let r88 = r86 + r87;
-    if !(is_near(shared.r81, shared.r85) && is_away(r88, 27380000.0)) {
+    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 27380000.0)) {
         return;
     }
-    let roots0 = real_roots(&[0.0 - r86 - r87, 0.0, 1.0], 52.32590180780452);
+    let roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
     for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r92 = right_w9 * shared.r70 / r88;
-        let r94 = right_w9 * shared.r72 / r88;
-        let r98 = f64::max(r94 * r94 + r92 * r92, 0.0).sqrt();
-        let right_c9 = 0.0 - r94 / r98;
-        let right_s9 = r92 / r98;
-        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, right_c9, right_s9, ..*known };
-        block_12(p, &next, answers);
+        let r91 = right_w9 * shared.r70;
+        let r92 = right_w9 * shared.r72;
+        let r97 = 1.0 / f64::max(r92 * r92 + r91 * r91, 0.0).sqrt();
+        let right_c9 = 0.0 - r92 * r97;
+        let right_s9 = r91 * r97;
+        let q13 = angle(right_c9, right_s9);
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, q13, ..*known };
+        again_12(p, &next, answers);
     }
 }
 
@@ -1578,12 +1671,14 @@ fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
         return;
     }
     for [right_c9, right_s9] in SAMPLES_1 {
-        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
-        block_12(p, &next, answers);
+        let q13 = angle(right_c9, right_s9);
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, q13, ..*known };
+        again_12(p, &next, answers);
     }
 }
 
 /// Block 12: AnklePitch.
+#[inline(always)]
 fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = known.right_c7 * known.right_s9;
     let r1 = known.right_s7 * known.right_s9;
@@ -1623,6 +1718,13 @@ fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_12_2(p, known, shared, answers);
 }
 
+/// Block 12 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_12(p, known, answers);
+}
+
 /// What the charts of block 12 share.
 struct Shared12 {
     r77: f64,
@@ -1634,6 +1736,7 @@ struct Shared12 {
 
 /// Chart 1 of block 12: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
     let r99 = shared.r95 * shared.r95;
@@ -1641,13 +1744,13 @@ fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
         return;
     }
     let r105 = shared.r77 * shared.r92 - (0.0 - shared.r89 * shared.r91);
-    let r106 = r105 / r98;
-    let r109 = shared.r77 * shared.r91 - shared.r89 * shared.r92;
-    let r110 = r109 / r98;
-    let r114 = f64::max(r110 * r110 + r106 * r106, 0.0).sqrt();
-    let right_c8 = r110 / r114;
-    let right_s8 = r106 / r114;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, right_c8, right_s8, ..*known };
+    let r108 = shared.r77 * shared.r91 - shared.r89 * shared.r92;
+    let r112 = f64::max(r108 * r108 + r105 * r105, 0.0).sqrt();
+    let r113 = 1.0 / r112;
+    let right_c8 = r108 * r113;
+    let right_s8 = r105 * r113;
+    let q12 = angle(right_c8, right_s8);
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, right_c8, right_s8, q12, ..*known };
     block_13(p, &next, answers);
 }
 
@@ -1661,12 +1764,14 @@ fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
         return;
     }
     for [right_c8, right_s8] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], true, known.free[13]], right_c8, right_s8, ..*known };
-        block_13(p, &next, answers);
+        let q12 = angle(right_c8, right_s8);
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], true, known.free[13]], right_c8, right_s8, q12, ..*known };
+        again_13(p, &next, answers);
     }
 }
 
 /// Block 13: HipRoll.
+#[inline(always)]
 fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r6 = p.right_r12 * known.right_c9 - p.right_r13 * known.right_s9;
     let r8 = p.right_r22 * known.right_c9 - p.right_r23 * known.right_s9;
@@ -1689,6 +1794,13 @@ fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_13_1(p, known, shared, answers);
 }
 
+/// Block 13 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_13(p, known, answers);
+}
+
 /// What the charts of block 13 share.
 struct Shared13 {
     r44: f64,
@@ -1696,16 +1808,19 @@ struct Shared13 {
 }
 
 /// Chart 1 of block 13: generic.
+#[inline(always)]
 fn chart_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut Answers<'_>) {
     let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44;
-    let r51 = f64::max(r50, 0.0).sqrt();
-    let right_c5 = shared.r47 / r51;
-    let right_s5 = shared.r44 / r51;
-    let next = Known { branch: known.branch, last: known.last, right_c5, right_s5, ..*known };
+    let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
+    let right_c5 = shared.r47 * r52;
+    let right_s5 = shared.r44 * r52;
+    let q9 = angle(right_c5, right_s5);
+    let next = Known { branch: known.branch, last: known.last, close: known.close, right_c5, right_s5, q9, ..*known };
     block_14(p, &next, answers);
 }
 
 /// Block 14: HipPitch.
+#[inline(always)]
 fn block_14(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = known.right_c8 * known.right_s9;
     let r5 = 0.1029 * (known.right_c8 * known.right_c9) + 0.04519;
@@ -1747,29 +1862,61 @@ struct Shared14 {
 }
 
 /// Chart 1 of block 14: generic.
+#[inline(always)]
 fn chart_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut Answers<'_>) {
-    let r100 = 0.1 * shared.r95 / 0.010000000000000002;
-    let r102 = 0.1 * shared.r98 / 0.010000000000000002;
-    let r106 = f64::max(r102 * r102 + r100 * r100, 0.0).sqrt();
-    let right_c6 = r102 / r106;
-    let right_s6 = 0.0 - r100 / r106;
-    let q = [
-        angle(known.left_c1, known.left_s1),
-        angle(known.left_c2_, known.left_s2_),
-        angle(known.left_c3_, known.left_s3_),
-        angle(known.left_c4, known.left_s4),
-        angle(known.left_c5, known.left_s5),
-        angle(known.left_c6, known.left_s6),
-        angle(known.left_c7, known.left_s7),
-        angle(known.left_c8, known.left_s8),
-        angle(known.left_c9, known.left_s9),
-        angle(known.right_c5, known.right_s5),
-        angle(right_c6, right_s6),
-        angle(known.right_c7, known.right_s7),
-        angle(known.right_c8, known.right_s8),
-        angle(known.right_c9, known.right_s9),
+    let r99 = 0.1 * shared.r95;
+    let r100 = 0.1 * shared.r98;
+    let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt();
+    let r105 = 1.0 / r104;
+    let right_c6 = r100 * r105;
+    let right_s6 = 0.0 - r99 * r105;
+    let at = [
+        known.left_c1,
+        known.left_s1,
+        known.left_c2_,
+        known.left_s2_,
+        known.left_c3_,
+        known.left_s3_,
+        known.left_c4,
+        known.left_s4,
+        known.left_c5,
+        known.left_s5,
+        known.left_c6,
+        known.left_s6,
+        known.left_c7,
+        known.left_s7,
+        known.left_c8,
+        known.left_s8,
+        known.left_c9,
+        known.left_s9,
+        known.right_c5,
+        known.right_s5,
+        right_c6,
+        right_s6,
+        known.right_c7,
+        known.right_s7,
+        known.right_c8,
+        known.right_s8,
+        known.right_c9,
+        known.right_s9,
     ];
-    answers.finish(p, known.branch, known.last, q, known.free);
+    let q = [
+        known.q0,
+        known.q1,
+        known.q2,
+        known.q3,
+        known.q4,
+        known.q5,
+        known.q6,
+        known.q7,
+        known.q8,
+        known.q9,
+        angle(at[20], at[21]),
+        known.q11,
+        known.q12,
+        known.q13,
+    ];
+    answers.finish(p, known.branch, known.last, known.close, &at, q, known.free);
 }
 
 /// The place of the greatest number that is not negative, the first of equals; the length without one.
@@ -1786,36 +1933,36 @@ fn greatest(claims: &[f64]) -> usize {
 /// What the equations compare with the target.
 const TIP: usize = 28;
 
-/// The tip at joint values `q`, as the equations compare it.
-fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
-    let left_c1 = q[0].cos();
-    let left_s1 = q[0].sin();
-    let left_c2_ = q[1].cos();
-    let left_s2_ = q[1].sin();
-    let left_c3_ = q[2].cos();
-    let left_s3_ = q[2].sin();
-    let left_c4 = q[3].cos();
-    let left_s4 = q[3].sin();
-    let left_c5 = q[4].cos();
-    let left_s5 = q[4].sin();
-    let left_c6 = q[5].cos();
-    let left_s6 = q[5].sin();
-    let left_c7 = q[6].cos();
-    let left_s7 = q[6].sin();
-    let left_c8 = q[7].cos();
-    let left_s8 = q[7].sin();
-    let left_c9 = q[8].cos();
-    let left_s9 = q[8].sin();
-    let right_c5 = q[9].cos();
-    let right_s5 = q[9].sin();
-    let right_c6 = q[10].cos();
-    let right_s6 = q[10].sin();
-    let right_c7 = q[11].cos();
-    let right_s7 = q[11].sin();
-    let right_c8 = q[12].cos();
-    let right_s8 = q[12].sin();
-    let right_c9 = q[13].cos();
-    let right_s9 = q[13].sin();
+/// The tip, as the equations compare it.
+fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
+    let left_c1 = at[0];
+    let left_s1 = at[1];
+    let left_c2_ = at[2];
+    let left_s2_ = at[3];
+    let left_c3_ = at[4];
+    let left_s3_ = at[5];
+    let left_c4 = at[6];
+    let left_s4 = at[7];
+    let left_c5 = at[8];
+    let left_s5 = at[9];
+    let left_c6 = at[10];
+    let left_s6 = at[11];
+    let left_c7 = at[12];
+    let left_s7 = at[13];
+    let left_c8 = at[14];
+    let left_s8 = at[15];
+    let left_c9 = at[16];
+    let left_s9 = at[17];
+    let right_c5 = at[18];
+    let right_s5 = at[19];
+    let right_c6 = at[20];
+    let right_s6 = at[21];
+    let right_c7 = at[22];
+    let right_s7 = at[23];
+    let right_c8 = at[24];
+    let right_s8 = at[25];
+    let right_c9 = at[26];
+    let right_s9 = at[27];
     let r4 = left_c1 * left_c2_;
     let r5 = left_s1 * left_c2_;
     let r6 = left_c1 * left_s2_;
@@ -2008,14 +2155,55 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     ]
 }
 
+/// What the equations read of joints: 28 numbers.
+const PLACES: usize = 28;
+
+/// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(), q[6].cos(), q[6].sin(), q[7].cos(), q[7].sin(), q[8].cos(), q[8].sin(), q[9].cos(), q[9].sin(), q[10].cos(), q[10].sin(), q[11].cos(), q[11].sin(), q[12].cos(), q[12].sin(), q[13].cos(), q[13].sin().
+fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
+    [
+        q[0].cos(),
+        q[0].sin(),
+        q[1].cos(),
+        q[1].sin(),
+        q[2].cos(),
+        q[2].sin(),
+        q[3].cos(),
+        q[3].sin(),
+        q[4].cos(),
+        q[4].sin(),
+        q[5].cos(),
+        q[5].sin(),
+        q[6].cos(),
+        q[6].sin(),
+        q[7].cos(),
+        q[7].sin(),
+        q[8].cos(),
+        q[8].sin(),
+        q[9].cos(),
+        q[9].sin(),
+        q[10].cos(),
+        q[10].sin(),
+        q[11].cos(),
+        q[11].sin(),
+        q[12].cos(),
+        q[12].sin(),
+        q[13].cos(),
+        q[13].sin(),
+    ]
+}
+
 /// The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes.
 struct Equations {
     value: [f64; EQUATIONS],
-    size: [f64; EQUATIONS],
+    size: [f64; SIZES],
 }
 
-fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
-    let reached = tip(q);
+const SIZES: usize = 2;
+/// Which of the sizes is that of each equation.
+const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+
+fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
+    let reached = tip(at);
     Equations {
         value: [
             reached[0] - p.left_c2,
@@ -2049,67 +2237,41 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
         ],
         size: [
             1.0,
-            1.0,
-            1.0,
-            1.0,
             0.3467054146165801,
-            0.3467054146165801,
-            0.3467054146165801,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            0.3467054146165801,
-            0.3467054146165801,
-            0.3467054146165801,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
         ],
     }
 }
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
-fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
-    let left_c1 = q[0].cos();
-    let left_s1 = q[0].sin();
-    let left_c2_ = q[1].cos();
-    let left_s2_ = q[1].sin();
-    let left_c3_ = q[2].cos();
-    let left_s3_ = q[2].sin();
-    let left_c4 = q[3].cos();
-    let left_s4 = q[3].sin();
-    let left_c5 = q[4].cos();
-    let left_s5 = q[4].sin();
-    let left_c6 = q[5].cos();
-    let left_s6 = q[5].sin();
-    let left_c7 = q[6].cos();
-    let left_s7 = q[6].sin();
-    let left_c8 = q[7].cos();
-    let left_s8 = q[7].sin();
-    let left_c9 = q[8].cos();
-    let left_s9 = q[8].sin();
-    let right_c5 = q[9].cos();
-    let right_s5 = q[9].sin();
-    let right_c6 = q[10].cos();
-    let right_s6 = q[10].sin();
-    let right_c7 = q[11].cos();
-    let right_s7 = q[11].sin();
-    let right_c8 = q[12].cos();
-    let right_s8 = q[12].sin();
-    let right_c9 = q[13].cos();
-    let right_s9 = q[13].sin();
+fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
+    let left_c1 = at[0];
+    let left_s1 = at[1];
+    let left_c2_ = at[2];
+    let left_s2_ = at[3];
+    let left_c3_ = at[4];
+    let left_s3_ = at[5];
+    let left_c4 = at[6];
+    let left_s4 = at[7];
+    let left_c5 = at[8];
+    let left_s5 = at[9];
+    let left_c6 = at[10];
+    let left_s6 = at[11];
+    let left_c7 = at[12];
+    let left_s7 = at[13];
+    let left_c8 = at[14];
+    let left_s8 = at[15];
+    let left_c9 = at[16];
+    let left_s9 = at[17];
+    let right_c5 = at[18];
+    let right_s5 = at[19];
+    let right_c6 = at[20];
+    let right_s6 = at[21];
+    let right_c7 = at[22];
+    let right_s7 = at[23];
+    let right_c8 = at[24];
+    let right_s8 = at[25];
+    let right_c9 = at[26];
+    let right_s9 = at[27];
     let r4 = left_c1 * left_c2_;
     let r5 = left_s1 * left_c2_;
     let r6 = left_c1 * left_s2_;
@@ -2444,9 +2606,23 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Keeps a candidate that solves the equations within rounding, and refines others.
+    #[inline(always)]
+    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], q: [f64; JOINTS], free: [bool; JOINTS]) {
+        if free == NONE_FREE && !close {
+            let fit = measure_at(p, at, &q);
+            if fit.accepted && fit.relative < RESOLUTION && is_round(at) {
+                return self.keep(p, branch, last, (q, fit), free);
+            }
+        }
+        self.refine(p, branch, last, q, free);
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    #[cold]
+    #[inline(never)]
+    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
             if self.has_member(branch, &free) {
@@ -2511,6 +2687,25 @@ impl Answers<'_> {
         if !fit.accepted {
             return;
         }
+        if self.is_apart(branch, &q, &free) {
+            self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
+            self.relative[self.count] = fit.relative;
+            self.count += 1;
+            return;
+        }
+        self.keep_one(p, branch, last, (q, fit), free);
+    }
+
+    /// Whether there is room for an isolated answer of this branch, and none of the others is near it.
+    fn is_apart(&self, branch: usize, q: &[f64; JOINTS], free: &[bool; JOINTS]) -> bool {
+        let apart = |other: &Solution| other.branch != branch && is_isolated(other) && !is_within(&other.q, q, BLUR);
+        self.count < CAPACITY && *free == NONE_FREE && self.out[..self.count].iter().all(apart)
+    }
+
+    /// As [`Answers::keep`], where others are near.
+    #[cold]
+    #[inline(never)]
+    fn keep_one(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
         let next = if free == NONE_FREE { last } else { branch };
         let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
         let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
@@ -2598,6 +2793,9 @@ struct Rated {
 
 /// Whether two answers are one.
 fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
+    if is_isolated(&a.answer) && is_isolated(&b.answer) && !close(&a.answer, &b.answer, BLUR) {
+        return false;
+    }
     if close(&a.answer, &b.answer, MERGE) {
         return true;
     }
@@ -2682,7 +2880,35 @@ fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
 }
 
 fn shorter(difference: f64) -> f64 {
-    difference - TAU * (difference / TAU).round()
+    if difference > PI {
+        difference - TAU
+    } else if difference < -PI {
+        difference + TAU
+    } else {
+        difference
+    }
+}
+
+/// Whether joint values differ by `tolerance` at most.
+fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
+    shorter(a[10] - b[10]).abs() <= tolerance
+    && shorter(a[9] - b[9]).abs() <= tolerance
+    && shorter(a[12] - b[12]).abs() <= tolerance
+    && shorter(a[13] - b[13]).abs() <= tolerance
+    && shorter(a[11] - b[11]).abs() <= tolerance
+    && shorter(a[5] - b[5]).abs() <= tolerance
+    && shorter(a[4] - b[4]).abs() <= tolerance
+    && shorter(a[7] - b[7]).abs() <= tolerance
+    && shorter(a[8] - b[8]).abs() <= tolerance
+    && shorter(a[6] - b[6]).abs() <= tolerance
+    && shorter(a[3] - b[3]).abs() <= tolerance
+    && shorter(a[0] - b[0]).abs() <= tolerance
+    && shorter(a[2] - b[2]).abs() <= tolerance
+    && shorter(a[1] - b[1]).abs() <= tolerance
+}
+
+fn is_isolated(answer: &Solution) -> bool {
+    !answer.free.contains(&true)
 }
 
 /// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
@@ -2720,9 +2946,6 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// Whether two answers near one another are one at a singular configuration: half-way between them, on a way that may be bent, the
 /// equations hold as well as at the worse of the two, or within rounding.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if !close(&a.answer, &b.answer, BLUR) {
-        return false;
-    }
     let way = differences(&a.answer.q, &b.answer.q);
     let mut middle = b.answer.q;
     for i in 0..JOINTS {
@@ -2753,27 +2976,56 @@ struct Fit {
 }
 
 fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
-    let Equations { value, size } = equations(p, q);
+    measure_at(p, &place(q), q)
+}
+
+/// As [`measure`], where the cosines and sines of `q` are known.
+#[inline(always)]
+fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
+    let Equations { value, size } = equations(p, at);
     let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: q.iter().all(|value| value.is_finite()) };
-    for (value, size) in value.iter().zip(size) {
-        fit.residual = f64::max(fit.residual, value.abs());
-        fit.relative = f64::max(fit.relative, value.abs() / f64::max(size, f64::MIN_POSITIVE));
-        fit.accepted &= value.abs() <= ACCEPT * size;
+    let mut largest = [0.0; SIZES];
+    for i in 0..EQUATIONS {
+        largest[SIZE_OF[i]] = f64::max(largest[SIZE_OF[i]], value[i].abs());
+        fit.accepted &= value[i].abs() <= ACCEPT * size[SIZE_OF[i]];
+    }
+    for (largest, size) in largest.iter().zip(size) {
+        fit.residual = f64::max(fit.residual, *largest);
+        fit.relative = f64::max(fit.relative, largest / f64::max(size, f64::MIN_POSITIVE));
     }
     fit.accepted &= fit.residual.is_finite();
     fit
+}
+
+/// Whether the cosines and sines of all angles are on the circle.
+fn is_round(at: &[f64; PLACES]) -> bool {
+    (at[0] * at[0] + at[1] * at[1] - 1.0).abs() < RESOLUTION
+    && (at[2] * at[2] + at[3] * at[3] - 1.0).abs() < RESOLUTION
+    && (at[4] * at[4] + at[5] * at[5] - 1.0).abs() < RESOLUTION
+    && (at[6] * at[6] + at[7] * at[7] - 1.0).abs() < RESOLUTION
+    && (at[8] * at[8] + at[9] * at[9] - 1.0).abs() < RESOLUTION
+    && (at[10] * at[10] + at[11] * at[11] - 1.0).abs() < RESOLUTION
+    && (at[12] * at[12] + at[13] * at[13] - 1.0).abs() < RESOLUTION
+    && (at[14] * at[14] + at[15] * at[15] - 1.0).abs() < RESOLUTION
+    && (at[16] * at[16] + at[17] * at[17] - 1.0).abs() < RESOLUTION
+    && (at[18] * at[18] + at[19] * at[19] - 1.0).abs() < RESOLUTION
+    && (at[20] * at[20] + at[21] * at[21] - 1.0).abs() < RESOLUTION
+    && (at[22] * at[22] + at[23] * at[23] - 1.0).abs() < RESOLUTION
+    && (at[24] * at[24] + at[25] * at[25] - 1.0).abs() < RESOLUTION
+    && (at[26] * at[26] + at[27] * at[27] - 1.0).abs() < RESOLUTION
 }
 
 /// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
 /// after a leap.
 /// Joints that are `held` stay.
 fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    let mut end = start;
+    let (mut end, mut slow) = (start, 0);
     for _ in 0..POLISH_STEPS {
-        if end.1.relative <= POLISHED {
+        if end.1.relative <= POLISHED || slow == PATIENCE {
             return end;
         }
         let Some(next) = improved(p, &end, held) else { return end };
+        slow = if next.1.relative <= 0.5 * end.1.relative { 0 } else { slow + 1 };
         end = next;
     }
     end
@@ -2865,10 +3117,12 @@ fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
 fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
-    let rows = jacobian(p, q);
-    let size = equations(p, q).size;
+    let at = place(q);
+    let rows = jacobian(p, &at);
+    let sizes = equations(p, &at).size;
     let mut weights = [0.0; JOINTS];
-    for (row, size) in rows.iter().zip(size) {
+    for (row, size) in rows.iter().zip(SIZE_OF) {
+        let size = sizes[size];
         for i in 0..JOINTS {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
@@ -2914,57 +3168,65 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
     next
 }
 
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by plane rotations.
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
-    let rows = jacobian(p, q);
-    let right = equations(p, q).value;
-    let mut triangle = [[0.0; JOINTS + 1]; JOINTS];
-    let mut squares = [0.0; JOINTS];
-    for (row, right) in rows.iter().zip(right) {
-        let mut line = [0.0; JOINTS + 1];
-        for i in 0..JOINTS {
-            line[i] = if held[i] { 0.0 } else { row[i] };
-            squares[i] += line[i] * line[i];
-        }
-        line[JOINTS] = right;
-        turn_in(&mut triangle, line);
-    }
-    let size = squares.iter().fold(0.0, |size, &square| f64::max(size, square));
+    let at = place(q);
+    let rows = jacobian(p, &at);
+    let right = equations(p, &at).value;
+    let mut columns = [[0.0; ROWS]; JOINTS + 1];
+    let mut size = 0.0;
     for i in 0..JOINTS {
-        let mut line = [0.0; JOINTS + 1];
-        line[i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
-        turn_in(&mut triangle, line);
+        let mut square = 0.0;
+        for (k, row) in rows.iter().enumerate() {
+            let entry = if held[i] { 0.0 } else { row[i] };
+            columns[i][k] = entry;
+            square += entry * entry;
+        }
+        size = f64::max(size, square);
     }
-    substituted(&triangle)
+    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
+    for i in 0..JOINTS {
+        columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
+    }
+    reflect(&mut columns);
+    substituted(&columns)
 }
 
-/// Adds a row to a triangle by plane rotations that leave nothing of it.
-fn turn_in(triangle: &mut [[f64; JOINTS + 1]; JOINTS], mut line: [f64; JOINTS + 1]) {
-    for (pivot, top) in triangle.iter_mut().enumerate() {
-        let length = (top[pivot] * top[pivot] + line[pivot] * line[pivot]).sqrt();
-        if line[pivot] == 0.0 || length == 0.0 {
+/// Rows of the equations and of the damping.
+const ROWS: usize = EQUATIONS + JOINTS;
+
+/// Turns columns into a triangle by reflections.
+fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
+    for pivot in 0..JOINTS {
+        let mut mirror = columns[pivot];
+        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
+        if square == 0.0 {
             continue;
         }
-        let (cosine, sine) = (top[pivot] / length, line[pivot] / length);
-        for k in pivot..=JOINTS {
-            let (above, entry) = (top[k], line[k]);
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        let length = square.sqrt().copysign(mirror[pivot]);
+        mirror[pivot] += length;
+        let half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for column in &mut columns[pivot + 1..] {
+            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
+            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
+                *x -= along * y;
+            }
         }
     }
 }
 
 /// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> {
+fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
     let mut solution = [0.0; JOINTS];
     for row in (0..JOINTS).rev() {
-        let pivot = triangle[row][row];
+        let pivot = columns[row][row];
         if pivot == 0.0 || !pivot.is_finite() {
             return None;
         }
-        let mut sum = triangle[row][JOINTS];
+        let mut sum = columns[JOINTS][row];
         for k in row + 1..JOINTS {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -2974,9 +3236,38 @@ fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> 
 const PI: f64 = core::f64::consts::PI;
 const TAU: f64 = core::f64::consts::TAU;
 
-/// The angle of a cosine and a sine, in (-pi, pi].
+/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
+/// interpolates at eleven Chebyshev points.
+#[inline(always)]
 fn angle(cosine: f64, sine: f64) -> f64 {
-    half_open(sine.atan2(cosine))
+    let (across, up) = (cosine.abs(), sine.abs());
+    let steep = up > across;
+    let (low, high) = if steep { (across, up) } else { (up, across) };
+    let far = low > 0.41421356237309503 * high;
+    let (top, bottom) = if far { (low - high, low + high) } else { (low, high) };
+    let z = top / bottom;
+    let mut angle = z + z * (z * z) * series(z * z);
+    if far {
+        angle = 0.25 * PI + (angle + REST);
+    }
+    if steep {
+        angle = 0.5 * PI - (angle - 2.0 * REST);
+    }
+    if cosine < 0.0 {
+        angle = PI - (angle - 4.0 * REST);
+    }
+    half_open(angle.copysign(sine))
+}
+
+/// What the double nearest to pi/4 lacks.
+const REST: f64 = 3.061616997868383e-17;
+
+fn series(u: f64) -> f64 {
+    let (square, fourth) = (u * u, u * u * (u * u));
+    let first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    let second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    let third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    first + (second + third * fourth) * fourth
 }
 
 /// The angle in (-pi, pi]: -pi, which `atan2` gives for a negative zero sine, becomes pi.
@@ -3015,10 +3306,12 @@ const MAX_STEPS: usize = 256;
 struct Roots {
     values: [f64; DEGREE],
     count: usize,
+    /// Whether some are close to one another, or one is double.
+    close: bool,
 }
 
 impl Roots {
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0 };
+    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
 
     fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
@@ -3030,6 +3323,24 @@ impl Roots {
             self.count += 1;
         }
     }
+}
+
+/// All real roots of x^2 + constant; a miss is measured against the unknown's typical size `scale`.
+fn square_roots(constant: f64, scale: f64) -> Roots {
+    let mut roots = Roots::NONE;
+    if constant.is_nan() || constant > TANGENT * f64::max(constant, scale * scale) {
+        return roots;
+    }
+    if constant >= 0.0 {
+        roots.push(0.0);
+        roots.close = true;
+        return roots;
+    }
+    let root = (-constant).sqrt();
+    roots.close = root <= SPLIT * scale;
+    roots.push(-root);
+    roots.push(root);
+    roots
 }
 
 /// A polynomial with coefficients of magnitude one and less, constant term first.
@@ -3047,6 +3358,13 @@ fn largest(coefficients: &[f64]) -> f64 {
 /// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
 /// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
 fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
+    let mut roots = all_real_roots(coefficients, scale);
+    let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
+    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= SPLIT * scale);
+    roots
+}
+
+fn all_real_roots(coefficients: &[f64], scale: f64) -> Roots {
     let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
     if p.degree < 2 {
         return p.linear_root();
@@ -3253,7 +3571,6 @@ mod libm {
         pub safe fn sqrt(x: f64) -> f64;
         pub safe fn sin(x: f64) -> f64;
         pub safe fn cos(x: f64) -> f64;
-        pub safe fn atan2(y: f64, x: f64) -> f64;
         pub safe fn round(x: f64) -> f64;
         pub safe fn floor(x: f64) -> f64;
         pub safe fn ceil(x: f64) -> f64;
@@ -3267,7 +3584,6 @@ trait Math: Sized {
     fn sqrt(self) -> Self;
     fn sin(self) -> Self;
     fn cos(self) -> Self;
-    fn atan2(self, x: Self) -> Self;
     fn round(self) -> Self;
     fn floor(self) -> Self;
     fn ceil(self) -> Self;
@@ -3283,9 +3599,6 @@ impl Math for f64 {
     }
     fn cos(self) -> Self {
         libm::cos(self)
-    }
-    fn atan2(self, x: Self) -> Self {
-        libm::atan2(self, x)
     }
     fn round(self) -> Self {
         libm::round(self)

@@ -121,6 +121,13 @@ int offset_wrist_nearest(const offset_wrist_solution *list, int count, const dou
 #define INPUTS OFFSET_WRIST_INPUTS
 #define JOINTS OFFSET_WRIST_JOINTS
 #define EQUATIONS 12
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE __attribute__((always_inline)) inline
+#define COLD __attribute__((noinline, cold))
+#else
+#define INLINE
+#define COLD
+#endif
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -131,6 +138,8 @@ int offset_wrist_nearest(const offset_wrist_solution *list, int count, const dou
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
+/* So many steps in a row that do not halve the miss are the last. */
+#define PATIENCE 3
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -168,27 +177,17 @@ const double offset_wrist_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINITY, 
 
 /* The highest degree of a polynomial. */
 #define DEGREE 2
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-#define NEGLIGIBLE 1e-290
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 #define TANGENT 1e-10
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-#define ROUNDING (2.0 * DBL_EPSILON)
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -198,87 +197,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -312,51 +247,77 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 #define TIP 12
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
-    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16;
-    const double r18 = s3 * r0 + c3 * r2, r19 = s4 * r18, r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3;
-    const double r23 = s4 * r22, r24 = r8 + r9, r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26;
-    const double r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
-    const double r34 = r17 - r19, r35 = c5 * r34, r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37, r39 = c1 * s5;
-    const double r40 = r25 - r27, r41 = c5 * r40, r46 = s5 * r40, r47 = s5 * r34 + s1 * c5, r49 = r28 + r29;
-    const double r51 = s5 * r37 - c1 * c5, r53 = r30 + r31, r56 = r32 + r33;
-    const double r70 = 0.4 * s2 + 0.35 * r8 + 0.35 * r9 + 0.06 * r25;
-    const double r78 = r70 - 0.06 * r27 - 0.125 * r32 - 0.125 * r33 + 0.125 * r41;
-    const double r104 = 0.35 * r6 + (0.4 * r1 + 0.05 * s1) - 0.35 * r7;
-    const double r108 = 0.06 * r21 + r104 - 0.06 * r23 - 0.125 * c1 - 0.125 * r30;
-    const double r111 = 0.125 * r39 + (0.125 * r38 + (r108 - 0.125 * r31));
-    const double r115 = 0.35 * r4 + (0.4 * r0 + 0.05 * c1) - 0.35 * r5;
-    const double r118 = 0.125 * s1 + (0.06 * r17 + r115 - 0.06 * r19);
-    const double r121 = 0.125 * r35 + (r118 - 0.125 * r28 - 0.125 * r29);
-    reached[0] = r121 - 0.125 * r36;
-    reached[1] = r111;
-    reached[2] = 0.18 - r78;
-    reached[3] = 0.0 - (s6 * r47 + c6 * r49);
-    reached[4] = 0.0 - (s6 * r51 + c6 * r53);
-    reached[5] = s6 * r46 + c6 * r56;
-    reached[6] = s6 * r49 - c6 * r47;
-    reached[7] = s6 * r53 - c6 * r51;
-    reached[8] = c6 * r46 - s6 * r56;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
+    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
+    const double r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16, r18 = s3 * r0 + c3 * r2, r19 = s4 * r18;
+    const double r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3, r23 = s4 * r22, r24 = r8 + r9;
+    const double r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26, r28 = s4 * r16, r29 = c4 * r18;
+    const double r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26, r34 = r17 - r19, r35 = c5 * r34;
+    const double r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37, r39 = c1 * s5, r40 = r25 - r27, r41 = c5 * r40;
+    const double r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40;
+    const double r55 = 0.05 * c1 + 0.4 * r0 + 0.35 * r4 - 0.35 * r5 + 0.06 * r17;
+    const double r63 = r55 - 0.06 * r19 + 0.125 * s1 - 0.86 * r35 + 0.86 * r36, r64 = 0.125 * r42;
+    const double r66 = 0.125 * r43, r80 = 0.05 * s1 + 0.4 * r1 + 0.35 * r6 - 0.35 * r7 + 0.06 * r21;
+    const double r88 = r80 - 0.06 * r23 - 0.125 * c1 - 0.86 * r38 - 0.86 * r39, r89 = 0.125 * r44;
+    const double r91 = 0.125 * r45, r97 = r42 + r43, r99 = r28 + r29, r101 = r44 - r45, r103 = r30 + r31;
+    const double r106 = r32 + r33, r120 = 0.4 * s2 + 0.35 * r8 + 0.35 * r9 + 0.06 * r25;
+    const double r126 = r120 - 0.06 * r27 - 0.125 * r32 - 0.125 * r33;
+    const double r129 = r89 + (r88 - r89 + r91 - 0.18 * r30 - 0.18 * r31);
+    const double r136 = r129 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38;
+    const double r139 = r64 + (r63 - r64 - r66 - 0.18 * r28 - 0.18 * r29);
+    const double r146 = r66 + r139 + 0.055 * r28 + 0.055 * r29 + 0.985 * r35;
+    reached[0] = r146 - 0.985 * r36;
+    reached[1] = r136 + 0.985 * r39;
+    reached[2] = 0.18 - (r126 + 0.125 * r41);
+    reached[3] = 0.0 - (s6 * r97 + c6 * r99);
+    reached[4] = 0.0 - (s6 * r101 + c6 * r103);
+    reached[5] = s6 * r46 + c6 * r106;
+    reached[6] = s6 * r99 - c6 * r97;
+    reached[7] = s6 * r103 - c6 * r101;
+    reached[8] = c6 * r46 - s6 * r106;
     reached[9] = r35 - r36;
     reached[10] = r38 + r39;
     reached[11] = 0.0 - r41;
 }
 
+/* What the equations read of joints: 12 numbers. */
+#define PLACES 12
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+    at[10] = cos(q[5]);
+    at[11] = sin(q[5]);
+}
+
+#define SIZES 2
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->px,
@@ -374,16 +335,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             1.3254696631613145,
-            1.3254696631613145,
-            1.3254696631613145,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -395,54 +346,52 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
-    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16;
-    const double r18 = s3 * r0 + c3 * r2, r19 = s4 * r18, r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3;
-    const double r23 = s4 * r22, r24 = r8 + r9, r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26;
-    const double r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
-    const double r34 = r17 - r19, r35 = c5 * r34, r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37, r39 = c1 * s5;
-    const double r40 = r25 - r27, r41 = c5 * r40, r46 = s5 * r40, r47 = s5 * r34 + s1 * c5, r48 = c6 * r47;
-    const double r49 = r28 + r29, r50 = s6 * r49, r51 = s5 * r37 - c1 * c5, r53 = r30 + r31, r56 = r32 + r33;
-    const double r65 = 0.35 * r8, r67 = 0.35 * r9, r69 = 0.06 * r25, r71 = 0.06 * r27, r73 = 0.125 * r32;
-    const double r75 = 0.125 * r33, r77 = 0.125 * r41, r78 = 0.4 * s2 + r65 + r67 + r69 - r71 - r73 - r75 + r77;
-    const double r79 = 0.4 * r1, r80 = 0.35 * r6, r81 = 0.35 * r7, r82 = 0.06 * r21, r83 = 0.06 * r23;
-    const double r84 = 0.125 * c1, r85 = 0.125 * r30, r86 = 0.125 * r31, r87 = 0.125 * r38, r88 = 0.125 * r39;
-    const double r89 = 0.4 * r0, r90 = 0.35 * r4, r91 = 0.35 * r5, r92 = 0.06 * r17, r93 = 0.06 * r19;
-    const double r94 = 0.125 * s1, r95 = 0.125 * r28, r96 = 0.125 * r29, r97 = 0.125 * r35, r98 = 0.125 * r36;
-    const double r99 = r38 + r39, r100 = r35 - r36, r107 = r82 + (r80 + (r79 + 0.05 * s1) - r81) - r83 - r84;
-    const double r118 = r94 + (r92 + (r90 + (r89 + 0.05 * c1) - r91) - r93), r127 = s6 * r46 + c6 * r56;
-    const double r128 = s6 * r51 + c6 * r53, r129 = s6 * r47 + c6 * r49, r135 = c6 * r46 - s6 * r56;
-    const double r153 = r79 + r80 - r81 + r82 - r83 - r84 - r85 - r86;
-    const double r163 = r89 + r90 - r91 + r92 - r93 + r94 - r95 - r96;
-    const double r172 = r77 + (r69 + (r65 + r67) - r71 - r73 - r75);
-    const double r181 = r87 + (r82 + (r80 - r81) - r83 - r84 - r85 - r86);
-    const double r190 = r97 + (r94 + (r92 + (r90 - r91) - r93) - r95 - r96);
-    const double r196 = r77 + (r69 - r71 - r73 - r75), r205 = s1 * (r88 + (r87 + (r82 - r83 - r84 - r85 - r86)));
-    const double r212 = c1 * (r97 + (r94 + (r92 - r93) - r95 - r96) - r98), r213 = r56 - r41;
-    const double r216 = r53 - r38 - r39, r219 = r36 + (r49 - r35);
-    const double r235 = s1 * (r153 + r87 + r88) + c1 * (r163 + r97 - r98);
-    const double r238 = 0.0 - (s1 * (r88 + r181) + c1 * (r190 - r98)), r244 = c1 * r127, r245 = s1 * r127;
-    const double r264 = s1 * r128 + c1 * r129, r267 = c1 * r135, r268 = s1 * r135, r269 = c6 * r51 - s6 * r53;
-    const double r271 = r48 - r50, r289 = s1 * r269 + c1 * r271, r303 = 0.0 - c1 * r41, r305 = 0.0 - s1 * r41;
-    const double r308 = 0.0 - (s1 * r99 + c1 * r100);
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
+    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
+    const double r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16, r18 = s3 * r0 + c3 * r2, r19 = s4 * r18;
+    const double r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3, r23 = s4 * r22, r24 = r8 + r9;
+    const double r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26, r28 = s4 * r16, r29 = c4 * r18;
+    const double r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26, r34 = r17 - r19, r35 = c5 * r34;
+    const double r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37, r39 = c1 * s5, r40 = r25 - r27, r41 = c5 * r40;
+    const double r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40, r47 = 0.05 * c1;
+    const double r48 = 0.4 * r0, r50 = 0.35 * r4, r52 = 0.35 * r5, r54 = 0.06 * r17, r56 = 0.06 * r19;
+    const double r58 = 0.125 * s1, r61 = r47 + r48 + r50 - r52 + r54 - r56 + r58 - 0.86 * r35, r64 = 0.125 * r42;
+    const double r66 = 0.125 * r43, r71 = r61 + 0.86 * r36 - r64 - r66 - 0.18 * r28 - 0.18 * r29;
+    const double r72 = 0.05 * s1, r73 = 0.4 * r1, r75 = 0.35 * r6, r77 = 0.35 * r7, r79 = 0.06 * r21;
+    const double r81 = 0.06 * r23, r83 = 0.125 * c1, r86 = r72 + r73 + r75 - r77 + r79 - r81 - r83 - 0.86 * r38;
+    const double r89 = 0.125 * r44, r91 = 0.125 * r45;
+    const double r96 = r86 - 0.86 * r39 - r89 + r91 - 0.18 * r30 - 0.18 * r31, r97 = r42 + r43, r98 = c6 * r97;
+    const double r99 = r28 + r29, r100 = s6 * r99, r101 = r44 - r45, r103 = r30 + r31, r106 = r32 + r33;
+    const double r115 = 0.35 * r8, r117 = 0.35 * r9, r119 = 0.06 * r25, r121 = 0.06 * r27, r123 = 0.125 * r32;
+    const double r125 = 0.125 * r33, r126 = 0.4 * s2 + r115 + r117 + r119 - r121 - r123 - r125;
+    const double r127 = 0.125 * r41, r128 = r126 + r127;
+    const double r136 = r89 + r96 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38, r138 = r136 + 0.985 * r39;
+    const double r144 = r66 + (r64 + r71) + 0.055 * r28 + 0.055 * r29, r148 = r144 + 0.985 * r35 - 0.985 * r36;
+    const double r149 = r38 + r39, r150 = r35 - r36, r155 = s6 * r46 + c6 * r106, r156 = s6 * r101 + c6 * r103;
+    const double r157 = s6 * r97 + c6 * r99, r163 = c6 * r46 - s6 * r106, r175 = r138 - r72, r177 = r148 - r47;
+    const double r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125), r187 = r175 - r73, r189 = r177 - r48;
+    const double r194 = r127 + (r119 - r121 - r123 - r125), r198 = r77 + (r187 - r75), r201 = r52 + (r189 - r50);
+    const double r205 = r56 + (r201 - r54) - r58, r208 = r83 + (r81 + (r198 - r79)), r209 = r106 - r41;
+    const double r235 = c1 * r155, r236 = s1 * r155, r255 = s1 * r156 + c1 * r157, r258 = c1 * r163;
+    const double r259 = s1 * r163, r260 = c6 * r101 - s6 * r103, r262 = r98 - r100, r280 = s1 * r260 + c1 * r262;
+    const double r294 = 0.0 - c1 * r41, r296 = 0.0 - s1 * r41, r299 = 0.0 - (s1 * r149 + c1 * r150);
     const Jacobian result = { {
-        {0.0 - (r88 + (r87 + (r107 - r85 - r86))), 0.0 - c1 * r78, 0.0 - c1 * r172, 0.0 - c1 * r196, 0.125 * (r53 * r213 - r56 * r216), 0.0},
-        {r97 + (r118 - r95 - r96) - r98, 0.0 - s1 * r78, 0.0 - s1 * r172, 0.0 - s1 * r196, 0.125 * (r56 * r219 - r49 * r213), 0.0},
-        {0.0, 0.0 - r235, r238, 0.0 - (r205 + r212), 0.0 - 0.125 * (r49 * r216 - r53 * r219), 0.0},
-        {r128, r244, r244, r244, r53 * r127 - r56 * r128, r99 * r127 - r41 * r128},
-        {0.0 - r129, r245, r245, r245, r56 * r129 - r49 * r127, r41 * r129 - r100 * r127},
-        {0.0, r264, r264, r264, r53 * r129 - r49 * r128, r99 * r129 - r100 * r128},
-        {r269, r267, r267, r267, r53 * r135 - r56 * r269, r99 * r135 - r41 * r269},
-        {r50 - r48, r268, r268, r268, r56 * r271 - r49 * r135, r41 * r271 - r100 * r135},
-        {0.0, r289, r289, r289, r53 * r271 - r49 * r269, r99 * r271 - r100 * r269},
-        {0.0 - r99, r303, r303, r303, r56 * r99 - r41 * r53, 0.0},
-        {r100, r305, r305, r305, r41 * r49 - r56 * r100, 0.0},
-        {0.0, r308, r308, r308, r49 * r99 - r53 * r100, 0.0},
+        {0.0 - r138, 0.0 - c1 * r128, 0.0 - c1 * r184, 0.0 - c1 * r194, r106 * r208 + 0.125 * (r103 * r209), 0.0},
+        {r148, 0.0 - s1 * r128, 0.0 - s1 * r184, 0.0 - s1 * r194, 0.0 - (r106 * r205 + 0.125 * (r99 * r209)), 0.0},
+        {0.0, 0.0 - (s1 * r175 + c1 * r177), 0.0 - (s1 * r187 + c1 * r189), 0.0 - (s1 * r198 + c1 * r201), r99 * r208 - r103 * r205, 0.0},
+        {r156, r235, r235, r235, r103 * r155 - r106 * r156, r149 * r155 - r41 * r156},
+        {0.0 - r157, r236, r236, r236, r106 * r157 - r99 * r155, r41 * r157 - r150 * r155},
+        {0.0, r255, r255, r255, r103 * r157 - r99 * r156, r149 * r157 - r150 * r156},
+        {r260, r258, r258, r258, r103 * r163 - r106 * r260, r149 * r163 - r41 * r260},
+        {r100 - r98, r259, r259, r259, r106 * r262 - r99 * r163, r41 * r262 - r150 * r163},
+        {0.0, r280, r280, r280, r103 * r262 - r99 * r260, r149 * r262 - r150 * r260},
+        {0.0 - r149, r294, r294, r294, r106 * r149 - r41 * r103, 0.0},
+        {r150, r296, r296, r296, r41 * r99 - r106 * r150, 0.0},
+        {0.0, r299, r299, r299, r99 * r149 - r103 * r150, 0.0},
     } };
     return result;
 }
@@ -457,15 +406,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, DBL_MIN));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -474,16 +428,62 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION
+        && fabs(at[10] * at[10] + at[11] * at[11] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+#define REST 3.061616997868383e-17
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -494,35 +494,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+#define ROWS (EQUATIONS + JOINTS)
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -539,32 +553,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -676,22 +690,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -727,7 +746,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -766,6 +785,17 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[3] - b[3])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[2] - b[2])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -784,9 +814,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -889,10 +916,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1032,7 +1062,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1064,6 +1094,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == OFFSET_WRIST_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1145,6 +1212,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1157,9 +1226,14 @@ typedef struct {
     double s3;
     double c2;
     double s2;
+    double q0;
+    double q1;
+    double q2;
+    double q4;
+    double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1181,24 +1255,37 @@ typedef struct {
 
 /* Chart 1 of block 6: generic.
  */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r28 = (0.125 * shared->r24 - 0.06 * shared->r22) / 0.019225;
-    const double r32 = (0.125 * shared->r22 + 0.06 * shared->r24) / 0.019225;
-    const double r36 = sqrt(fmax(r32 * r32 + r28 * r28, 0.0)), c4 = 0.0 - r32 / r36, s4 = r28 / r36;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
-        angle(known->c3, known->s3),
-        angle(c4, s4),
-        angle(known->c5, known->s5),
-        angle(known->c6, known->s6),
+    const double r27 = 0.125 * shared->r24 - 0.06 * shared->r22, r30 = 0.125 * shared->r22 + 0.06 * shared->r24;
+    const double r35 = 1.0 / sqrt(fmax(r30 * r30 + r27 * r27, 0.0)), c4 = 0.0 - r30 * r35, s4 = r27 * r35;
+    const double at[PLACES] = {
+        known->c1,
+        known->s1,
+        known->c2,
+        known->s2,
+        known->c3,
+        known->s3,
+        c4,
+        s4,
+        known->c5,
+        known->s5,
+        known->c6,
+        known->s6,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        known->q2,
+        angle(at[6], at[7]),
+        known->q4,
+        known->q5,
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 6: Wrist1. */
-static void block_6(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r6 = known->c1 * (p->px - 0.125 * p->r13_) + known->s1 * (p->py - 0.125 * p->r23_);
     const double r7 = r6 - 0.05, r11 = p->pz - 0.125 * p->r33_ - 0.18;
@@ -1207,6 +1294,12 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const Shared6 own = { r22, r24 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
+}
+
+/* Block 6 behind a chart that hardly ever runs. */
+COLD static void again_6(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_6(p, known, answers);
 }
 
 /* What the charts of block 5 share. */
@@ -1222,20 +1315,23 @@ typedef struct {
 /* Chart 1 of block 5: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r46 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
     if (!is_away(r46, 83330.0)) {
         return;
     }
-    const double r49 = shared->r32 * shared->r36 + shared->r30 * shared->r38, r50 = r49 / r46;
-    const double r53 = shared->r32 * shared->r38 - shared->r30 * shared->r36, r54 = r53 / r46;
-    const double r58 = sqrt(fmax(r54 * r54 + r50 * r50, 0.0)), c2 = r54 / r58, s2 = 0.0 - r50 / r58;
+    const double r49 = shared->r32 * shared->r36 + shared->r30 * shared->r38;
+    const double r52 = shared->r32 * shared->r38 - shared->r30 * shared->r36;
+    const double r57 = 1.0 / sqrt(fmax(r52 * r52 + r49 * r49, 0.0)), c2 = r52 * r57, s2 = 0.0 - r49 * r57;
+    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
+    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
@@ -1250,19 +1346,21 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
-        block_6(p, &next, answers);
+        next.q1 = q1;
+        again_6(p, &next, answers);
     }
 }
 
 /* Block 5: Shoulder. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = 0.125 * known->c5 + 0.06 * known->s5, r6 = 0.125 * known->c6 - known->s6 * r2;
     const double r9 = known->c6 * r2 + 0.125 * known->s6, r14 = 0.06 * known->c5 - 0.125 * known->s5 + 0.125;
@@ -1279,31 +1377,32 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r63;
+    double r70;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r65 = shared->r63 * shared->r63 - 0.07840000000000001;
-    const double choice0_0[3] = {r65, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->f6);
+    const double r72 = shared->r70 * shared->r70 - 0.07840000000000001;
+    const Roots roots0 = square_roots(r72, 1.4142135623730951 * known->f6);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r68 = 0.28 * w3 / 0.07840000000000001;
-        const double r70 = 0.28 * shared->r63 / 0.07840000000000001;
-        const double r74 = sqrt(fmax(r70 * r70 + r68 * r68, 0.0)), c3 = 0.0 - r70 / r74, s3 = r68 / r74;
+        const double w3 = roots0.values[i0], r74 = 0.28 * w3, r75 = 0.28 * shared->r70;
+        const double r80 = 1.0 / sqrt(fmax(r75 * r75 + r74 * r74, 0.0)), c3 = 0.0 - r75 * r80, s3 = r74 * r80;
+        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
+        next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
+        next.q2 = q2;
         block_5(p, &next, answers);
     }
 }
 
 /* Block 4: Elbow. */
-static void block_4(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = 0.125 * known->c5 + 0.06 * known->s5, r6 = 0.125 * known->c6 - known->s6 * r2;
     const double r9 = known->c6 * r2 + 0.125 * known->s6, r14 = 0.06 * known->c5 - 0.125 * known->s5 + 0.125;
@@ -1312,10 +1411,11 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r28 = p->r22_ * r9 + (p->py - p->r21_ * r6) - p->r23_ * r14;
     const double r43 = 0.015 * known->c5 - 0.03125 * known->s5 + 2.0 * (p->px * r24);
     const double r47 = r43 + 2.0 * (p->py * r28) + 2.0 * (p->pz * (r20 + (p->pz - r19) - r21));
-    const double r50 = r47 - p->px * p->px - p->py * p->py - p->pz * p->pz;
-    const double r54 = r50 - 0.1 * (known->c1 * r24) - 0.1 * (known->s1 * r28);
-    const double r62 = r54 - 0.36 * p->pz + 0.36 * r19 - 0.36 * r20 + 0.36 * r21, r63 = 0.197125 - r62;
-    const Shared4 own = { r63 };
+    const double r50 = r47 - p->px * p->px - p->py * p->py - p->pz * p->pz, r51 = 0.05 * (known->c1 * r24);
+    const double r53 = 0.05 * (known->s1 * r28), r55 = 0.18 * p->pz, r57 = 0.18 * r19, r59 = 0.18 * r20;
+    const double r61 = 0.18 * r21, r63 = r50 - r51 - r53 - r55 + r57 - r59 + r61 + 0.085375;
+    const double r70 = 0.2825 - (r61 + (r57 + (r63 - r51 - r53 - r55) - r59));
+    const Shared4 own = { r70 };
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
@@ -1328,20 +1428,22 @@ typedef struct {
 
 /* Chart 1 of block 3: generic.
  */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r15 = sqrt(fmax(r14, 0.0));
-    const double c5 = shared->r11 / r15, s5 = shared->r10 / r15;
+    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r16 = 1.0 / sqrt(fmax(r14, 0.0));
+    const double c5 = shared->r11 * r16, s5 = shared->r10 * r16, q4 = angle(c5, s5);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
+    next.q4 = q4;
     block_4(p, &next, answers);
 }
 
 /* Block 3: Wrist2. */
-static void block_3(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r8 = known->c1 * (p->r21_ * known->s6 + p->r22_ * known->c6);
     const double r9 = known->s1 * (p->r11_ * known->s6 + p->r12_ * known->c6);
@@ -1349,6 +1451,12 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const Shared3 own = { r10, r11 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
+}
+
+/* Block 3 behind a chart that hardly ever runs. */
+COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_3(p, known, answers);
 }
 
 /* What the charts of block 2 share. */
@@ -1360,24 +1468,26 @@ typedef struct {
 /* Chart 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
-    if (!is_away(r8, 80000.0)) {
+    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5;
+    if (!is_away(r6 + r7, 80000.0)) {
         return;
     }
     const double f6 = 1.0;
-    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 2.8284271247461903);
+    const Roots roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w6 = roots0.values[i0], r12 = w6 * shared->r4 / r8, r14 = w6 * shared->r5 / r8;
-        const double r18 = sqrt(fmax(r14 * r14 + r12 * r12, 0.0)), c6 = 0.0 - r14 / r18, s6 = r12 / r18;
+        const double w6 = roots0.values[i0], r11 = w6 * shared->r4, r12 = w6 * shared->r5;
+        const double r17 = 1.0 / sqrt(fmax(r12 * r12 + r11 * r11, 0.0)), c6 = 0.0 - r12 * r17, s6 = r11 * r17;
+        const double q5 = angle(c6, s6);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
+        next.q5 = q5;
         block_3(p, &next, answers);
     }
 }
@@ -1394,20 +1504,22 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
+        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1], q5 = angle(c6, s6);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[5] = true;
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
-        block_3(p, &next, answers);
+        next.q5 = q5;
+        again_3(p, &next, answers);
     }
 }
 
 /* Block 2: Wrist3. */
-static void block_2(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r21_ * known->c1 - p->r11_ * known->s1, r5 = p->r12_ * known->s1 - p->r22_ * known->c1;
     const Shared2 own = { r4, r5 };
@@ -1426,24 +1538,26 @@ typedef struct {
 /* Chart 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
-    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
-    if (!is_away(r8, 10000.0 * r10)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
+    const double r10 = r9 + r9;
+    if (!is_away(r6 + r7, 10000.0 * r10)) {
         return;
     }
-    const double choice0_0[3] = {0.015625 - r6 - r7, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r10, 0.0)));
+    const Roots roots0 = square_roots(0.015625 - r6 - r7, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r19 = (w1 * shared->r1 - (0.0 - 0.125 * shared->r3)) / r8;
-        const double r23 = (0.125 * shared->r1 - w1 * shared->r3) / r8;
-        const double r27 = sqrt(fmax(r23 * r23 + r19 * r19, 0.0)), c1 = r23 / r27, s1 = r19 / r27;
+        const double w1 = roots0.values[i0], r18 = w1 * shared->r1 - (0.0 - 0.125 * shared->r3);
+        const double r21 = 0.125 * shared->r1 - w1 * shared->r3;
+        const double r26 = 1.0 / sqrt(fmax(r21 * r21 + r18 * r18, 0.0)), c1 = r21 * r26, s1 = r18 * r26;
+        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
+        next.close = roots0.close;
         next.c1 = c1;
         next.s1 = s1;
+        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1525,8 +1639,9 @@ int offset_wrist_solve(const double *given, offset_wrist_solution *out)
 
 void offset_wrist_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];
@@ -1548,7 +1663,9 @@ double offset_wrist_residual(const double *given, const double *q)
         return NAN;
     }
     const Parameters p = parameters(target);
-    const Equations f = equations(&p, q);
+    double at[PLACES];
+    place(q, at);
+    const Equations f = equations(&p, at);
     double size = 0.0;
     for (size_t i = 0; i < EQUATIONS; i++) {
         if (isnan(f.value[i])) {

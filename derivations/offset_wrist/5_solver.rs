@@ -33,7 +33,7 @@
 //! answer is polished by 32 Newton steps at most.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
-//! `sin`, `cos`, `atan2`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
+//! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
 //! are those of the C library, and the file needs `core` only: then it may be a module of a `#![no_std]` crate.
 #![allow(unexpected_cfgs, non_snake_case, clippy::all)]
 
@@ -106,7 +106,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
 pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
     let Some(target) = &conform(target) else { return f64::NAN };
     let mut largest = 0.0;
-    for value in equations(&parameters(target), q).value {
+    for value in equations(&parameters(target), &place(q)).value {
         if value.is_nan() {
             return value;
         }
@@ -118,7 +118,7 @@ pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
 /// The target that joint values `q` reach.
 #[allow(dead_code)]
 pub fn forward(q: &[f64; JOINTS]) -> [f64; INPUTS] {
-    let reached = tip(q);
+    let reached = tip(&place(q));
     [reached[0], reached[1], reached[2], reached[3], reached[6], reached[9], reached[4], reached[7], reached[10], reached[5], reached[8], reached[11]]
 }
 
@@ -300,6 +300,8 @@ const BLUR: f64 = 0.05;
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
 const POLISH_STEPS: usize = 32;
+/// So many steps in a row that do not halve the miss are the last.
+const PATIENCE: usize = 3;
 /// Shares of the squared Jacobian's size that are added where a plain step fails.
 const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 0.001];
 /// A candidate that misses the equations by this share of their size at most may be a double root.
@@ -410,6 +412,8 @@ struct Known {
     branch: usize,
     /// The end of the branch numbers of the first block's chart.
     last: usize,
+    /// Whether roots on the way are so near one another that rounding moves them.
+    close: bool,
     free: [bool; JOINTS],
     c1: f64,
     s1: f64,
@@ -422,9 +426,14 @@ struct Known {
     s3: f64,
     c2: f64,
     s2: f64,
+    q0: f64,
+    q1: f64,
+    q2: f64,
+    q4: f64,
+    q5: f64,
 }
 
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, free: NONE_FREE, c1: 0.0, s1: 0.0, c6: 0.0, s6: 0.0, f6: 0.0, c5: 0.0, s5: 0.0, c3: 0.0, s3: 0.0, c2: 0.0, s2: 0.0 };
+const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c1: 0.0, s1: 0.0, c6: 0.0, s6: 0.0, f6: 0.0, c5: 0.0, s5: 0.0, c3: 0.0, s3: 0.0, c2: 0.0, s2: 0.0, q0: 0.0, q1: 0.0, q2: 0.0, q4: 0.0, q5: 0.0 };
 
 /// Where charts put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
@@ -456,28 +465,30 @@ struct Shared1 {
 
 /// Chart 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r6 = shared.r1 * shared.r1;
     let r7 = shared.r3 * shared.r3;
-    let r8 = r6 + r7;
     let r9 = shared.r5 * shared.r5;
     let r10 = r9 + r9;
-    if !is_away(r8, 10000.0 * r10) {
+    if !is_away(r6 + r7, 10000.0 * r10) {
         return;
     }
-    let roots0 = real_roots(&[0.015625 - r6 - r7, 0.0, 1.0], f64::max(r10, 0.0).sqrt());
+    let roots0 = square_roots(0.015625 - r6 - r7, f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r19 = (w1 * shared.r1 - (0.0 - 0.125 * shared.r3)) / r8;
-        let r23 = (0.125 * shared.r1 - w1 * shared.r3) / r8;
-        let r27 = f64::max(r23 * r23 + r19 * r19, 0.0).sqrt();
-        let c1 = r23 / r27;
-        let s1 = r19 / r27;
-        let next = Known { branch: i0, last: 2, c1, s1, ..NOTHING_KNOWN };
+        let r18 = w1 * shared.r1 - (0.0 - 0.125 * shared.r3);
+        let r21 = 0.125 * shared.r1 - w1 * shared.r3;
+        let r26 = 1.0 / f64::max(r21 * r21 + r18 * r18, 0.0).sqrt();
+        let c1 = r21 * r26;
+        let s1 = r18 * r26;
+        let q0 = angle(c1, s1);
+        let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, q0, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
 }
 
 /// Block 2: Wrist3.
+#[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r4 = p.r21_ * known.c1 - p.r11_ * known.s1;
     let r5 = p.r12_ * known.s1 - p.r22_ * known.c1;
@@ -494,22 +505,23 @@ struct Shared2 {
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r6 = shared.r4 * shared.r4;
     let r7 = shared.r5 * shared.r5;
-    let r8 = r6 + r7;
-    if !is_away(r8, 80000.0) {
+    if !is_away(r6 + r7, 80000.0) {
         return;
     }
     let f6 = 1.0;
-    let roots0 = real_roots(&[0.0 - r6 - r7, 0.0, 1.0], 2.8284271247461903);
+    let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
     for (i0, &w6) in roots0.as_slice().iter().enumerate() {
-        let r12 = w6 * shared.r4 / r8;
-        let r14 = w6 * shared.r5 / r8;
-        let r18 = f64::max(r14 * r14 + r12 * r12, 0.0).sqrt();
-        let c6 = 0.0 - r14 / r18;
-        let s6 = r12 / r18;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c6, s6, f6, ..*known };
+        let r11 = w6 * shared.r4;
+        let r12 = w6 * shared.r5;
+        let r17 = 1.0 / f64::max(r12 * r12 + r11 * r11, 0.0).sqrt();
+        let c6 = 0.0 - r12 * r17;
+        let s6 = r11 * r17;
+        let q5 = angle(c6, s6);
+        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c6, s6, f6, q5, ..*known };
         block_3(p, &next, answers);
     }
 }
@@ -524,12 +536,14 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
     let f6 = 1000000.0;
     for [c6, s6] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], true], c6, s6, f6, ..*known };
-        block_3(p, &next, answers);
+        let q5 = angle(c6, s6);
+        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], true], c6, s6, f6, q5, ..*known };
+        again_3(p, &next, answers);
     }
 }
 
 /// Block 3: Wrist2.
+#[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r8 = known.c1 * (p.r21_ * known.s6 + p.r22_ * known.c6);
     let r9 = known.s1 * (p.r11_ * known.s6 + p.r12_ * known.c6);
@@ -539,6 +553,13 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_3_1(p, known, shared, answers);
 }
 
+/// Block 3 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_3(p, known, answers);
+}
+
 /// What the charts of block 3 share.
 struct Shared3 {
     r10: f64,
@@ -546,16 +567,19 @@ struct Shared3 {
 }
 
 /// Chart 1 of block 3: generic.
+#[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r14 = shared.r11 * shared.r11 + shared.r10 * shared.r10;
-    let r15 = f64::max(r14, 0.0).sqrt();
-    let c5 = shared.r11 / r15;
-    let s5 = shared.r10 / r15;
-    let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
+    let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
+    let c5 = shared.r11 * r16;
+    let s5 = shared.r10 * r16;
+    let q4 = angle(c5, s5);
+    let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, q4, ..*known };
     block_4(p, &next, answers);
 }
 
 /// Block 4: Elbow.
+#[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r2 = 0.125 * known.c5 + 0.06 * known.s5;
     let r6 = 0.125 * known.c6 - known.s6 * r2;
@@ -569,34 +593,42 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r43 = 0.015 * known.c5 - 0.03125 * known.s5 + 2.0 * (p.px * r24);
     let r47 = r43 + 2.0 * (p.py * r28) + 2.0 * (p.pz * (r20 + (p.pz - r19) - r21));
     let r50 = r47 - p.px * p.px - p.py * p.py - p.pz * p.pz;
-    let r54 = r50 - 0.1 * (known.c1 * r24) - 0.1 * (known.s1 * r28);
-    let r62 = r54 - 0.36 * p.pz + 0.36 * r19 - 0.36 * r20 + 0.36 * r21;
-    let r63 = 0.197125 - r62;
-    let shared = &Shared4 { r63 };
+    let r51 = 0.05 * (known.c1 * r24);
+    let r53 = 0.05 * (known.s1 * r28);
+    let r55 = 0.18 * p.pz;
+    let r57 = 0.18 * r19;
+    let r59 = 0.18 * r20;
+    let r61 = 0.18 * r21;
+    let r63 = r50 - r51 - r53 - r55 + r57 - r59 + r61 + 0.085375;
+    let r70 = 0.2825 - (r61 + (r57 + (r63 - r51 - r53 - r55) - r59));
+    let shared = &Shared4 { r70 };
     chart_4_1(p, known, shared, answers);
 }
 
 /// What the charts of block 4 share.
 struct Shared4 {
-    r63: f64,
+    r70: f64,
 }
 
 /// Chart 1 of block 4: generic.
+#[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r65 = shared.r63 * shared.r63 - 0.07840000000000001;
-    let roots0 = real_roots(&[r65, 0.0, 1.0], 1.4142135623730951 * known.f6);
+    let r72 = shared.r70 * shared.r70 - 0.07840000000000001;
+    let roots0 = square_roots(r72, 1.4142135623730951 * known.f6);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r68 = 0.28 * w3 / 0.07840000000000001;
-        let r70 = 0.28 * shared.r63 / 0.07840000000000001;
-        let r74 = f64::max(r70 * r70 + r68 * r68, 0.0).sqrt();
-        let c3 = 0.0 - r70 / r74;
-        let s3 = r68 / r74;
-        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, c3, s3, ..*known };
+        let r74 = 0.28 * w3;
+        let r75 = 0.28 * shared.r70;
+        let r80 = 1.0 / f64::max(r75 * r75 + r74 * r74, 0.0).sqrt();
+        let c3 = 0.0 - r75 * r80;
+        let s3 = r74 * r80;
+        let q2 = angle(c3, s3);
+        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, q2, ..*known };
         block_5(p, &next, answers);
     }
 }
 
 /// Block 5: Shoulder.
+#[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r2 = 0.125 * known.c5 + 0.06 * known.s5;
     let r6 = 0.125 * known.c6 - known.s6 * r2;
@@ -628,19 +660,19 @@ struct Shared5 {
 
 /// Chart 1 of block 5: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r46 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
     if !is_away(r46, 83330.0) {
         return;
     }
     let r49 = shared.r32 * shared.r36 + shared.r30 * shared.r38;
-    let r50 = r49 / r46;
-    let r53 = shared.r32 * shared.r38 - shared.r30 * shared.r36;
-    let r54 = r53 / r46;
-    let r58 = f64::max(r54 * r54 + r50 * r50, 0.0).sqrt();
-    let c2 = r54 / r58;
-    let s2 = 0.0 - r50 / r58;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, ..*known };
+    let r52 = shared.r32 * shared.r38 - shared.r30 * shared.r36;
+    let r57 = 1.0 / f64::max(r52 * r52 + r49 * r49, 0.0).sqrt();
+    let c2 = r52 * r57;
+    let s2 = 0.0 - r49 * r57;
+    let q1 = angle(c2, s2);
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, q1, ..*known };
     block_6(p, &next, answers);
 }
 
@@ -653,12 +685,14 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
         return;
     }
     for [c2, s2] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], true, known.free[2], known.free[3], known.free[4], known.free[5]], c2, s2, ..*known };
-        block_6(p, &next, answers);
+        let q1 = angle(c2, s2);
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], true, known.free[2], known.free[3], known.free[4], known.free[5]], c2, s2, q1, ..*known };
+        again_6(p, &next, answers);
     }
 }
 
 /// Block 6: Wrist1.
+#[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r6 = known.c1 * (p.px - 0.125 * p.r13_) + known.s1 * (p.py - 0.125 * p.r23_);
     let r7 = r6 - 0.05;
@@ -671,6 +705,13 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_6_1(p, known, shared, answers);
 }
 
+/// Block 6 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_6(p, known, answers);
+}
+
 /// What the charts of block 6 share.
 struct Shared6 {
     r22: f64,
@@ -678,40 +719,48 @@ struct Shared6 {
 }
 
 /// Chart 1 of block 6: generic.
+#[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r28 = (0.125 * shared.r24 - 0.06 * shared.r22) / 0.019225;
-    let r32 = (0.125 * shared.r22 + 0.06 * shared.r24) / 0.019225;
-    let r36 = f64::max(r32 * r32 + r28 * r28, 0.0).sqrt();
-    let c4 = 0.0 - r32 / r36;
-    let s4 = r28 / r36;
-    let q = [
-        angle(known.c1, known.s1),
-        angle(known.c2, known.s2),
-        angle(known.c3, known.s3),
-        angle(c4, s4),
-        angle(known.c5, known.s5),
-        angle(known.c6, known.s6),
+    let r27 = 0.125 * shared.r24 - 0.06 * shared.r22;
+    let r30 = 0.125 * shared.r22 + 0.06 * shared.r24;
+    let r35 = 1.0 / f64::max(r30 * r30 + r27 * r27, 0.0).sqrt();
+    let c4 = 0.0 - r30 * r35;
+    let s4 = r27 * r35;
+    let at = [
+        known.c1,
+        known.s1,
+        known.c2,
+        known.s2,
+        known.c3,
+        known.s3,
+        c4,
+        s4,
+        known.c5,
+        known.s5,
+        known.c6,
+        known.s6,
     ];
-    answers.finish(p, known.branch, known.last, q, known.free);
+    let q = [known.q0, known.q1, known.q2, angle(at[6], at[7]), known.q4, known.q5];
+    answers.finish(p, known.branch, known.last, known.close, &at, q, known.free);
 }
 
 /// What the equations compare with the target.
 const TIP: usize = 12;
 
-/// The tip at joint values `q`, as the equations compare it.
-fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
-    let c1 = q[0].cos();
-    let s1 = q[0].sin();
-    let c2 = q[1].cos();
-    let s2 = q[1].sin();
-    let c3 = q[2].cos();
-    let s3 = q[2].sin();
-    let c4 = q[3].cos();
-    let s4 = q[3].sin();
-    let c5 = q[4].cos();
-    let s5 = q[4].sin();
-    let c6 = q[5].cos();
-    let s6 = q[5].sin();
+/// The tip, as the equations compare it.
+fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
+    let c1 = at[0];
+    let s1 = at[1];
+    let c2 = at[2];
+    let s2 = at[3];
+    let c3 = at[4];
+    let s3 = at[5];
+    let c4 = at[6];
+    let s4 = at[7];
+    let c5 = at[8];
+    let s5 = at[9];
+    let c6 = at[10];
+    let s6 = at[11];
     let r0 = c1 * c2;
     let r1 = s1 * c2;
     let r2 = c1 * s2;
@@ -748,44 +797,79 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     let r39 = c1 * s5;
     let r40 = r25 - r27;
     let r41 = c5 * r40;
+    let r42 = s5 * r34;
+    let r43 = s1 * c5;
+    let r44 = s5 * r37;
+    let r45 = c1 * c5;
     let r46 = s5 * r40;
-    let r47 = s5 * r34 + s1 * c5;
-    let r49 = r28 + r29;
-    let r51 = s5 * r37 - c1 * c5;
-    let r53 = r30 + r31;
-    let r56 = r32 + r33;
-    let r70 = 0.4 * s2 + 0.35 * r8 + 0.35 * r9 + 0.06 * r25;
-    let r78 = r70 - 0.06 * r27 - 0.125 * r32 - 0.125 * r33 + 0.125 * r41;
-    let r104 = 0.35 * r6 + (0.4 * r1 + 0.05 * s1) - 0.35 * r7;
-    let r108 = 0.06 * r21 + r104 - 0.06 * r23 - 0.125 * c1 - 0.125 * r30;
-    let r111 = 0.125 * r39 + (0.125 * r38 + (r108 - 0.125 * r31));
-    let r115 = 0.35 * r4 + (0.4 * r0 + 0.05 * c1) - 0.35 * r5;
-    let r118 = 0.125 * s1 + (0.06 * r17 + r115 - 0.06 * r19);
-    let r121 = 0.125 * r35 + (r118 - 0.125 * r28 - 0.125 * r29);
+    let r55 = 0.05 * c1 + 0.4 * r0 + 0.35 * r4 - 0.35 * r5 + 0.06 * r17;
+    let r63 = r55 - 0.06 * r19 + 0.125 * s1 - 0.86 * r35 + 0.86 * r36;
+    let r64 = 0.125 * r42;
+    let r66 = 0.125 * r43;
+    let r80 = 0.05 * s1 + 0.4 * r1 + 0.35 * r6 - 0.35 * r7 + 0.06 * r21;
+    let r88 = r80 - 0.06 * r23 - 0.125 * c1 - 0.86 * r38 - 0.86 * r39;
+    let r89 = 0.125 * r44;
+    let r91 = 0.125 * r45;
+    let r97 = r42 + r43;
+    let r99 = r28 + r29;
+    let r101 = r44 - r45;
+    let r103 = r30 + r31;
+    let r106 = r32 + r33;
+    let r120 = 0.4 * s2 + 0.35 * r8 + 0.35 * r9 + 0.06 * r25;
+    let r126 = r120 - 0.06 * r27 - 0.125 * r32 - 0.125 * r33;
+    let r129 = r89 + (r88 - r89 + r91 - 0.18 * r30 - 0.18 * r31);
+    let r136 = r129 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38;
+    let r139 = r64 + (r63 - r64 - r66 - 0.18 * r28 - 0.18 * r29);
+    let r146 = r66 + r139 + 0.055 * r28 + 0.055 * r29 + 0.985 * r35;
     [
-        r121 - 0.125 * r36,
-        r111,
-        0.18 - r78,
-        0.0 - (s6 * r47 + c6 * r49),
-        0.0 - (s6 * r51 + c6 * r53),
-        s6 * r46 + c6 * r56,
-        s6 * r49 - c6 * r47,
-        s6 * r53 - c6 * r51,
-        c6 * r46 - s6 * r56,
+        r146 - 0.985 * r36,
+        r136 + 0.985 * r39,
+        0.18 - (r126 + 0.125 * r41),
+        0.0 - (s6 * r97 + c6 * r99),
+        0.0 - (s6 * r101 + c6 * r103),
+        s6 * r46 + c6 * r106,
+        s6 * r99 - c6 * r97,
+        s6 * r103 - c6 * r101,
+        c6 * r46 - s6 * r106,
         r35 - r36,
         r38 + r39,
         0.0 - r41,
     ]
 }
 
+/// What the equations read of joints: 12 numbers.
+const PLACES: usize = 12;
+
+/// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin().
+fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
+    [
+        q[0].cos(),
+        q[0].sin(),
+        q[1].cos(),
+        q[1].sin(),
+        q[2].cos(),
+        q[2].sin(),
+        q[3].cos(),
+        q[3].sin(),
+        q[4].cos(),
+        q[4].sin(),
+        q[5].cos(),
+        q[5].sin(),
+    ]
+}
+
 /// The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes.
 struct Equations {
     value: [f64; EQUATIONS],
-    size: [f64; EQUATIONS],
+    size: [f64; SIZES],
 }
 
-fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
-    let reached = tip(q);
+const SIZES: usize = 2;
+/// Which of the sizes is that of each equation.
+const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1];
+
+fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
+    let reached = tip(at);
     Equations {
         value: [
             reached[0] - p.px,
@@ -803,35 +887,25 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
         ],
         size: [
             1.3254696631613145,
-            1.3254696631613145,
-            1.3254696631613145,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         ],
     }
 }
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
-fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
-    let c1 = q[0].cos();
-    let s1 = q[0].sin();
-    let c2 = q[1].cos();
-    let s2 = q[1].sin();
-    let c3 = q[2].cos();
-    let s3 = q[2].sin();
-    let c4 = q[3].cos();
-    let s4 = q[3].sin();
-    let c5 = q[4].cos();
-    let s5 = q[4].sin();
-    let c6 = q[5].cos();
-    let s6 = q[5].sin();
+fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
+    let c1 = at[0];
+    let s1 = at[1];
+    let c2 = at[2];
+    let s2 = at[3];
+    let c3 = at[4];
+    let s3 = at[5];
+    let c4 = at[6];
+    let s4 = at[7];
+    let c5 = at[8];
+    let s5 = at[9];
+    let c6 = at[10];
+    let s6 = at[11];
     let r0 = c1 * c2;
     let r1 = s1 * c2;
     let r2 = c1 * s2;
@@ -868,87 +942,94 @@ fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
     let r39 = c1 * s5;
     let r40 = r25 - r27;
     let r41 = c5 * r40;
+    let r42 = s5 * r34;
+    let r43 = s1 * c5;
+    let r44 = s5 * r37;
+    let r45 = c1 * c5;
     let r46 = s5 * r40;
-    let r47 = s5 * r34 + s1 * c5;
-    let r48 = c6 * r47;
-    let r49 = r28 + r29;
-    let r50 = s6 * r49;
-    let r51 = s5 * r37 - c1 * c5;
-    let r53 = r30 + r31;
-    let r56 = r32 + r33;
-    let r65 = 0.35 * r8;
-    let r67 = 0.35 * r9;
-    let r69 = 0.06 * r25;
-    let r71 = 0.06 * r27;
-    let r73 = 0.125 * r32;
-    let r75 = 0.125 * r33;
-    let r77 = 0.125 * r41;
-    let r78 = 0.4 * s2 + r65 + r67 + r69 - r71 - r73 - r75 + r77;
-    let r79 = 0.4 * r1;
-    let r80 = 0.35 * r6;
-    let r81 = 0.35 * r7;
-    let r82 = 0.06 * r21;
-    let r83 = 0.06 * r23;
-    let r84 = 0.125 * c1;
-    let r85 = 0.125 * r30;
-    let r86 = 0.125 * r31;
-    let r87 = 0.125 * r38;
-    let r88 = 0.125 * r39;
-    let r89 = 0.4 * r0;
-    let r90 = 0.35 * r4;
-    let r91 = 0.35 * r5;
-    let r92 = 0.06 * r17;
-    let r93 = 0.06 * r19;
-    let r94 = 0.125 * s1;
-    let r95 = 0.125 * r28;
-    let r96 = 0.125 * r29;
-    let r97 = 0.125 * r35;
-    let r98 = 0.125 * r36;
-    let r99 = r38 + r39;
-    let r100 = r35 - r36;
-    let r107 = r82 + (r80 + (r79 + 0.05 * s1) - r81) - r83 - r84;
-    let r118 = r94 + (r92 + (r90 + (r89 + 0.05 * c1) - r91) - r93);
-    let r127 = s6 * r46 + c6 * r56;
-    let r128 = s6 * r51 + c6 * r53;
-    let r129 = s6 * r47 + c6 * r49;
-    let r135 = c6 * r46 - s6 * r56;
-    let r153 = r79 + r80 - r81 + r82 - r83 - r84 - r85 - r86;
-    let r163 = r89 + r90 - r91 + r92 - r93 + r94 - r95 - r96;
-    let r172 = r77 + (r69 + (r65 + r67) - r71 - r73 - r75);
-    let r181 = r87 + (r82 + (r80 - r81) - r83 - r84 - r85 - r86);
-    let r190 = r97 + (r94 + (r92 + (r90 - r91) - r93) - r95 - r96);
-    let r196 = r77 + (r69 - r71 - r73 - r75);
-    let r205 = s1 * (r88 + (r87 + (r82 - r83 - r84 - r85 - r86)));
-    let r212 = c1 * (r97 + (r94 + (r92 - r93) - r95 - r96) - r98);
-    let r213 = r56 - r41;
-    let r216 = r53 - r38 - r39;
-    let r219 = r36 + (r49 - r35);
-    let r235 = s1 * (r153 + r87 + r88) + c1 * (r163 + r97 - r98);
-    let r238 = 0.0 - (s1 * (r88 + r181) + c1 * (r190 - r98));
-    let r244 = c1 * r127;
-    let r245 = s1 * r127;
-    let r264 = s1 * r128 + c1 * r129;
-    let r267 = c1 * r135;
-    let r268 = s1 * r135;
-    let r269 = c6 * r51 - s6 * r53;
-    let r271 = r48 - r50;
-    let r289 = s1 * r269 + c1 * r271;
-    let r303 = 0.0 - c1 * r41;
-    let r305 = 0.0 - s1 * r41;
-    let r308 = 0.0 - (s1 * r99 + c1 * r100);
+    let r47 = 0.05 * c1;
+    let r48 = 0.4 * r0;
+    let r50 = 0.35 * r4;
+    let r52 = 0.35 * r5;
+    let r54 = 0.06 * r17;
+    let r56 = 0.06 * r19;
+    let r58 = 0.125 * s1;
+    let r61 = r47 + r48 + r50 - r52 + r54 - r56 + r58 - 0.86 * r35;
+    let r64 = 0.125 * r42;
+    let r66 = 0.125 * r43;
+    let r71 = r61 + 0.86 * r36 - r64 - r66 - 0.18 * r28 - 0.18 * r29;
+    let r72 = 0.05 * s1;
+    let r73 = 0.4 * r1;
+    let r75 = 0.35 * r6;
+    let r77 = 0.35 * r7;
+    let r79 = 0.06 * r21;
+    let r81 = 0.06 * r23;
+    let r83 = 0.125 * c1;
+    let r86 = r72 + r73 + r75 - r77 + r79 - r81 - r83 - 0.86 * r38;
+    let r89 = 0.125 * r44;
+    let r91 = 0.125 * r45;
+    let r96 = r86 - 0.86 * r39 - r89 + r91 - 0.18 * r30 - 0.18 * r31;
+    let r97 = r42 + r43;
+    let r98 = c6 * r97;
+    let r99 = r28 + r29;
+    let r100 = s6 * r99;
+    let r101 = r44 - r45;
+    let r103 = r30 + r31;
+    let r106 = r32 + r33;
+    let r115 = 0.35 * r8;
+    let r117 = 0.35 * r9;
+    let r119 = 0.06 * r25;
+    let r121 = 0.06 * r27;
+    let r123 = 0.125 * r32;
+    let r125 = 0.125 * r33;
+    let r126 = 0.4 * s2 + r115 + r117 + r119 - r121 - r123 - r125;
+    let r127 = 0.125 * r41;
+    let r128 = r126 + r127;
+    let r136 = r89 + r96 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38;
+    let r138 = r136 + 0.985 * r39;
+    let r144 = r66 + (r64 + r71) + 0.055 * r28 + 0.055 * r29;
+    let r148 = r144 + 0.985 * r35 - 0.985 * r36;
+    let r149 = r38 + r39;
+    let r150 = r35 - r36;
+    let r155 = s6 * r46 + c6 * r106;
+    let r156 = s6 * r101 + c6 * r103;
+    let r157 = s6 * r97 + c6 * r99;
+    let r163 = c6 * r46 - s6 * r106;
+    let r175 = r138 - r72;
+    let r177 = r148 - r47;
+    let r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125);
+    let r187 = r175 - r73;
+    let r189 = r177 - r48;
+    let r194 = r127 + (r119 - r121 - r123 - r125);
+    let r198 = r77 + (r187 - r75);
+    let r201 = r52 + (r189 - r50);
+    let r205 = r56 + (r201 - r54) - r58;
+    let r208 = r83 + (r81 + (r198 - r79));
+    let r209 = r106 - r41;
+    let r235 = c1 * r155;
+    let r236 = s1 * r155;
+    let r255 = s1 * r156 + c1 * r157;
+    let r258 = c1 * r163;
+    let r259 = s1 * r163;
+    let r260 = c6 * r101 - s6 * r103;
+    let r262 = r98 - r100;
+    let r280 = s1 * r260 + c1 * r262;
+    let r294 = 0.0 - c1 * r41;
+    let r296 = 0.0 - s1 * r41;
+    let r299 = 0.0 - (s1 * r149 + c1 * r150);
     [
-        [0.0 - (r88 + (r87 + (r107 - r85 - r86))), 0.0 - c1 * r78, 0.0 - c1 * r172, 0.0 - c1 * r196, 0.125 * (r53 * r213 - r56 * r216), 0.0],
-        [r97 + (r118 - r95 - r96) - r98, 0.0 - s1 * r78, 0.0 - s1 * r172, 0.0 - s1 * r196, 0.125 * (r56 * r219 - r49 * r213), 0.0],
-        [0.0, 0.0 - r235, r238, 0.0 - (r205 + r212), 0.0 - 0.125 * (r49 * r216 - r53 * r219), 0.0],
-        [r128, r244, r244, r244, r53 * r127 - r56 * r128, r99 * r127 - r41 * r128],
-        [0.0 - r129, r245, r245, r245, r56 * r129 - r49 * r127, r41 * r129 - r100 * r127],
-        [0.0, r264, r264, r264, r53 * r129 - r49 * r128, r99 * r129 - r100 * r128],
-        [r269, r267, r267, r267, r53 * r135 - r56 * r269, r99 * r135 - r41 * r269],
-        [r50 - r48, r268, r268, r268, r56 * r271 - r49 * r135, r41 * r271 - r100 * r135],
-        [0.0, r289, r289, r289, r53 * r271 - r49 * r269, r99 * r271 - r100 * r269],
-        [0.0 - r99, r303, r303, r303, r56 * r99 - r41 * r53, 0.0],
-        [r100, r305, r305, r305, r41 * r49 - r56 * r100, 0.0],
-        [0.0, r308, r308, r308, r49 * r99 - r53 * r100, 0.0],
+        [0.0 - r138, 0.0 - c1 * r128, 0.0 - c1 * r184, 0.0 - c1 * r194, r106 * r208 + 0.125 * (r103 * r209), 0.0],
+        [r148, 0.0 - s1 * r128, 0.0 - s1 * r184, 0.0 - s1 * r194, 0.0 - (r106 * r205 + 0.125 * (r99 * r209)), 0.0],
+        [0.0, 0.0 - (s1 * r175 + c1 * r177), 0.0 - (s1 * r187 + c1 * r189), 0.0 - (s1 * r198 + c1 * r201), r99 * r208 - r103 * r205, 0.0],
+        [r156, r235, r235, r235, r103 * r155 - r106 * r156, r149 * r155 - r41 * r156],
+        [0.0 - r157, r236, r236, r236, r106 * r157 - r99 * r155, r41 * r157 - r150 * r155],
+        [0.0, r255, r255, r255, r103 * r157 - r99 * r156, r149 * r157 - r150 * r156],
+        [r260, r258, r258, r258, r103 * r163 - r106 * r260, r149 * r163 - r41 * r260],
+        [r100 - r98, r259, r259, r259, r106 * r262 - r99 * r163, r41 * r262 - r150 * r163],
+        [0.0, r280, r280, r280, r103 * r262 - r99 * r260, r149 * r262 - r150 * r260],
+        [0.0 - r149, r294, r294, r294, r106 * r149 - r41 * r103, 0.0],
+        [r150, r296, r296, r296, r41 * r99 - r106 * r150, 0.0],
+        [0.0, r299, r299, r299, r99 * r149 - r103 * r150, 0.0],
     ]
 }
 
@@ -960,9 +1041,23 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Keeps a candidate that solves the equations within rounding, and refines others.
+    #[inline(always)]
+    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], q: [f64; JOINTS], free: [bool; JOINTS]) {
+        if free == NONE_FREE && !close {
+            let fit = measure_at(p, at, &q);
+            if fit.accepted && fit.relative < RESOLUTION && is_round(at) {
+                return self.keep(p, branch, last, (q, fit), free);
+            }
+        }
+        self.refine(p, branch, last, q, free);
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    #[cold]
+    #[inline(never)]
+    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
             if self.has_member(branch, &free) {
@@ -1027,6 +1122,25 @@ impl Answers<'_> {
         if !fit.accepted {
             return;
         }
+        if self.is_apart(branch, &q, &free) {
+            self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
+            self.relative[self.count] = fit.relative;
+            self.count += 1;
+            return;
+        }
+        self.keep_one(p, branch, last, (q, fit), free);
+    }
+
+    /// Whether there is room for an isolated answer of this branch, and none of the others is near it.
+    fn is_apart(&self, branch: usize, q: &[f64; JOINTS], free: &[bool; JOINTS]) -> bool {
+        let apart = |other: &Solution| other.branch != branch && is_isolated(other) && !is_within(&other.q, q, BLUR);
+        self.count < CAPACITY && *free == NONE_FREE && self.out[..self.count].iter().all(apart)
+    }
+
+    /// As [`Answers::keep`], where others are near.
+    #[cold]
+    #[inline(never)]
+    fn keep_one(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
         let next = if free == NONE_FREE { last } else { branch };
         let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
         let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
@@ -1134,6 +1248,9 @@ struct Rated {
 
 /// Whether two answers are one.
 fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
+    if is_isolated(&a.answer) && is_isolated(&b.answer) && !close(&a.answer, &b.answer, BLUR) {
+        return false;
+    }
     if close(&a.answer, &b.answer, MERGE) {
         return true;
     }
@@ -1210,7 +1327,23 @@ fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
 }
 
 fn shorter(difference: f64) -> f64 {
-    difference - TAU * (difference / TAU).round()
+    if difference > PI {
+        difference - TAU
+    } else if difference < -PI {
+        difference + TAU
+    } else {
+        difference
+    }
+}
+
+/// Whether joint values differ by `tolerance` at most.
+fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
+    shorter(a[3] - b[3]).abs() <= tolerance
+    && shorter(a[1] - b[1]).abs() <= tolerance
+    && shorter(a[2] - b[2]).abs() <= tolerance
+    && shorter(a[4] - b[4]).abs() <= tolerance
+    && shorter(a[5] - b[5]).abs() <= tolerance
+    && shorter(a[0] - b[0]).abs() <= tolerance
 }
 
 fn is_isolated(answer: &Solution) -> bool {
@@ -1244,9 +1377,6 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// Whether two answers near one another are one at a singular configuration: half-way between them, on a way that may be bent, the
 /// equations hold as well as at the worse of the two, or within rounding.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if !close(&a.answer, &b.answer, BLUR) {
-        return false;
-    }
     let way = differences(&a.answer.q, &b.answer.q);
     let mut middle = b.answer.q;
     for i in 0..JOINTS {
@@ -1277,27 +1407,48 @@ struct Fit {
 }
 
 fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
-    let Equations { value, size } = equations(p, q);
+    measure_at(p, &place(q), q)
+}
+
+/// As [`measure`], where the cosines and sines of `q` are known.
+#[inline(always)]
+fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
+    let Equations { value, size } = equations(p, at);
     let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: q.iter().all(|value| value.is_finite()) };
-    for (value, size) in value.iter().zip(size) {
-        fit.residual = f64::max(fit.residual, value.abs());
-        fit.relative = f64::max(fit.relative, value.abs() / f64::max(size, f64::MIN_POSITIVE));
-        fit.accepted &= value.abs() <= ACCEPT * size;
+    let mut largest = [0.0; SIZES];
+    for i in 0..EQUATIONS {
+        largest[SIZE_OF[i]] = f64::max(largest[SIZE_OF[i]], value[i].abs());
+        fit.accepted &= value[i].abs() <= ACCEPT * size[SIZE_OF[i]];
+    }
+    for (largest, size) in largest.iter().zip(size) {
+        fit.residual = f64::max(fit.residual, *largest);
+        fit.relative = f64::max(fit.relative, largest / f64::max(size, f64::MIN_POSITIVE));
     }
     fit.accepted &= fit.residual.is_finite();
     fit
+}
+
+/// Whether the cosines and sines of all angles are on the circle.
+fn is_round(at: &[f64; PLACES]) -> bool {
+    (at[0] * at[0] + at[1] * at[1] - 1.0).abs() < RESOLUTION
+    && (at[2] * at[2] + at[3] * at[3] - 1.0).abs() < RESOLUTION
+    && (at[4] * at[4] + at[5] * at[5] - 1.0).abs() < RESOLUTION
+    && (at[6] * at[6] + at[7] * at[7] - 1.0).abs() < RESOLUTION
+    && (at[8] * at[8] + at[9] * at[9] - 1.0).abs() < RESOLUTION
+    && (at[10] * at[10] + at[11] * at[11] - 1.0).abs() < RESOLUTION
 }
 
 /// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
 /// after a leap.
 /// Joints that are `held` stay.
 fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    let mut end = start;
+    let (mut end, mut slow) = (start, 0);
     for _ in 0..POLISH_STEPS {
-        if end.1.relative <= POLISHED {
+        if end.1.relative <= POLISHED || slow == PATIENCE {
             return end;
         }
         let Some(next) = improved(p, &end, held) else { return end };
+        slow = if next.1.relative <= 0.5 * end.1.relative { 0 } else { slow + 1 };
         end = next;
     }
     end
@@ -1373,10 +1524,12 @@ fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
 fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
-    let rows = jacobian(p, q);
-    let size = equations(p, q).size;
+    let at = place(q);
+    let rows = jacobian(p, &at);
+    let sizes = equations(p, &at).size;
     let mut weights = [0.0; JOINTS];
-    for (row, size) in rows.iter().zip(size) {
+    for (row, size) in rows.iter().zip(SIZE_OF) {
+        let size = sizes[size];
         for i in 0..JOINTS {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
@@ -1406,57 +1559,65 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
     next
 }
 
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by plane rotations.
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
-    let rows = jacobian(p, q);
-    let right = equations(p, q).value;
-    let mut triangle = [[0.0; JOINTS + 1]; JOINTS];
-    let mut squares = [0.0; JOINTS];
-    for (row, right) in rows.iter().zip(right) {
-        let mut line = [0.0; JOINTS + 1];
-        for i in 0..JOINTS {
-            line[i] = if held[i] { 0.0 } else { row[i] };
-            squares[i] += line[i] * line[i];
-        }
-        line[JOINTS] = right;
-        turn_in(&mut triangle, line);
-    }
-    let size = squares.iter().fold(0.0, |size, &square| f64::max(size, square));
+    let at = place(q);
+    let rows = jacobian(p, &at);
+    let right = equations(p, &at).value;
+    let mut columns = [[0.0; ROWS]; JOINTS + 1];
+    let mut size = 0.0;
     for i in 0..JOINTS {
-        let mut line = [0.0; JOINTS + 1];
-        line[i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
-        turn_in(&mut triangle, line);
+        let mut square = 0.0;
+        for (k, row) in rows.iter().enumerate() {
+            let entry = if held[i] { 0.0 } else { row[i] };
+            columns[i][k] = entry;
+            square += entry * entry;
+        }
+        size = f64::max(size, square);
     }
-    substituted(&triangle)
+    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
+    for i in 0..JOINTS {
+        columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
+    }
+    reflect(&mut columns);
+    substituted(&columns)
 }
 
-/// Adds a row to a triangle by plane rotations that leave nothing of it.
-fn turn_in(triangle: &mut [[f64; JOINTS + 1]; JOINTS], mut line: [f64; JOINTS + 1]) {
-    for (pivot, top) in triangle.iter_mut().enumerate() {
-        let length = (top[pivot] * top[pivot] + line[pivot] * line[pivot]).sqrt();
-        if line[pivot] == 0.0 || length == 0.0 {
+/// Rows of the equations and of the damping.
+const ROWS: usize = EQUATIONS + JOINTS;
+
+/// Turns columns into a triangle by reflections.
+fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
+    for pivot in 0..JOINTS {
+        let mut mirror = columns[pivot];
+        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
+        if square == 0.0 {
             continue;
         }
-        let (cosine, sine) = (top[pivot] / length, line[pivot] / length);
-        for k in pivot..=JOINTS {
-            let (above, entry) = (top[k], line[k]);
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        let length = square.sqrt().copysign(mirror[pivot]);
+        mirror[pivot] += length;
+        let half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for column in &mut columns[pivot + 1..] {
+            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
+            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
+                *x -= along * y;
+            }
         }
     }
 }
 
 /// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> {
+fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
     let mut solution = [0.0; JOINTS];
     for row in (0..JOINTS).rev() {
-        let pivot = triangle[row][row];
+        let pivot = columns[row][row];
         if pivot == 0.0 || !pivot.is_finite() {
             return None;
         }
-        let mut sum = triangle[row][JOINTS];
+        let mut sum = columns[JOINTS][row];
         for k in row + 1..JOINTS {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -1466,9 +1627,38 @@ fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> 
 const PI: f64 = core::f64::consts::PI;
 const TAU: f64 = core::f64::consts::TAU;
 
-/// The angle of a cosine and a sine, in (-pi, pi].
+/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
+/// interpolates at eleven Chebyshev points.
+#[inline(always)]
 fn angle(cosine: f64, sine: f64) -> f64 {
-    half_open(sine.atan2(cosine))
+    let (across, up) = (cosine.abs(), sine.abs());
+    let steep = up > across;
+    let (low, high) = if steep { (across, up) } else { (up, across) };
+    let far = low > 0.41421356237309503 * high;
+    let (top, bottom) = if far { (low - high, low + high) } else { (low, high) };
+    let z = top / bottom;
+    let mut angle = z + z * (z * z) * series(z * z);
+    if far {
+        angle = 0.25 * PI + (angle + REST);
+    }
+    if steep {
+        angle = 0.5 * PI - (angle - 2.0 * REST);
+    }
+    if cosine < 0.0 {
+        angle = PI - (angle - 4.0 * REST);
+    }
+    half_open(angle.copysign(sine))
+}
+
+/// What the double nearest to pi/4 lacks.
+const REST: f64 = 3.061616997868383e-17;
+
+fn series(u: f64) -> f64 {
+    let (square, fourth) = (u * u, u * u * (u * u));
+    let first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    let second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    let third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    first + (second + third * fourth) * fourth
 }
 
 /// The angle in (-pi, pi]: -pi, which `atan2` gives for a negative zero sine, becomes pi.
@@ -1493,22 +1683,20 @@ fn is_away(value: f64, scale: f64) -> bool {
 
 /// The highest degree of a polynomial.
 const DEGREE: usize = 2;
-/// A leading coefficient below this share of the largest coefficient counts as zero.
-const NEGLIGIBLE: f64 = 1e-290;
 /// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
 /// typical size.
 const TANGENT: f64 = 1e-10;
-/// Values of `p` up to `degree ROUNDING sum |a_i x^i|` have no sign.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Real roots, ascending.
 struct Roots {
     values: [f64; DEGREE],
     count: usize,
+    /// Whether some are close to one another, or one is double.
+    close: bool,
 }
 
 impl Roots {
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0 };
+    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
 
     fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
@@ -1522,78 +1710,22 @@ impl Roots {
     }
 }
 
-/// A polynomial with coefficients of magnitude one and less, constant term first.
-struct Polynomial {
-    a: [f64; DEGREE + 1],
-    degree: usize,
-    /// The unknown's typical size.
-    scale: f64,
-}
-
-fn largest(coefficients: &[f64]) -> f64 {
-    coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()))
-}
-
-/// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
-/// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
-fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
-    let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
-    if p.degree < 2 { p.linear_root() } else { p.quadratic_roots() }
-}
-
-impl Polynomial {
-    /// Drops negligible leading coefficients and divides by the largest; none when nothing solvable is left.
-    fn new(coefficients: &[f64], scale: f64) -> Option<Self> {
-        let largest = largest(coefficients);
-        let mut length = coefficients.len();
-        while length > 0 && coefficients[length - 1].abs() <= NEGLIGIBLE * largest {
-            length -= 1;
-        }
-        if length == 0 || !coefficients.iter().all(|c| c.is_finite()) {
-            return None;
-        }
-        let mut a = [0.0; DEGREE + 1];
-        a[..length].copy_from_slice(&coefficients[..length]);
-        Some(Polynomial { a, degree: length - 1, scale }.scaled())
+/// All real roots of x^2 + constant; a miss is measured against the unknown's typical size `scale`.
+fn square_roots(constant: f64, scale: f64) -> Roots {
+    let mut roots = Roots::NONE;
+    if constant.is_nan() || constant > TANGENT * f64::max(constant, scale * scale) {
+        return roots;
     }
-
-    /// The polynomial divided by its largest coefficient.
-    fn scaled(mut self) -> Self {
-        let largest = largest(&self.a);
-        for c in &mut self.a {
-            *c /= largest;
-        }
-        self
+    if constant >= 0.0 {
+        roots.push(0.0);
+        roots.close = true;
+        return roots;
     }
-
-    fn linear_root(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        if self.degree == 1 {
-            roots.push(-self.a[0] / self.a[1]);
-        }
-        roots
-    }
-
-    /// The roots of a quadratic polynomial without cancellation, and the double root of a tangency once.
-    fn quadratic_roots(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
-        let discriminant = b * b - 4.0 * a * c;
-        let size = b * b + (4.0 * a * c).abs();
-        let typical = 2.0 * a * self.scale;
-        if discriminant < -TANGENT * f64::max(size, typical * typical) {
-            return roots;
-        }
-        if discriminant <= ROUNDING * size {
-            roots.push(-b / (2.0 * a));
-            return roots;
-        }
-        let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-        let (first, second) = (q / a, c / q);
-        roots.push(f64::min(first, second));
-        roots.push(f64::max(first, second));
-        roots
-    }
+    let root = (-constant).sqrt();
+    roots.close = root <= SPLIT * scale;
+    roots.push(-root);
+    roots.push(root);
+    roots
 }
 
 /// What `core` lacks, from the C library.
@@ -1604,7 +1736,6 @@ mod libm {
         pub safe fn sqrt(x: f64) -> f64;
         pub safe fn sin(x: f64) -> f64;
         pub safe fn cos(x: f64) -> f64;
-        pub safe fn atan2(y: f64, x: f64) -> f64;
         pub safe fn round(x: f64) -> f64;
         pub safe fn floor(x: f64) -> f64;
         pub safe fn ceil(x: f64) -> f64;
@@ -1618,7 +1749,6 @@ trait Math: Sized {
     fn sqrt(self) -> Self;
     fn sin(self) -> Self;
     fn cos(self) -> Self;
-    fn atan2(self, x: Self) -> Self;
     fn round(self) -> Self;
     fn floor(self) -> Self;
     fn ceil(self) -> Self;
@@ -1634,9 +1764,6 @@ impl Math for f64 {
     }
     fn cos(self) -> Self {
         libm::cos(self)
-    }
-    fn atan2(self, x: Self) -> Self {
-        libm::atan2(self, x)
     }
     fn round(self) -> Self {
         libm::round(self)

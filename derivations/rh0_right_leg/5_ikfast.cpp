@@ -102,6 +102,8 @@ static const double BLUR = 0.05;
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
 static const int POLISH_STEPS = 32;
+/* So many steps in a row that do not halve the miss are the last. */
+static const int PATIENCE = 3;
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 static const double APART = 0.7;
 static const double SPLIT = 0.001;
@@ -135,27 +137,17 @@ typedef rh0_right_leg_solution Solution;
 
 /* The highest degree of a polynomial. */
 static const int DEGREE = 2;
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-static const double NEGLIGIBLE = 1e-290;
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 static const double TANGENT = 1e-10;
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-static const double ROUNDING = (2.0 * std::numeric_limits<double>::epsilon());
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -165,87 +157,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -279,20 +207,19 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 static const int TIP = 12;
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2, r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2;
-    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2;
-    const double r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3;
-    const double r35 = c4 * r16 - s4 * r18, r38 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = s5 * r40;
-    const double r42 = c1 * s5, r43 = c5 * r35, r44 = s1 * s5, r45 = c5 * r38, r46 = c5 * r40;
-    const double r47 = c1 * c5 - s5 * r35, r48 = c6 * r47, r49 = s4 * r16 + c4 * r18, r50 = s6 * r49;
-    const double r51 = s1 * c5 + s5 * r38, r52 = c6 * r51, r53 = s4 * r20 + c4 * r22, r54 = s6 * r53;
-    const double r55 = c6 * r41, r56 = s4 * r24 + c4 * r26, r57 = s6 * r56;
-    const double r70 = 0.28 * s2 + 0.28 * r8 + 0.28 * r9 + 0.112 * r55;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
+    const double r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
+    const double r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3;
+    const double r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r35 = c4 * r16 - s4 * r18, r38 = c4 * r20 - s4 * r22;
+    const double r40 = c4 * r24 - s4 * r26, r41 = s5 * r40, r42 = c1 * s5, r43 = c5 * r35, r44 = s1 * s5;
+    const double r45 = c5 * r38, r46 = c5 * r40, r47 = c1 * c5 - s5 * r35, r48 = c6 * r47;
+    const double r49 = s4 * r16 + c4 * r18, r50 = s6 * r49, r51 = s1 * c5 + s5 * r38, r52 = c6 * r51;
+    const double r53 = s4 * r20 + c4 * r22, r54 = s6 * r53, r55 = c6 * r41, r56 = s4 * r24 + c4 * r26;
+    const double r57 = s6 * r56, r70 = 0.28 * s2 + 0.28 * r8 + 0.28 * r9 + 0.112 * r55;
     const double r81 = 0.28 * r1 + 0.28 * r6 - 0.28 * r7 + 0.112 * r52;
     const double r87 = r81 + 0.112 * r54 - 0.0265 * r44 + 0.0265 * r45;
     const double r94 = 0.28 * r0 + 0.28 * r4 - 0.28 * r5 - 0.112 * r48;
@@ -311,16 +238,40 @@ static void tip(const double *q, double *reached)
     reached[11] = s6 * r41 - c6 * r56;
 }
 
+/* What the equations read of joints: 12 numbers. */
+static const int PLACES = 12;
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+    at[10] = cos(q[5]);
+    at[11] = sin(q[5]);
+}
+
+static const int SIZES = 2;
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->px,
@@ -338,16 +289,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             0.787092354220426,
-            0.787092354220426,
-            0.787092354220426,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -359,20 +300,20 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2, r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2;
-    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2;
-    const double r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3;
-    const double r35 = c4 * r16 - s4 * r18, r38 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = s5 * r40;
-    const double r42 = c1 * s5, r43 = c5 * r35, r44 = s1 * s5, r45 = c5 * r38, r46 = c5 * r40;
-    const double r47 = c1 * c5 - s5 * r35, r48 = c6 * r47, r49 = s4 * r16 + c4 * r18, r50 = s6 * r49;
-    const double r51 = s1 * c5 + s5 * r38, r52 = c6 * r51, r53 = s4 * r20 + c4 * r22, r54 = s6 * r53;
-    const double r55 = c6 * r41, r56 = s4 * r24 + c4 * r26, r57 = s6 * r56, r60 = s6 * r51, r61 = c6 * r53;
-    const double r65 = 0.28 * r8, r67 = 0.28 * r9, r69 = 0.112 * r55, r71 = 0.112 * r57, r73 = 0.0265 * r46;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
+    const double r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
+    const double r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3;
+    const double r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r35 = c4 * r16 - s4 * r18, r38 = c4 * r20 - s4 * r22;
+    const double r40 = c4 * r24 - s4 * r26, r41 = s5 * r40, r42 = c1 * s5, r43 = c5 * r35, r44 = s1 * s5;
+    const double r45 = c5 * r38, r46 = c5 * r40, r47 = c1 * c5 - s5 * r35, r48 = c6 * r47;
+    const double r49 = s4 * r16 + c4 * r18, r50 = s6 * r49, r51 = s1 * c5 + s5 * r38, r52 = c6 * r51;
+    const double r53 = s4 * r20 + c4 * r22, r54 = s6 * r53, r55 = c6 * r41, r56 = s4 * r24 + c4 * r26;
+    const double r57 = s6 * r56, r60 = s6 * r51, r61 = c6 * r53, r65 = 0.28 * r8, r67 = 0.28 * r9;
+    const double r69 = 0.112 * r55, r71 = 0.112 * r57, r73 = 0.0265 * r46;
     const double r74 = 0.28 * s2 + r65 + r67 + r69 + r71 + r73, r76 = 0.28 * r6, r78 = 0.28 * r7;
     const double r80 = 0.112 * r52, r82 = 0.112 * r54, r84 = 0.0265 * r44, r86 = 0.0265 * r45;
     const double r87 = 0.28 * r1 + r76 - r78 + r80 + r82 - r84 + r86, r89 = 0.28 * r4, r91 = 0.28 * r5;
@@ -413,15 +354,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, (std::numeric_limits<double>::min)()));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -430,16 +376,62 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION
+        && fabs(at[10] * at[10] + at[11] * at[11] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+static const double REST = 3.061616997868383e-17;
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -450,35 +442,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+static const int ROWS = (EQUATIONS + JOINTS);
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -495,32 +501,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -632,22 +638,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], (std::numeric_limits<double>::min)()));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -683,7 +694,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -722,6 +733,17 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[3] - b[3])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[2] - b[2])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -740,9 +762,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -845,10 +864,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -988,7 +1010,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1020,6 +1042,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == RH0_RIGHT_LEG_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1101,6 +1160,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1114,9 +1175,14 @@ typedef struct {
     double s4;
     double c5;
     double s5;
+    double q0;
+    double q1;
+    double q2;
+    double q3;
+    double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1142,16 +1208,30 @@ typedef struct {
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r35 = shared->r33 - shared->r32, r39 = sqrt(fmax(shared->r34 * shared->r34 + r35 * r35, 0.0));
-    const double c6 = shared->r34 / r39, s6 = r35 / r39;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
-        angle(known->c3, known->s3),
-        angle(known->c4, known->s4),
-        angle(known->c5, known->s5),
-        angle(c6, s6),
+    const double r40 = 1.0 / r39, c6 = shared->r34 * r40, s6 = r35 * r40;
+    const double at[PLACES] = {
+        known->c1,
+        known->s1,
+        known->c2,
+        known->s2,
+        known->c3,
+        known->s3,
+        known->c4,
+        known->s4,
+        known->c5,
+        known->s5,
+        c6,
+        s6,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        known->q2,
+        known->q3,
+        known->q4,
+        angle(at[10], at[11]),
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 6: HipYaw. */
@@ -1179,13 +1259,15 @@ typedef struct {
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r24 = sqrt(fmax(r23, 0.0));
-    const double c5 = shared->r20 / r24, s5 = 0.0 - shared->r19 / r24;
+    const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r25 = 1.0 / sqrt(fmax(r23, 0.0));
+    const double c5 = shared->r20 * r25, s5 = 0.0 - shared->r19 * r25, q4 = angle(c5, s5);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
+    next.q4 = q4;
     block_6(p, &next, answers);
 }
 
@@ -1202,6 +1284,12 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     chart_5_1(p, known, shared, answers);
 }
 
+/* Block 5 behind a chart that hardly ever runs. */
+static void again_5(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_5(p, known, answers);
+}
+
 /* What the charts of block 4 share. */
 typedef struct {
     double r13;
@@ -1213,20 +1301,22 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
-    if (!is_away(r17, 2000000.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14;
+    if (!is_away(r15 + r16, 2000000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r15 - r16, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->f2 * (14.142135623730951 * known->f1));
+    const Roots roots0 = square_roots(0.0 - r15 - r16, known->f2 * (14.142135623730951 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r23 = w4 * shared->r13 / r17, r25 = w4 * shared->r14 / r17;
-        const double r29 = sqrt(fmax(r25 * r25 + r23 * r23, 0.0)), c4 = 0.0 - r25 / r29, s4 = r23 / r29;
+        const double w4 = roots0.values[i0], r22 = w4 * shared->r13, r23 = w4 * shared->r14;
+        const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r22 * r22, 0.0)), c4 = 0.0 - r23 * r28, s4 = r22 * r28;
+        const double q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c4 = c4;
         next.s4 = s4;
+        next.q3 = q3;
         block_5(p, &next, answers);
     }
 }
@@ -1242,14 +1332,16 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
-        block_5(p, &next, answers);
+        next.q3 = q3;
+        again_5(p, &next, answers);
     }
 }
 
@@ -1263,6 +1355,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const Shared4 *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
+}
+
+/* Block 4 behind a chart that hardly ever runs. */
+static void again_4(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_4(p, known, answers);
 }
 
 /* What the charts of block 3 share. */
@@ -1284,15 +1382,18 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     if (!is_away(r26, 19600.0)) {
         return;
     }
-    const double f2 = 1.0, r30 = shared->r11 * shared->r18 - (0.0 - shared->r13 * shared->r17), r31 = r30 / r26;
-    const double r34 = shared->r11 * shared->r17 - shared->r13 * shared->r18, r35 = r34 / r26;
-    const double r39 = sqrt(fmax(r35 * r35 + r31 * r31, 0.0)), c2 = r35 / r39, s2 = r31 / r39;
+    const double f2 = 1.0, r30 = shared->r11 * shared->r18 - (0.0 - shared->r13 * shared->r17);
+    const double r33 = shared->r11 * shared->r17 - shared->r13 * shared->r18;
+    const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r30 * r30, 0.0)), c2 = r33 * r38, s2 = r30 * r38;
+    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
     next.f2 = f2;
+    next.q1 = q1;
     block_4(p, &next, answers);
 }
 
@@ -1308,15 +1409,17 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
         next.f2 = f2;
-        block_4(p, &next, answers);
+        next.q1 = q1;
+        again_4(p, &next, answers);
     }
 }
 
@@ -1343,17 +1446,18 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double choice0_0[3] = {shared->r32 * shared->r32 - 0.02458624, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->f1);
+    const Roots roots0 = square_roots(shared->r32 * shared->r32 - 0.02458624, 1.4142135623730951 * known->f1);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r37 = 0.1568 * w3 / 0.02458624;
-        const double r39 = 0.1568 * shared->r32 / 0.02458624, r43 = sqrt(fmax(r39 * r39 + r37 * r37, 0.0));
-        const double c3 = 0.0 - r39 / r43, s3 = r37 / r43;
+        const double w3 = roots0.values[i0], r36 = 0.1568 * w3, r37 = 0.1568 * shared->r32;
+        const double r42 = 1.0 / sqrt(fmax(r37 * r37 + r36 * r36, 0.0)), c3 = 0.0 - r37 * r42, s3 = r36 * r42;
+        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
+        next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
+        next.q2 = q2;
         block_3(p, &next, answers);
     }
 }
@@ -1372,6 +1476,12 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     chart_2_1(p, known, shared, answers);
 }
 
+/* Block 2 behind a chart that hardly ever runs. */
+static void again_2(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_2(p, known, answers);
+}
+
 /* What the charts of block 1 share. */
 typedef struct {
     double r4;
@@ -1385,23 +1495,25 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r13 = shared->r4 * shared->r4, r14 = shared->r8 * shared->r8, r15 = r13 + r14;
+    const double r13 = shared->r4 * shared->r4, r14 = shared->r8 * shared->r8;
     const double r18 = shared->r11 * shared->r11 + shared->r12 * shared->r12;
-    if (!is_away(r15, 10000.0 * r18)) {
+    if (!is_away(r13 + r14, 10000.0 * r18)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r13 - r14, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r18, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r13 - r14, sqrt(fmax(r18, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r24 = w1 * shared->r4 / r15, r26 = w1 * shared->r8 / r15;
-        const double r30 = sqrt(fmax(r26 * r26 + r24 * r24, 0.0)), c1 = 0.0 - r26 / r30, s1 = 0.0 - r24 / r30;
+        const double w1 = roots0.values[i0], r23 = w1 * shared->r4, r24 = w1 * shared->r8;
+        const double r29 = 1.0 / sqrt(fmax(r24 * r24 + r23 * r23, 0.0)), c1 = 0.0 - r24 * r29;
+        const double s1 = 0.0 - r23 * r29, q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
+        next.close = roots0.close;
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
+        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1419,15 +1531,17 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = 2;
         next.last = 3;
+        next.close = false;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        block_2(p, &next, answers);
+        next.q0 = q0;
+        again_2(p, &next, answers);
     }
 }
 
@@ -1511,8 +1625,9 @@ int rh0_right_leg_solve(const double *given, rh0_right_leg_solution *out)
 
 void rh0_right_leg_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];

@@ -121,6 +121,13 @@ int spherical_wrist_nearest(const spherical_wrist_solution *list, int count, con
 #define INPUTS SPHERICAL_WRIST_INPUTS
 #define JOINTS SPHERICAL_WRIST_JOINTS
 #define EQUATIONS 12
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE __attribute__((always_inline)) inline
+#define COLD __attribute__((noinline, cold))
+#else
+#define INLINE
+#define COLD
+#endif
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -131,6 +138,8 @@ int spherical_wrist_nearest(const spherical_wrist_solution *list, int count, con
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
+/* So many steps in a row that do not halve the miss are the last. */
+#define PATIENCE 3
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -182,15 +191,9 @@ const double spherical_wrist_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINIT
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -199,6 +202,33 @@ static void push(Roots *roots, double x)
         roots->count++;
     }
 }
+
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
+{
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+        return roots;
+    }
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
+        return roots;
+    }
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
+    return roots;
+}
+
+/* A polynomial with coefficients of magnitude one and less, constant term first. */
+typedef struct {
+    double a[DEGREE + 1];
+    size_t degree;
+    /* The unknown's typical size. */
+    double scale;
+} Polynomial;
 
 static double largest(const double *coefficients, size_t length)
 {
@@ -244,7 +274,7 @@ static bool polynomial(const double *coefficients, size_t length, Polynomial *re
 
 static Roots linear_root(const Polynomial *p)
 {
-    Roots roots = {{0.0}, 0};
+    Roots roots = {{0.0}, 0, false};
     if (p->degree == 1) {
         push(&roots, -p->a[0] / p->a[1]);
     }
@@ -254,7 +284,7 @@ static Roots linear_root(const Polynomial *p)
 /* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
 static Roots quadratic_roots(const Polynomial *p)
 {
-    Roots roots = {{0.0}, 0};
+    Roots roots = {{0.0}, 0, false};
     const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
     const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
     if (discriminant < -TANGENT * fmax(size, typical * typical)) {
@@ -399,7 +429,7 @@ static double root_between(const Polynomial *p, double low, double high)
  * and the critical points where p touches the axis. */
 static Roots roots_between(const Polynomial *p, const Roots *critical, double bound)
 {
-    Roots roots = {{0.0}, 0};
+    Roots roots = {{0.0}, 0, false};
     double low = -bound, low_sign = sign(p, low);
     bool touched = false;
     for (size_t i = 0; i <= critical->count; i++) {
@@ -419,11 +449,11 @@ static Roots roots_between(const Polynomial *p, const Roots *critical, double bo
 
 /* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
  * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
+static Roots all_real_roots(const double *coefficients, size_t length, double scale)
 {
     Polynomial p;
     if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
+        const Roots none = {{0.0}, 0, false};
         return none;
     }
     p.scale = scale;
@@ -437,6 +467,16 @@ static Roots real_roots(const double *coefficients, size_t length, double scale)
         current = derivative(&p, order);
         const Roots critical = roots;
         roots = roots_between(&current, &critical, bound);
+    }
+    return roots;
+}
+
+static Roots real_roots(const double *coefficients, size_t length, double scale)
+{
+    Roots roots = all_real_roots(coefficients, length, scale);
+    roots.close = roots.count > 0 && roots.count % 2 == length % 2;
+    for (size_t i = 1; i < roots.count; i++) {
+        roots.close = roots.close || roots.values[i] - roots.values[i - 1] <= SPLIT * scale;
     }
     return roots;
 }
@@ -472,11 +512,11 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 #define TIP 12
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
     const double r1 = 0.8888888888888888 * c2 + 0.1111111111111111, r2 = c1 * r1, r3 = 0.6666666666666666 * s2;
     const double r4 = 0.2222222222222222 * c2, r6 = r3 - r4 + 0.2222222222222222, r7 = s1 * r6, r8 = s1 * r1;
     const double r9 = c1 * r6, r11 = r3 + r4 - 0.2222222222222222, r12 = c1 * r11;
@@ -613,16 +653,40 @@ static void tip(const double *q, double *reached)
     reached[11] = 0.0 - (r524 + (r522 + r523));
 }
 
+/* What the equations read of joints: 12 numbers. */
+#define PLACES 12
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+    at[10] = cos(q[5]);
+    at[11] = sin(q[5]);
+}
+
+#define SIZES 2
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->px,
@@ -640,16 +704,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             1.339110366322714,
-            1.339110366322714,
-            1.339110366322714,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -661,11 +715,11 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
     const double r1 = 0.8888888888888888 * c2 + 0.1111111111111111, r2 = c1 * r1, r3 = 0.6666666666666666 * s2;
     const double r4 = 0.2222222222222222 * c2, r6 = r3 - r4 + 0.2222222222222222, r7 = s1 * r6, r8 = s1 * r1;
     const double r9 = c1 * r6, r11 = r3 + r4 - 0.2222222222222222, r12 = c1 * r11;
@@ -915,15 +969,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, DBL_MIN));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -932,16 +991,62 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION
+        && fabs(at[10] * at[10] + at[11] * at[11] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+#define REST 3.061616997868383e-17
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -952,35 +1057,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+#define ROWS (EQUATIONS + JOINTS)
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -997,32 +1116,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -1134,22 +1253,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -1185,7 +1309,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -1224,6 +1348,17 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[3] - b[3])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance
+        && fabs(shorter(a[2] - b[2])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -1242,9 +1377,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -1347,10 +1479,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1490,7 +1625,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1522,6 +1657,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == SPHERICAL_WRIST_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1617,6 +1789,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double c3;
     double s3;
@@ -1631,9 +1805,14 @@ typedef struct {
     double s4;
     double c5;
     double s5;
+    double q0;
+    double q1;
+    double q2;
+    double q3;
+    double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1655,23 +1834,37 @@ typedef struct {
 
 /* Chart 1 of block 6: generic.
  */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r551 = (shared->r549 - shared->r538) / 2.0, r554 = (shared->r549 - (0.0 - shared->r538)) / 2.0;
-    const double r558 = sqrt(fmax(r554 * r554 + r551 * r551, 0.0)), c6 = r554 / r558, s6 = r551 / r558;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
-        angle(known->c3, known->s3),
-        angle(known->c4, known->s4),
-        angle(known->c5, known->s5),
-        angle(c6, s6),
+    const double r550 = shared->r549 - shared->r538, r552 = shared->r549 - (0.0 - shared->r538);
+    const double r557 = 1.0 / sqrt(fmax(r552 * r552 + r550 * r550, 0.0)), c6 = r552 * r557, s6 = r550 * r557;
+    const double at[PLACES] = {
+        known->c1,
+        known->s1,
+        known->c2,
+        known->s2,
+        known->c3,
+        known->s3,
+        known->c4,
+        known->s4,
+        known->c5,
+        known->s5,
+        c6,
+        s6,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        known->q2,
+        known->q3,
+        known->q4,
+        angle(at[10], at[11]),
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 6: Wrist3. */
-static void block_6(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = p->r12_ - p->r13_, r1 = known->c1 * r0, r2 = p->r22_ - p->r23_, r3 = known->s1 * r2;
     const double r4 = known->c1 * r2, r5 = known->s1 * r0;
@@ -1829,20 +2022,23 @@ typedef struct {
 
 /* Chart 1 of block 5: generic.
  */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r280 = (shared->r274 + shared->r278) / 2.0, r282 = (shared->r278 - shared->r274) / 2.0;
-    const double r286 = sqrt(fmax(r282 * r282 + r280 * r280, 0.0)), c5 = r282 / r286, s5 = 0.0 - r280 / r286;
+    const double r279 = shared->r274 + shared->r278, r280 = shared->r278 - shared->r274;
+    const double r285 = 1.0 / sqrt(fmax(r280 * r280 + r279 * r279, 0.0)), c5 = r280 * r285;
+    const double s5 = 0.0 - r279 * r285, q4 = angle(c5, s5);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
+    next.q4 = q4;
     block_6(p, &next, answers);
 }
 
 /* Block 5: Wrist2. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = 0.3333333333333333 * p->r11_ - 0.6666666666666666 * p->r12_;
     const double r4 = r2 - 0.6666666666666666 * p->r13_, r5 = known->c1 * r4;
@@ -1921,6 +2117,12 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     chart_5_1(p, known, shared, answers);
 }
 
+/* Block 5 behind a chart that hardly ever runs. */
+COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_5(p, known, answers);
+}
+
 /* What the charts of block 4 share. */
 typedef struct {
     double r199;
@@ -1930,24 +2132,25 @@ typedef struct {
 /* Chart 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r211 = shared->r199 * shared->r199, r212 = shared->r210 * shared->r210, r213 = r211 + r212;
-    if (!is_away(r213, 444519865.2036134)) {
+    const double r211 = shared->r199 * shared->r199, r212 = shared->r210 * shared->r210;
+    if (!is_away(r211 + r212, 444519865.2036134)) {
         return;
     }
     const double r218 = known->f2 * (known->f1 * (210.83639752272694 * known->f3));
-    const double choice0_0[3] = {0.0 - r211 - r212, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, r218);
+    const Roots roots0 = square_roots(0.0 - r211 - r212, r218);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r220 = w4 * shared->r199 / r213, r222 = w4 * shared->r210 / r213;
-        const double r226 = sqrt(fmax(r222 * r222 + r220 * r220, 0.0)), c4 = 0.0 - r222 / r226;
-        const double s4 = 0.0 - r220 / r226;
+        const double w4 = roots0.values[i0], r219 = w4 * shared->r199, r220 = w4 * shared->r210;
+        const double r225 = 1.0 / sqrt(fmax(r220 * r220 + r219 * r219, 0.0)), c4 = 0.0 - r220 * r225;
+        const double s4 = 0.0 - r219 * r225, q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c4 = c4;
         next.s4 = s4;
+        next.q3 = q3;
         block_5(p, &next, answers);
     }
 }
@@ -1963,19 +2166,21 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
-        block_5(p, &next, answers);
+        next.q3 = q3;
+        again_5(p, &next, answers);
     }
 }
 
 /* Block 4: Wrist1. */
-static void block_4(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = 0.3333333333333333 * p->r11_ - 0.6666666666666666 * p->r12_;
     const double r4 = r2 - 0.6666666666666666 * p->r13_, r5 = known->c1 * r4;
@@ -2039,6 +2244,12 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     chart_4_2(p, known, shared, answers);
 }
 
+/* Block 4 behind a chart that hardly ever runs. */
+COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_4(p, known, answers);
+}
+
 /* What the charts of block 3 share. */
 typedef struct {
     double r19;
@@ -2052,21 +2263,24 @@ typedef struct {
 /* Chart 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r57 = shared->r19 * shared->r19 + shared->r23 * shared->r23;
     if (!is_away(r57, 3099959.7402831125)) {
         return;
     }
-    const double f2 = 1.0, r60 = shared->r23 * shared->r32 + shared->r19 * shared->r48, r61 = r60 / r57;
-    const double r64 = shared->r23 * shared->r48 - shared->r19 * shared->r32, r65 = r64 / r57;
-    const double r69 = sqrt(fmax(r65 * r65 + r61 * r61, 0.0)), c2 = r65 / r69, s2 = 0.0 - r61 / r69;
+    const double f2 = 1.0, r60 = shared->r23 * shared->r32 + shared->r19 * shared->r48;
+    const double r63 = shared->r23 * shared->r48 - shared->r19 * shared->r32;
+    const double r68 = 1.0 / sqrt(fmax(r63 * r63 + r60 * r60, 0.0)), c2 = r63 * r68, s2 = 0.0 - r60 * r68;
+    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
     next.f2 = f2;
+    next.q1 = q1;
     block_4(p, &next, answers);
 }
 
@@ -2082,20 +2296,22 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
         next.f2 = f2;
-        block_4(p, &next, answers);
+        next.q1 = q1;
+        again_4(p, &next, answers);
     }
 }
 
 /* Block 3: Axis2. */
-static void block_3(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r5 = p->px - 0.12 * p->r11_ - 0.03 * p->r12_ - 0.15 * p->r13_;
     const double r12 = p->py - 0.12 * p->r21_ - 0.03 * p->r22_ - 0.15 * p->r23_, r14 = known->c1 * r12;
@@ -2116,6 +2332,12 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     chart_3_2(p, known, shared, answers);
 }
 
+/* Block 3 behind a chart that hardly ever runs. */
+COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_3(p, known, answers);
+}
+
 /* What the charts of block 2 share. */
 typedef struct {
     double r38;
@@ -2132,7 +2354,7 @@ typedef struct {
 /* Chart 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r110 = shared->r38 * shared->r38 + shared->r53 * shared->r53;
     const double r113 = shared->r104 * shared->r104 + shared->r105 * shared->r105;
@@ -2140,15 +2362,17 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     const double f1 = 1.0, r118 = shared->r38 * shared->r90 - (0.0 - shared->r53 * shared->r65);
-    const double r119 = r118 / r110, r122 = shared->r53 * shared->r90 - shared->r38 * shared->r65;
-    const double r123 = r122 / r110, r127 = sqrt(fmax(r123 * r123 + r119 * r119, 0.0)), c1 = r123 / r127;
-    const double s1 = r119 / r127;
+    const double r121 = shared->r53 * shared->r90 - shared->r38 * shared->r65;
+    const double r126 = 1.0 / sqrt(fmax(r121 * r121 + r118 * r118, 0.0)), c1 = r121 * r126, s1 = r118 * r126;
+    const double q0 = angle(c1, s1);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.c1 = c1;
     next.s1 = s1;
     next.f1 = f1;
+    next.q0 = q0;
     block_3(p, &next, answers);
 }
 
@@ -2165,15 +2389,17 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        block_3(p, &next, answers);
+        next.q0 = q0;
+        again_3(p, &next, answers);
     }
 }
 
@@ -2207,6 +2433,12 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const Shared2 *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
+}
+
+/* Block 2 behind a chart that hardly ever runs. */
+COLD static void again_2(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_2(p, known, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -2246,14 +2478,16 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r108 = w3 * (r94 - r93) + (shared->r41 + 0.21819403952057012);
         const double r111 = w3 * (0.0 - r103 - 0.21819403952057012 * r108);
         const double r115 = (0.21819403952057012 * (r93 + r94) - r111) / 0.47356163692985703;
-        const double r117 = 1.0 - w3 * r115, r121 = sqrt(fmax(r117 * r117 + r115 * r115, 0.0)), c3 = r117 / r121;
-        const double s3 = r115 / r121;
+        const double r117 = 1.0 - w3 * r115, r122 = 1.0 / sqrt(fmax(r117 * r117 + r115 * r115, 0.0));
+        const double c3 = r117 * r122, s3 = r115 * r122, q2 = angle(c3, s3);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
+        next.close = roots0.close;
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
+        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2294,14 +2528,16 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r110 = 0.6526507473737795 * shared->r37 - 0.21819403952057012 * r107;
         const double r115 = 0.0 - 0.6526507473737795 * r107 - 0.04760863888230411;
         const double r117 = (w3 * (w3 * r104 + r110) + r115) / 0.47356163692985703, r119 = w3 * (1.0 - r117);
-        const double r123 = sqrt(fmax(r119 * r119 + r117 * r117, 0.0)), c3 = 0.0 - r119 / r123;
-        const double s3 = 0.0 - r117 / r123;
+        const double r124 = 1.0 / sqrt(fmax(r119 * r119 + r117 * r117, 0.0)), c3 = 0.0 - r119 * r124;
+        const double s3 = 0.0 - r117 * r124, q2 = angle(c3, s3);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
+        next.close = roots0.close;
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
+        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2340,14 +2576,16 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r108 = 0.21819403952057012 * (r96 + w3 * (0.0 - r92 - r93));
         const double r110 = w3 * (0.0 - 0.6526507473737795 * r101 - r108);
         const double r114 = (0.21819403952057012 * (r92 - r93) - r110) / 0.47356163692985703;
-        const double r116 = w3 * r114 + 1.0, r120 = sqrt(fmax(r116 * r116 + r114 * r114, 0.0));
-        const double c3 = 0.0 - r116 / r120, s3 = r114 / r120;
+        const double r116 = w3 * r114 + 1.0, r121 = 1.0 / sqrt(fmax(r116 * r116 + r114 * r114, 0.0));
+        const double c3 = 0.0 - r116 * r121, s3 = r114 * r121, q2 = angle(c3, s3);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
+        next.close = roots0.close;
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
+        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2387,14 +2625,16 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r110 = 0.6526507473737795 * shared->r37 - 0.21819403952057012 * r107;
         const double r114 = 0.04760863888230411 - 0.6526507473737795 * r107;
         const double r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703;
-        const double r119 = w3 * (0.0 - r116 - 1.0), r123 = sqrt(fmax(r119 * r119 + r116 * r116, 0.0));
-        const double c3 = 0.0 - r119 / r123, s3 = 0.0 - r116 / r123;
+        const double r119 = w3 * (0.0 - r116 - 1.0), r124 = 1.0 / sqrt(fmax(r119 * r119 + r116 * r116, 0.0));
+        const double c3 = 0.0 - r119 * r124, s3 = 0.0 - r116 * r124, q2 = angle(c3, s3);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
+        next.close = roots0.close;
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
+        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2443,14 +2683,16 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r146 = 0.21819403952057012 * (r113 + (r111 + (r118 - 0.1074825970660373)));
         const double r151 = 0.6526507473737795 * (r106 + (r104 + (r102 + 0.35504200657133606)));
         const double r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703;
-        const double r157 = 0.6 - w3 * (0.8 - r154), r161 = sqrt(fmax(r157 * r157 + r154 * r154, 0.0));
-        const double c3 = r157 / r161, s3 = 0.0 - r154 / r161;
+        const double r157 = 0.6 - w3 * (0.8 - r154), r162 = 1.0 / sqrt(fmax(r157 * r157 + r154 * r154, 0.0));
+        const double c3 = r157 * r162, s3 = 0.0 - r154 * r162, q2 = angle(c3, s3);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
+        next.close = roots0.close;
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
+        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2475,15 +2717,17 @@ static void chart_1_6(const Parameters *p, const Shared1 *shared, Answers *answe
     }
     const double f3 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1];
+        const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1], q2 = angle(c3, s3);
         Known next = NOTHING_KNOWN;
         next.branch = 4;
         next.last = 5;
+        next.close = false;
         next.free[2] = true;
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
-        block_2(p, &next, answers);
+        next.q2 = q2;
+        again_2(p, &next, answers);
     }
 }
 
@@ -2600,8 +2844,9 @@ int spherical_wrist_solve(const double *given, spherical_wrist_solution *out)
 
 void spherical_wrist_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];
@@ -2623,7 +2868,9 @@ double spherical_wrist_residual(const double *given, const double *q)
         return NAN;
     }
     const Parameters p = parameters(target);
-    const Equations f = equations(&p, q);
+    double at[PLACES];
+    place(q, at);
+    const Equations f = equations(&p, at);
     double size = 0.0;
     for (size_t i = 0; i < EQUATIONS; i++) {
         if (isnan(f.value[i])) {

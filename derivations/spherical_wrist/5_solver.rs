@@ -33,7 +33,7 @@
 //! answer is polished by 32 Newton steps at most.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
-//! `sin`, `cos`, `atan2`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
+//! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
 //! are those of the C library, and the file needs `core` only: then it may be a module of a `#![no_std]` crate.
 #![allow(unexpected_cfgs, non_snake_case, clippy::all)]
 
@@ -106,7 +106,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
 pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
     let Some(target) = &conform(target) else { return f64::NAN };
     let mut largest = 0.0;
-    for value in equations(&parameters(target), q).value {
+    for value in equations(&parameters(target), &place(q)).value {
         if value.is_nan() {
             return value;
         }
@@ -118,7 +118,7 @@ pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
 /// The target that joint values `q` reach.
 #[allow(dead_code)]
 pub fn forward(q: &[f64; JOINTS]) -> [f64; INPUTS] {
-    let reached = tip(q);
+    let reached = tip(&place(q));
     [reached[0], reached[1], reached[2], reached[3], reached[6], reached[9], reached[4], reached[7], reached[10], reached[5], reached[8], reached[11]]
 }
 
@@ -300,6 +300,8 @@ const BLUR: f64 = 0.05;
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
 const POLISH_STEPS: usize = 32;
+/// So many steps in a row that do not halve the miss are the last.
+const PATIENCE: usize = 3;
 /// Shares of the squared Jacobian's size that are added where a plain step fails.
 const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 0.001];
 /// A candidate that misses the equations by this share of their size at most may be a double root.
@@ -410,6 +412,8 @@ struct Known {
     branch: usize,
     /// The end of the branch numbers of the first block's chart.
     last: usize,
+    /// Whether roots on the way are so near one another that rounding moves them.
+    close: bool,
     free: [bool; JOINTS],
     c3: f64,
     s3: f64,
@@ -424,9 +428,14 @@ struct Known {
     s4: f64,
     c5: f64,
     s5: f64,
+    q0: f64,
+    q1: f64,
+    q2: f64,
+    q3: f64,
+    q4: f64,
 }
 
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, free: NONE_FREE, c3: 0.0, s3: 0.0, f3: 0.0, c1: 0.0, s1: 0.0, f1: 0.0, c2: 0.0, s2: 0.0, f2: 0.0, c4: 0.0, s4: 0.0, c5: 0.0, s5: 0.0 };
+const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c3: 0.0, s3: 0.0, f3: 0.0, c1: 0.0, s1: 0.0, f1: 0.0, c2: 0.0, s2: 0.0, f2: 0.0, c4: 0.0, s4: 0.0, c5: 0.0, s5: 0.0, q0: 0.0, q1: 0.0, q2: 0.0, q3: 0.0, q4: 0.0 };
 
 /// Where charts put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
@@ -517,9 +526,11 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         let r115 = (0.21819403952057012 * (r93 + r94) - r111) / 0.47356163692985703;
         let r117 = 1.0 - w3 * r115;
         let r121 = f64::max(r117 * r117 + r115 * r115, 0.0).sqrt();
-        let c3 = r117 / r121;
-        let s3 = r115 / r121;
-        let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
+        let r122 = 1.0 / r121;
+        let c3 = r117 * r122;
+        let s3 = r115 * r122;
+        let q2 = angle(c3, s3);
+        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, q2, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
 }
@@ -561,9 +572,11 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         let r117 = (w3 * (w3 * r104 + r110) + r115) / 0.47356163692985703;
         let r119 = w3 * (1.0 - r117);
         let r123 = f64::max(r119 * r119 + r117 * r117, 0.0).sqrt();
-        let c3 = 0.0 - r119 / r123;
-        let s3 = 0.0 - r117 / r123;
-        let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
+        let r124 = 1.0 / r123;
+        let c3 = 0.0 - r119 * r124;
+        let s3 = 0.0 - r117 * r124;
+        let q2 = angle(c3, s3);
+        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, q2, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
 }
@@ -602,9 +615,11 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         let r114 = (0.21819403952057012 * (r92 - r93) - r110) / 0.47356163692985703;
         let r116 = w3 * r114 + 1.0;
         let r120 = f64::max(r116 * r116 + r114 * r114, 0.0).sqrt();
-        let c3 = 0.0 - r116 / r120;
-        let s3 = r114 / r120;
-        let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
+        let r121 = 1.0 / r120;
+        let c3 = 0.0 - r116 * r121;
+        let s3 = r114 * r121;
+        let q2 = angle(c3, s3);
+        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, q2, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
 }
@@ -646,9 +661,11 @@ fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         let r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703;
         let r119 = w3 * (0.0 - r116 - 1.0);
         let r123 = f64::max(r119 * r119 + r116 * r116, 0.0).sqrt();
-        let c3 = 0.0 - r119 / r123;
-        let s3 = 0.0 - r116 / r123;
-        let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
+        let r124 = 1.0 / r123;
+        let c3 = 0.0 - r119 * r124;
+        let s3 = 0.0 - r116 * r124;
+        let q2 = angle(c3, s3);
+        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, q2, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
 }
@@ -704,9 +721,11 @@ fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         let r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703;
         let r157 = 0.6 - w3 * (0.8 - r154);
         let r161 = f64::max(r157 * r157 + r154 * r154, 0.0).sqrt();
-        let c3 = r157 / r161;
-        let s3 = 0.0 - r154 / r161;
-        let next = Known { branch: i0, last: 4, c3, s3, f3, ..NOTHING_KNOWN };
+        let r162 = 1.0 / r161;
+        let c3 = r157 * r162;
+        let s3 = 0.0 - r154 * r162;
+        let q2 = angle(c3, s3);
+        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, q2, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
 }
@@ -728,8 +747,9 @@ fn chart_1_6(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     }
     let f3 = 1000000.0;
     for [c3, s3] in SAMPLES_1 {
-        let next = Known { branch: 4, last: 5, free: [false, false, true, false, false, false], c3, s3, f3, ..NOTHING_KNOWN };
-        block_2(p, &next, answers);
+        let q2 = angle(c3, s3);
+        let next = Known { branch: 4, last: 5, close: false, free: [false, false, true, false, false, false], c3, s3, f3, q2, ..NOTHING_KNOWN };
+        again_2(p, &next, answers);
     }
 }
 
@@ -767,6 +787,13 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_2_2(p, known, shared, answers);
 }
 
+/// Block 2 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_2(p, known, answers);
+}
+
 /// What the charts of block 2 share.
 struct Shared2 {
     r38: f64,
@@ -782,6 +809,7 @@ struct Shared2 {
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r110 = shared.r38 * shared.r38 + shared.r53 * shared.r53;
     let r113 = shared.r104 * shared.r104 + shared.r105 * shared.r105;
@@ -790,13 +818,13 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
     let f1 = 1.0;
     let r118 = shared.r38 * shared.r90 - (0.0 - shared.r53 * shared.r65);
-    let r119 = r118 / r110;
-    let r122 = shared.r53 * shared.r90 - shared.r38 * shared.r65;
-    let r123 = r122 / r110;
-    let r127 = f64::max(r123 * r123 + r119 * r119, 0.0).sqrt();
-    let c1 = r123 / r127;
-    let s1 = r119 / r127;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, c1, s1, f1, ..*known };
+    let r121 = shared.r53 * shared.r90 - shared.r38 * shared.r65;
+    let r125 = f64::max(r121 * r121 + r118 * r118, 0.0).sqrt();
+    let r126 = 1.0 / r125;
+    let c1 = r121 * r126;
+    let s1 = r118 * r126;
+    let q0 = angle(c1, s1);
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c1, s1, f1, q0, ..*known };
     block_3(p, &next, answers);
 }
 
@@ -811,12 +839,14 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
     let f1 = 1000000.0;
     for [c1, s1] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5]], c1, s1, f1, ..*known };
-        block_3(p, &next, answers);
+        let q0 = angle(c1, s1);
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5]], c1, s1, f1, q0, ..*known };
+        again_3(p, &next, answers);
     }
 }
 
 /// Block 3: Axis2.
+#[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
     let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
@@ -840,6 +870,13 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_3_2(p, known, shared, answers);
 }
 
+/// Block 3 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_3(p, known, answers);
+}
+
 /// What the charts of block 3 share.
 struct Shared3 {
     r19: f64,
@@ -852,6 +889,7 @@ struct Shared3 {
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r57 = shared.r19 * shared.r19 + shared.r23 * shared.r23;
     if !is_away(r57, 3099959.7402831125) {
@@ -859,13 +897,12 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
     let f2 = 1.0;
     let r60 = shared.r23 * shared.r32 + shared.r19 * shared.r48;
-    let r61 = r60 / r57;
-    let r64 = shared.r23 * shared.r48 - shared.r19 * shared.r32;
-    let r65 = r64 / r57;
-    let r69 = f64::max(r65 * r65 + r61 * r61, 0.0).sqrt();
-    let c2 = r65 / r69;
-    let s2 = 0.0 - r61 / r69;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, c2, s2, f2, ..*known };
+    let r63 = shared.r23 * shared.r48 - shared.r19 * shared.r32;
+    let r68 = 1.0 / f64::max(r63 * r63 + r60 * r60, 0.0).sqrt();
+    let c2 = r63 * r68;
+    let s2 = 0.0 - r60 * r68;
+    let q1 = angle(c2, s2);
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, f2, q1, ..*known };
     block_4(p, &next, answers);
 }
 
@@ -879,12 +916,14 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
     let f2 = 1000000.0;
     for [c2, s2] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, free: [known.free[0], true, known.free[2], known.free[3], known.free[4], known.free[5]], c2, s2, f2, ..*known };
-        block_4(p, &next, answers);
+        let q1 = angle(c2, s2);
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], true, known.free[2], known.free[3], known.free[4], known.free[5]], c2, s2, f2, q1, ..*known };
+        again_4(p, &next, answers);
     }
 }
 
 /// Block 4: Wrist1.
+#[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r2 = 0.3333333333333333 * p.r11_ - 0.6666666666666666 * p.r12_;
     let r4 = r2 - 0.6666666666666666 * p.r13_;
@@ -963,6 +1002,13 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_4_2(p, known, shared, answers);
 }
 
+/// Block 4 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_4(p, known, answers);
+}
+
 /// What the charts of block 4 share.
 struct Shared4 {
     r199: f64,
@@ -971,22 +1017,24 @@ struct Shared4 {
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
+#[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r211 = shared.r199 * shared.r199;
     let r212 = shared.r210 * shared.r210;
-    let r213 = r211 + r212;
-    if !is_away(r213, 444519865.2036134) {
+    if !is_away(r211 + r212, 444519865.2036134) {
         return;
     }
     let r218 = known.f2 * (known.f1 * (210.83639752272694 * known.f3));
-    let roots0 = real_roots(&[0.0 - r211 - r212, 0.0, 1.0], r218);
+    let roots0 = square_roots(0.0 - r211 - r212, r218);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r220 = w4 * shared.r199 / r213;
-        let r222 = w4 * shared.r210 / r213;
-        let r226 = f64::max(r222 * r222 + r220 * r220, 0.0).sqrt();
-        let c4 = 0.0 - r222 / r226;
-        let s4 = 0.0 - r220 / r226;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, c4, s4, ..*known };
+        let r219 = w4 * shared.r199;
+        let r220 = w4 * shared.r210;
+        let r224 = f64::max(r220 * r220 + r219 * r219, 0.0).sqrt();
+        let r225 = 1.0 / r224;
+        let c4 = 0.0 - r220 * r225;
+        let s4 = 0.0 - r219 * r225;
+        let q3 = angle(c4, s4);
+        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c4, s4, q3, ..*known };
         block_5(p, &next, answers);
     }
 }
@@ -1000,12 +1048,14 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         return;
     }
     for [c4, s4] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5]], c4, s4, ..*known };
-        block_5(p, &next, answers);
+        let q3 = angle(c4, s4);
+        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5]], c4, s4, q3, ..*known };
+        again_5(p, &next, answers);
     }
 }
 
 /// Block 5: Wrist2.
+#[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r2 = 0.3333333333333333 * p.r11_ - 0.6666666666666666 * p.r12_;
     let r4 = r2 - 0.6666666666666666 * p.r13_;
@@ -1109,6 +1159,13 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     chart_5_1(p, known, shared, answers);
 }
 
+/// Block 5 behind a chart that hardly ever runs.
+#[cold]
+#[inline(never)]
+fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    block_5(p, known, answers);
+}
+
 /// What the charts of block 5 share.
 struct Shared5 {
     r274: f64,
@@ -1116,17 +1173,21 @@ struct Shared5 {
 }
 
 /// Chart 1 of block 5: generic.
+#[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r280 = (shared.r274 + shared.r278) / 2.0;
-    let r282 = (shared.r278 - shared.r274) / 2.0;
-    let r286 = f64::max(r282 * r282 + r280 * r280, 0.0).sqrt();
-    let c5 = r282 / r286;
-    let s5 = 0.0 - r280 / r286;
-    let next = Known { branch: known.branch, last: known.last, c5, s5, ..*known };
+    let r279 = shared.r274 + shared.r278;
+    let r280 = shared.r278 - shared.r274;
+    let r284 = f64::max(r280 * r280 + r279 * r279, 0.0).sqrt();
+    let r285 = 1.0 / r284;
+    let c5 = r280 * r285;
+    let s5 = 0.0 - r279 * r285;
+    let q4 = angle(c5, s5);
+    let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, q4, ..*known };
     block_6(p, &next, answers);
 }
 
 /// Block 6: Wrist3.
+#[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = p.r12_ - p.r13_;
     let r1 = known.c1 * r0;
@@ -1327,21 +1388,30 @@ struct Shared6 {
 }
 
 /// Chart 1 of block 6: generic.
+#[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r551 = (shared.r549 - shared.r538) / 2.0;
-    let r554 = (shared.r549 - (0.0 - shared.r538)) / 2.0;
-    let r558 = f64::max(r554 * r554 + r551 * r551, 0.0).sqrt();
-    let c6 = r554 / r558;
-    let s6 = r551 / r558;
-    let q = [
-        angle(known.c1, known.s1),
-        angle(known.c2, known.s2),
-        angle(known.c3, known.s3),
-        angle(known.c4, known.s4),
-        angle(known.c5, known.s5),
-        angle(c6, s6),
+    let r550 = shared.r549 - shared.r538;
+    let r552 = shared.r549 - (0.0 - shared.r538);
+    let r556 = f64::max(r552 * r552 + r550 * r550, 0.0).sqrt();
+    let r557 = 1.0 / r556;
+    let c6 = r552 * r557;
+    let s6 = r550 * r557;
+    let at = [
+        known.c1,
+        known.s1,
+        known.c2,
+        known.s2,
+        known.c3,
+        known.s3,
+        known.c4,
+        known.s4,
+        known.c5,
+        known.s5,
+        c6,
+        s6,
     ];
-    answers.finish(p, known.branch, known.last, q, known.free);
+    let q = [known.q0, known.q1, known.q2, known.q3, known.q4, angle(at[10], at[11])];
+    answers.finish(p, known.branch, known.last, known.close, &at, q, known.free);
 }
 
 /// The place of the greatest number that is not negative, the first of equals; the length without one.
@@ -1358,20 +1428,20 @@ fn greatest(claims: &[f64]) -> usize {
 /// What the equations compare with the target.
 const TIP: usize = 12;
 
-/// The tip at joint values `q`, as the equations compare it.
-fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
-    let c1 = q[0].cos();
-    let s1 = q[0].sin();
-    let c2 = q[1].cos();
-    let s2 = q[1].sin();
-    let c3 = q[2].cos();
-    let s3 = q[2].sin();
-    let c4 = q[3].cos();
-    let s4 = q[3].sin();
-    let c5 = q[4].cos();
-    let s5 = q[4].sin();
-    let c6 = q[5].cos();
-    let s6 = q[5].sin();
+/// The tip, as the equations compare it.
+fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
+    let c1 = at[0];
+    let s1 = at[1];
+    let c2 = at[2];
+    let s2 = at[3];
+    let c3 = at[4];
+    let s3 = at[5];
+    let c4 = at[6];
+    let s4 = at[7];
+    let c5 = at[8];
+    let s5 = at[9];
+    let c6 = at[10];
+    let s6 = at[11];
     let r1 = 0.8888888888888888 * c2 + 0.1111111111111111;
     let r2 = c1 * r1;
     let r3 = 0.6666666666666666 * s2;
@@ -1697,14 +1767,39 @@ fn tip(q: &[f64; JOINTS]) -> [f64; TIP] {
     ]
 }
 
+/// What the equations read of joints: 12 numbers.
+const PLACES: usize = 12;
+
+/// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin().
+fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
+    [
+        q[0].cos(),
+        q[0].sin(),
+        q[1].cos(),
+        q[1].sin(),
+        q[2].cos(),
+        q[2].sin(),
+        q[3].cos(),
+        q[3].sin(),
+        q[4].cos(),
+        q[4].sin(),
+        q[5].cos(),
+        q[5].sin(),
+    ]
+}
+
 /// The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes.
 struct Equations {
     value: [f64; EQUATIONS],
-    size: [f64; EQUATIONS],
+    size: [f64; SIZES],
 }
 
-fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
-    let reached = tip(q);
+const SIZES: usize = 2;
+/// Which of the sizes is that of each equation.
+const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1];
+
+fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
+    let reached = tip(at);
     Equations {
         value: [
             reached[0] - p.px,
@@ -1722,35 +1817,25 @@ fn equations(p: &Parameters, q: &[f64; JOINTS]) -> Equations {
         ],
         size: [
             1.339110366322714,
-            1.339110366322714,
-            1.339110366322714,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         ],
     }
 }
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
-fn jacobian(_p: &Parameters, q: &[f64; JOINTS]) -> [[f64; JOINTS]; EQUATIONS] {
-    let c1 = q[0].cos();
-    let s1 = q[0].sin();
-    let c2 = q[1].cos();
-    let s2 = q[1].sin();
-    let c3 = q[2].cos();
-    let s3 = q[2].sin();
-    let c4 = q[3].cos();
-    let s4 = q[3].sin();
-    let c5 = q[4].cos();
-    let s5 = q[4].sin();
-    let c6 = q[5].cos();
-    let s6 = q[5].sin();
+fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
+    let c1 = at[0];
+    let s1 = at[1];
+    let c2 = at[2];
+    let s2 = at[3];
+    let c3 = at[4];
+    let s3 = at[5];
+    let c4 = at[6];
+    let s4 = at[7];
+    let c5 = at[8];
+    let s5 = at[9];
+    let c6 = at[10];
+    let s6 = at[11];
     let r1 = 0.8888888888888888 * c2 + 0.1111111111111111;
     let r2 = c1 * r1;
     let r3 = 0.6666666666666666 * s2;
@@ -2239,9 +2324,23 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Keeps a candidate that solves the equations within rounding, and refines others.
+    #[inline(always)]
+    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], q: [f64; JOINTS], free: [bool; JOINTS]) {
+        if free == NONE_FREE && !close {
+            let fit = measure_at(p, at, &q);
+            if fit.accepted && fit.relative < RESOLUTION && is_round(at) {
+                return self.keep(p, branch, last, (q, fit), free);
+            }
+        }
+        self.refine(p, branch, last, q, free);
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    #[cold]
+    #[inline(never)]
+    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
             if self.has_member(branch, &free) {
@@ -2306,6 +2405,25 @@ impl Answers<'_> {
         if !fit.accepted {
             return;
         }
+        if self.is_apart(branch, &q, &free) {
+            self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
+            self.relative[self.count] = fit.relative;
+            self.count += 1;
+            return;
+        }
+        self.keep_one(p, branch, last, (q, fit), free);
+    }
+
+    /// Whether there is room for an isolated answer of this branch, and none of the others is near it.
+    fn is_apart(&self, branch: usize, q: &[f64; JOINTS], free: &[bool; JOINTS]) -> bool {
+        let apart = |other: &Solution| other.branch != branch && is_isolated(other) && !is_within(&other.q, q, BLUR);
+        self.count < CAPACITY && *free == NONE_FREE && self.out[..self.count].iter().all(apart)
+    }
+
+    /// As [`Answers::keep`], where others are near.
+    #[cold]
+    #[inline(never)]
+    fn keep_one(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
         let next = if free == NONE_FREE { last } else { branch };
         let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
         let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
@@ -2413,6 +2531,9 @@ struct Rated {
 
 /// Whether two answers are one.
 fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
+    if is_isolated(&a.answer) && is_isolated(&b.answer) && !close(&a.answer, &b.answer, BLUR) {
+        return false;
+    }
     if close(&a.answer, &b.answer, MERGE) {
         return true;
     }
@@ -2489,7 +2610,23 @@ fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
 }
 
 fn shorter(difference: f64) -> f64 {
-    difference - TAU * (difference / TAU).round()
+    if difference > PI {
+        difference - TAU
+    } else if difference < -PI {
+        difference + TAU
+    } else {
+        difference
+    }
+}
+
+/// Whether joint values differ by `tolerance` at most.
+fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
+    shorter(a[5] - b[5]).abs() <= tolerance
+    && shorter(a[4] - b[4]).abs() <= tolerance
+    && shorter(a[3] - b[3]).abs() <= tolerance
+    && shorter(a[1] - b[1]).abs() <= tolerance
+    && shorter(a[0] - b[0]).abs() <= tolerance
+    && shorter(a[2] - b[2]).abs() <= tolerance
 }
 
 fn is_isolated(answer: &Solution) -> bool {
@@ -2523,9 +2660,6 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// Whether two answers near one another are one at a singular configuration: half-way between them, on a way that may be bent, the
 /// equations hold as well as at the worse of the two, or within rounding.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if !close(&a.answer, &b.answer, BLUR) {
-        return false;
-    }
     let way = differences(&a.answer.q, &b.answer.q);
     let mut middle = b.answer.q;
     for i in 0..JOINTS {
@@ -2556,27 +2690,48 @@ struct Fit {
 }
 
 fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
-    let Equations { value, size } = equations(p, q);
+    measure_at(p, &place(q), q)
+}
+
+/// As [`measure`], where the cosines and sines of `q` are known.
+#[inline(always)]
+fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
+    let Equations { value, size } = equations(p, at);
     let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: q.iter().all(|value| value.is_finite()) };
-    for (value, size) in value.iter().zip(size) {
-        fit.residual = f64::max(fit.residual, value.abs());
-        fit.relative = f64::max(fit.relative, value.abs() / f64::max(size, f64::MIN_POSITIVE));
-        fit.accepted &= value.abs() <= ACCEPT * size;
+    let mut largest = [0.0; SIZES];
+    for i in 0..EQUATIONS {
+        largest[SIZE_OF[i]] = f64::max(largest[SIZE_OF[i]], value[i].abs());
+        fit.accepted &= value[i].abs() <= ACCEPT * size[SIZE_OF[i]];
+    }
+    for (largest, size) in largest.iter().zip(size) {
+        fit.residual = f64::max(fit.residual, *largest);
+        fit.relative = f64::max(fit.relative, largest / f64::max(size, f64::MIN_POSITIVE));
     }
     fit.accepted &= fit.residual.is_finite();
     fit
+}
+
+/// Whether the cosines and sines of all angles are on the circle.
+fn is_round(at: &[f64; PLACES]) -> bool {
+    (at[0] * at[0] + at[1] * at[1] - 1.0).abs() < RESOLUTION
+    && (at[2] * at[2] + at[3] * at[3] - 1.0).abs() < RESOLUTION
+    && (at[4] * at[4] + at[5] * at[5] - 1.0).abs() < RESOLUTION
+    && (at[6] * at[6] + at[7] * at[7] - 1.0).abs() < RESOLUTION
+    && (at[8] * at[8] + at[9] * at[9] - 1.0).abs() < RESOLUTION
+    && (at[10] * at[10] + at[11] * at[11] - 1.0).abs() < RESOLUTION
 }
 
 /// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
 /// after a leap.
 /// Joints that are `held` stay.
 fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    let mut end = start;
+    let (mut end, mut slow) = (start, 0);
     for _ in 0..POLISH_STEPS {
-        if end.1.relative <= POLISHED {
+        if end.1.relative <= POLISHED || slow == PATIENCE {
             return end;
         }
         let Some(next) = improved(p, &end, held) else { return end };
+        slow = if next.1.relative <= 0.5 * end.1.relative { 0 } else { slow + 1 };
         end = next;
     }
     end
@@ -2652,10 +2807,12 @@ fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
 fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
-    let rows = jacobian(p, q);
-    let size = equations(p, q).size;
+    let at = place(q);
+    let rows = jacobian(p, &at);
+    let sizes = equations(p, &at).size;
     let mut weights = [0.0; JOINTS];
-    for (row, size) in rows.iter().zip(size) {
+    for (row, size) in rows.iter().zip(SIZE_OF) {
+        let size = sizes[size];
         for i in 0..JOINTS {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
@@ -2685,57 +2842,65 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
     next
 }
 
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by plane rotations.
+/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
-    let rows = jacobian(p, q);
-    let right = equations(p, q).value;
-    let mut triangle = [[0.0; JOINTS + 1]; JOINTS];
-    let mut squares = [0.0; JOINTS];
-    for (row, right) in rows.iter().zip(right) {
-        let mut line = [0.0; JOINTS + 1];
-        for i in 0..JOINTS {
-            line[i] = if held[i] { 0.0 } else { row[i] };
-            squares[i] += line[i] * line[i];
-        }
-        line[JOINTS] = right;
-        turn_in(&mut triangle, line);
-    }
-    let size = squares.iter().fold(0.0, |size, &square| f64::max(size, square));
+    let at = place(q);
+    let rows = jacobian(p, &at);
+    let right = equations(p, &at).value;
+    let mut columns = [[0.0; ROWS]; JOINTS + 1];
+    let mut size = 0.0;
     for i in 0..JOINTS {
-        let mut line = [0.0; JOINTS + 1];
-        line[i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
-        turn_in(&mut triangle, line);
+        let mut square = 0.0;
+        for (k, row) in rows.iter().enumerate() {
+            let entry = if held[i] { 0.0 } else { row[i] };
+            columns[i][k] = entry;
+            square += entry * entry;
+        }
+        size = f64::max(size, square);
     }
-    substituted(&triangle)
+    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
+    for i in 0..JOINTS {
+        columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
+    }
+    reflect(&mut columns);
+    substituted(&columns)
 }
 
-/// Adds a row to a triangle by plane rotations that leave nothing of it.
-fn turn_in(triangle: &mut [[f64; JOINTS + 1]; JOINTS], mut line: [f64; JOINTS + 1]) {
-    for (pivot, top) in triangle.iter_mut().enumerate() {
-        let length = (top[pivot] * top[pivot] + line[pivot] * line[pivot]).sqrt();
-        if line[pivot] == 0.0 || length == 0.0 {
+/// Rows of the equations and of the damping.
+const ROWS: usize = EQUATIONS + JOINTS;
+
+/// Turns columns into a triangle by reflections.
+fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
+    for pivot in 0..JOINTS {
+        let mut mirror = columns[pivot];
+        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
+        if square == 0.0 {
             continue;
         }
-        let (cosine, sine) = (top[pivot] / length, line[pivot] / length);
-        for k in pivot..=JOINTS {
-            let (above, entry) = (top[k], line[k]);
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        let length = square.sqrt().copysign(mirror[pivot]);
+        mirror[pivot] += length;
+        let half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for column in &mut columns[pivot + 1..] {
+            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
+            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
+                *x -= along * y;
+            }
         }
     }
 }
 
 /// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> {
+fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
     let mut solution = [0.0; JOINTS];
     for row in (0..JOINTS).rev() {
-        let pivot = triangle[row][row];
+        let pivot = columns[row][row];
         if pivot == 0.0 || !pivot.is_finite() {
             return None;
         }
-        let mut sum = triangle[row][JOINTS];
+        let mut sum = columns[JOINTS][row];
         for k in row + 1..JOINTS {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -2745,9 +2910,38 @@ fn substituted(triangle: &[[f64; JOINTS + 1]; JOINTS]) -> Option<[f64; JOINTS]> 
 const PI: f64 = core::f64::consts::PI;
 const TAU: f64 = core::f64::consts::TAU;
 
-/// The angle of a cosine and a sine, in (-pi, pi].
+/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
+/// interpolates at eleven Chebyshev points.
+#[inline(always)]
 fn angle(cosine: f64, sine: f64) -> f64 {
-    half_open(sine.atan2(cosine))
+    let (across, up) = (cosine.abs(), sine.abs());
+    let steep = up > across;
+    let (low, high) = if steep { (across, up) } else { (up, across) };
+    let far = low > 0.41421356237309503 * high;
+    let (top, bottom) = if far { (low - high, low + high) } else { (low, high) };
+    let z = top / bottom;
+    let mut angle = z + z * (z * z) * series(z * z);
+    if far {
+        angle = 0.25 * PI + (angle + REST);
+    }
+    if steep {
+        angle = 0.5 * PI - (angle - 2.0 * REST);
+    }
+    if cosine < 0.0 {
+        angle = PI - (angle - 4.0 * REST);
+    }
+    half_open(angle.copysign(sine))
+}
+
+/// What the double nearest to pi/4 lacks.
+const REST: f64 = 3.061616997868383e-17;
+
+fn series(u: f64) -> f64 {
+    let (square, fourth) = (u * u, u * u * (u * u));
+    let first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    let second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    let third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    first + (second + third * fourth) * fourth
 }
 
 /// The angle in (-pi, pi]: -pi, which `atan2` gives for a negative zero sine, becomes pi.
@@ -2786,10 +2980,12 @@ const MAX_STEPS: usize = 256;
 struct Roots {
     values: [f64; DEGREE],
     count: usize,
+    /// Whether some are close to one another, or one is double.
+    close: bool,
 }
 
 impl Roots {
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0 };
+    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
 
     fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
@@ -2801,6 +2997,24 @@ impl Roots {
             self.count += 1;
         }
     }
+}
+
+/// All real roots of x^2 + constant; a miss is measured against the unknown's typical size `scale`.
+fn square_roots(constant: f64, scale: f64) -> Roots {
+    let mut roots = Roots::NONE;
+    if constant.is_nan() || constant > TANGENT * f64::max(constant, scale * scale) {
+        return roots;
+    }
+    if constant >= 0.0 {
+        roots.push(0.0);
+        roots.close = true;
+        return roots;
+    }
+    let root = (-constant).sqrt();
+    roots.close = root <= SPLIT * scale;
+    roots.push(-root);
+    roots.push(root);
+    roots
 }
 
 /// A polynomial with coefficients of magnitude one and less, constant term first.
@@ -2818,6 +3032,13 @@ fn largest(coefficients: &[f64]) -> f64 {
 /// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
 /// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
 fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
+    let mut roots = all_real_roots(coefficients, scale);
+    let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
+    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= SPLIT * scale);
+    roots
+}
+
+fn all_real_roots(coefficients: &[f64], scale: f64) -> Roots {
     let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
     if p.degree < 2 {
         return p.linear_root();
@@ -3024,7 +3245,6 @@ mod libm {
         pub safe fn sqrt(x: f64) -> f64;
         pub safe fn sin(x: f64) -> f64;
         pub safe fn cos(x: f64) -> f64;
-        pub safe fn atan2(y: f64, x: f64) -> f64;
         pub safe fn round(x: f64) -> f64;
         pub safe fn floor(x: f64) -> f64;
         pub safe fn ceil(x: f64) -> f64;
@@ -3038,7 +3258,6 @@ trait Math: Sized {
     fn sqrt(self) -> Self;
     fn sin(self) -> Self;
     fn cos(self) -> Self;
-    fn atan2(self, x: Self) -> Self;
     fn round(self) -> Self;
     fn floor(self) -> Self;
     fn ceil(self) -> Self;
@@ -3054,9 +3273,6 @@ impl Math for f64 {
     }
     fn cos(self) -> Self {
         libm::cos(self)
-    }
-    fn atan2(self, x: Self) -> Self {
-        libm::atan2(self, x)
     }
     fn round(self) -> Self {
         libm::round(self)

@@ -102,6 +102,8 @@ static const double BLUR = 0.05;
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
 static const int POLISH_STEPS = 32;
+/* So many steps in a row that do not halve the miss are the last. */
+static const int PATIENCE = 3;
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 static const double APART = 0.7;
 static const double SPLIT = 0.001;
@@ -135,27 +137,17 @@ typedef stanford_solution Solution;
 
 /* The highest degree of a polynomial. */
 static const int DEGREE = 2;
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-static const double NEGLIGIBLE = 1e-290;
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 static const double TANGENT = 1e-10;
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-static const double ROUNDING = (2.0 * std::numeric_limits<double>::epsilon());
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -165,87 +157,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -279,15 +207,15 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 static const int TIP = 12;
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], c4 = cos(q[3]);
-    const double s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]), r0 = s1 * s2;
-    const double r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2, r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2;
-    const double r24 = s1 * s4 - c4 * r3, r26 = s5 * r0, r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15;
-    const double r30 = s5 * r1, r31 = c5 * r24, r32 = c1 * c4 - s4 * r2, r34 = c5 * r0 + s5 * r19;
-    const double r37 = c2 * c5 - s5 * r15, r39 = s1 * c4 + s4 * r3, r41 = c5 * r1 - s5 * r24;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6], c5 = at[7];
+    const double s5 = at[8], c6 = at[9], s6 = at[10], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2;
+    const double r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2, r24 = s1 * s4 - c4 * r3, r26 = s5 * r0;
+    const double r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15, r30 = s5 * r1, r31 = c5 * r24;
+    const double r32 = c1 * c4 - s4 * r2, r34 = c5 * r0 + s5 * r19, r37 = c2 * c5 - s5 * r15;
+    const double r39 = s1 * c4 + s4 * r3, r41 = c5 * r1 - s5 * r24;
     const double r71 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29 + 0.66;
     reached[0] = d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27;
     reached[1] = r71;
@@ -303,17 +231,40 @@ static void tip(const double *q, double *reached)
     reached[11] = 0.0 - (r30 + r31);
 }
 
+/* What the equations read of joints: 11 numbers. */
+static const int PLACES = 11;
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), q[2], cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = q[2];
+    at[5] = cos(q[3]);
+    at[6] = sin(q[3]);
+    at[7] = cos(q[4]);
+    at[8] = sin(q[4]);
+    at[9] = cos(q[5]);
+    at[10] = sin(q[5]);
+}
+
+static const int SIZES = 2;
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
-    const double d3 = q[2], r49 = fabs(d3) + 1.06;
+    tip(at, reached);
+    const double d3 = at[4], r49 = fabs(d3) + 1.06;
     const Equations result = {
         {
             reached[0] - p->px,
@@ -331,16 +282,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             r49,
-            r49,
-            r49,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -352,16 +293,16 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), d3 = q[2], c4 = cos(q[3]);
-    const double s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]), r0 = s1 * s2;
-    const double r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2, r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2;
-    const double r24 = s1 * s4 - c4 * r3, r26 = s5 * r0, r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15;
-    const double r30 = s5 * r1, r31 = c5 * r24, r32 = c1 * c4 - s4 * r2, r34 = c5 * r0 + s5 * r19;
-    const double r37 = c2 * c5 - s5 * r15, r39 = s1 * c4 + s4 * r3, r40 = c6 * r39, r41 = c5 * r1 - s5 * r24;
-    const double r42 = s6 * r41, r55 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6], c5 = at[7];
+    const double s5 = at[8], c6 = at[9], s6 = at[10], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2;
+    const double r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2, r24 = s1 * s4 - c4 * r3, r26 = s5 * r0;
+    const double r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15, r30 = s5 * r1, r31 = c5 * r24;
+    const double r32 = c1 * c4 - s4 * r2, r34 = c5 * r0 + s5 * r19, r37 = c2 * c5 - s5 * r15;
+    const double r39 = s1 * c4 + s4 * r3, r40 = c6 * r39, r41 = c5 * r1 - s5 * r24, r42 = s6 * r41;
+    const double r55 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29;
     const double r61 = d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27;
     const double r67 = d3 * r1 + 0.2 * r1 - 0.2 * r30 - 0.2 * r31, r68 = r30 + r31, r69 = r28 + r29;
     const double r74 = c6 * r10 + s6 * r37, r75 = c6 * r32 + s6 * r34, r80 = s6 * r39 + c6 * r41, r96 = c2 * r68;
@@ -396,15 +337,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, (std::numeric_limits<double>::min)()));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -413,16 +359,61 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[5] * at[5] + at[6] * at[6] - 1.0) < RESOLUTION
+        && fabs(at[7] * at[7] + at[8] * at[8] - 1.0) < RESOLUTION
+        && fabs(at[9] * at[9] + at[10] * at[10] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+static const double REST = 3.061616997868383e-17;
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -433,35 +424,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+static const int ROWS = (EQUATIONS + JOINTS);
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -478,32 +483,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -615,22 +620,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], (std::numeric_limits<double>::min)()));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -666,7 +676,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -704,6 +714,17 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[3] - b[3])) <= tolerance
+        && fabs(a[2] - b[2]) <= tolerance * fmax(1.06, fabs(a[2]))
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -722,9 +743,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -827,10 +845,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -970,7 +991,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1002,6 +1023,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == STANFORD_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1083,6 +1141,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1095,9 +1155,13 @@ typedef struct {
     double s4;
     double c5;
     double s5;
+    double q0;
+    double q1;
+    double q3;
+    double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1123,16 +1187,29 @@ typedef struct {
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r23 = shared->r10 - shared->r8, r27 = sqrt(fmax(shared->r22 * shared->r22 + r23 * r23, 0.0));
-    const double c6 = shared->r22 / r27, s6 = r23 / r27;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
+    const double r28 = 1.0 / r27, c6 = shared->r22 * r28, s6 = r23 * r28;
+    const double at[PLACES] = {
+        known->c1,
+        known->s1,
+        known->c2,
+        known->s2,
         known->d3,
-        angle(known->c4, known->s4),
-        angle(known->c5, known->s5),
-        angle(c6, s6),
+        known->c4,
+        known->s4,
+        known->c5,
+        known->s5,
+        c6,
+        s6,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        at[4],
+        known->q3,
+        known->q4,
+        angle(at[9], at[10]),
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 6: WristRoll. */
@@ -1159,13 +1236,15 @@ typedef struct {
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r17 = shared->r14 * shared->r14 + shared->r13 * shared->r13, r18 = sqrt(fmax(r17, 0.0));
-    const double c5 = shared->r14 / r18, s5 = 0.0 - shared->r13 / r18;
+    const double r17 = shared->r14 * shared->r14 + shared->r13 * shared->r13, r19 = 1.0 / sqrt(fmax(r17, 0.0));
+    const double c5 = shared->r14 * r19, s5 = 0.0 - shared->r13 * r19, q4 = angle(c5, s5);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
+    next.q4 = q4;
     block_6(p, &next, answers);
 }
 
@@ -1181,6 +1260,12 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     chart_5_1(p, known, shared, answers);
 }
 
+/* Block 5 behind a chart that hardly ever runs. */
+static void again_5(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_5(p, known, answers);
+}
+
 /* What the charts of block 4 share. */
 typedef struct {
     double r7;
@@ -1192,20 +1277,22 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8, r11 = r9 + r10;
-    if (!is_away(r11, 610000.0)) {
+    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8;
+    if (!is_away(r9 + r10, 610000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r9 - r10, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->f2 * (7.810249675906654 * known->f1));
+    const Roots roots0 = square_roots(0.0 - r9 - r10, known->f2 * (7.810249675906654 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r17 = w4 * shared->r7 / r11, r19 = w4 * shared->r8 / r11;
-        const double r23 = sqrt(fmax(r19 * r19 + r17 * r17, 0.0)), c4 = 0.0 - r19 / r23, s4 = r17 / r23;
+        const double w4 = roots0.values[i0], r16 = w4 * shared->r7, r17 = w4 * shared->r8;
+        const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c4 = 0.0 - r17 * r22, s4 = r16 * r22;
+        const double q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c4 = c4;
         next.s4 = s4;
+        next.q3 = q3;
         block_5(p, &next, answers);
     }
 }
@@ -1221,14 +1308,16 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
-        block_5(p, &next, answers);
+        next.q3 = q3;
+        again_5(p, &next, answers);
     }
 }
 
@@ -1256,6 +1345,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.d3 = d3;
     block_4(p, &next, answers);
 }
@@ -1268,6 +1358,12 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const Shared3 own = { r13 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
+}
+
+/* Block 3 behind a chart that hardly ever runs. */
+static void again_3(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_3(p, known, answers);
 }
 
 /* What the charts of block 2 share. */
@@ -1283,23 +1379,25 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r16 = shared->r6 * shared->r6, r17 = shared->r9 * shared->r9, r18 = r16 + r17;
+    const double r16 = shared->r6 * shared->r6, r17 = shared->r9 * shared->r9;
     const double r21 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
-    if (!is_away(r18, 10000.0 * r21)) {
+    if (!is_away(r16 + r17, 10000.0 * r21)) {
         return;
     }
     const double f2 = 1.0;
-    const double choice0_0[3] = {0.0 - r16 - r17, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, known->f1 * sqrt(fmax(r21, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r16 - r17, known->f1 * sqrt(fmax(r21, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r28 = w2 * shared->r6 / r18, r30 = w2 * shared->r9 / r18;
-        const double r34 = sqrt(fmax(r30 * r30 + r28 * r28, 0.0)), c2 = 0.0 - r30 / r34, s2 = r28 / r34;
+        const double w2 = roots0.values[i0], r27 = w2 * shared->r6, r28 = w2 * shared->r9;
+        const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r27 * r27, 0.0)), c2 = 0.0 - r28 * r33, s2 = r27 * r33;
+        const double q1 = angle(c2, s2);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c2 = c2;
         next.s2 = s2;
         next.f2 = f2;
+        next.q1 = q1;
         block_3(p, &next, answers);
     }
 }
@@ -1317,15 +1415,17 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
         next.f2 = f2;
-        block_3(p, &next, answers);
+        next.q1 = q1;
+        again_3(p, &next, answers);
     }
 }
 
@@ -1341,6 +1441,12 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     chart_2_2(p, known, shared, answers);
 }
 
+/* Block 2 behind a chart that hardly ever runs. */
+static void again_2(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_2(p, known, answers);
+}
+
 /* What the charts of block 1 share. */
 typedef struct {
     double r1;
@@ -1353,23 +1459,25 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
-    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
-    if (!is_away(r8, 10000.0 * r10)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
+    const double r10 = r9 + r9;
+    if (!is_away(r6 + r7, 10000.0 * r10)) {
         return;
     }
     const double f1 = 1.0;
-    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r10, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r6 - r7, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r16 = w1 * shared->r1 / r8, r18 = w1 * shared->r3 / r8;
-        const double r22 = sqrt(fmax(r18 * r18 + r16 * r16, 0.0)), c1 = 0.0 - r18 / r22, s1 = r16 / r22;
+        const double w1 = roots0.values[i0], r15 = w1 * shared->r1, r16 = w1 * shared->r3;
+        const double r21 = 1.0 / sqrt(fmax(r16 * r16 + r15 * r15, 0.0)), c1 = 0.0 - r16 * r21, s1 = r15 * r21;
+        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
+        next.close = roots0.close;
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
+        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1386,15 +1494,17 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = 2;
         next.last = 3;
+        next.close = false;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        block_2(p, &next, answers);
+        next.q0 = q0;
+        again_2(p, &next, answers);
     }
 }
 
@@ -1476,8 +1586,9 @@ int stanford_solve(const double *given, stanford_solution *out)
 
 void stanford_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];

@@ -121,6 +121,13 @@ int teo_leg_nearest(const teo_leg_solution *list, int count, const double *refer
 #define INPUTS TEO_LEG_INPUTS
 #define JOINTS TEO_LEG_JOINTS
 #define EQUATIONS 12
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE __attribute__((always_inline)) inline
+#define COLD __attribute__((noinline, cold))
+#else
+#define INLINE
+#define COLD
+#endif
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -131,6 +138,8 @@ int teo_leg_nearest(const teo_leg_solution *list, int count, const double *refer
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
+/* So many steps in a row that do not halve the miss are the last. */
+#define PATIENCE 3
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -168,27 +177,17 @@ const double teo_leg_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINITY, INFIN
 
 /* The highest degree of a polynomial. */
 #define DEGREE 2
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-#define NEGLIGIBLE 1e-290
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 #define TANGENT 1e-10
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-#define ROUNDING (2.0 * DBL_EPSILON)
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -198,87 +197,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -312,19 +247,19 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 #define TIP 12
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2, r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3;
-    const double r10 = c3 * r2, r11 = s1 * s3, r12 = c3 * r3, r13 = c2 * c3, r14 = c1 * c3 - s3 * r2;
-    const double r16 = r9 + r10, r18 = s1 * c3 + s3 * r3, r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16;
-    const double r26 = s4 * r18, r27 = c4 * r20, r28 = s4 * r8, r29 = c4 * r13, r30 = c4 * r14 - s4 * r16;
-    const double r32 = r24 + r25, r34 = c4 * r18 - s4 * r20, r36 = r26 + r27, r38 = c4 * r8 + s4 * r13;
-    const double r40 = r28 - r29, r49 = s5 * r30 + c5 * r32, r52 = s5 * r34 + c5 * r36;
-    const double r55 = s5 * r38 + c5 * r40, r57 = s6 * r0, r58 = c6 * r49, r59 = s6 * r1, r60 = c6 * r52;
-    const double r61 = s2 * s6, r62 = c6 * r55, r69 = 0.33 * r13 + 0.0175 * s2 - 0.3 * r28 + 0.3 * r29;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
+    const double r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3, r10 = c3 * r2, r11 = s1 * s3, r12 = c3 * r3;
+    const double r13 = c2 * c3, r14 = c1 * c3 - s3 * r2, r16 = r9 + r10, r18 = s1 * c3 + s3 * r3;
+    const double r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16, r26 = s4 * r18, r27 = c4 * r20, r28 = s4 * r8;
+    const double r29 = c4 * r13, r30 = c4 * r14 - s4 * r16, r32 = r24 + r25, r34 = c4 * r18 - s4 * r20;
+    const double r36 = r26 + r27, r38 = c4 * r8 + s4 * r13, r40 = r28 - r29, r49 = s5 * r30 + c5 * r32;
+    const double r52 = s5 * r34 + c5 * r36, r55 = s5 * r38 + c5 * r40, r57 = s6 * r0, r58 = c6 * r49;
+    const double r59 = s6 * r1, r60 = c6 * r52, r61 = s2 * s6, r62 = c6 * r55;
+    const double r69 = 0.33 * r13 + 0.0175 * s2 - 0.3 * r28 + 0.3 * r29;
     const double r80 = 0.33 * r11 - 0.33 * r12 + 0.0175 * r1 + 0.3 * r26;
     const double r86 = r80 + 0.3 * r27 - 0.123005 * r59 + 0.123005 * r60;
     const double r93 = 0.33 * r9 + 0.33 * r10 - 0.0175 * r0 + 0.3 * r24;
@@ -344,16 +279,40 @@ static void tip(const double *q, double *reached)
     reached[11] = 0.0 - (r61 + r62);
 }
 
+/* What the equations read of joints: 12 numbers. */
+#define PLACES 12
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+    at[10] = cos(q[5]);
+    at[11] = sin(q[5]);
+}
+
+#define SIZES 2
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->px,
@@ -371,16 +330,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             0.926083810044118,
-            0.926083810044118,
-            0.926083810044118,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -392,34 +341,33 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2, r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3;
-    const double r10 = c3 * r2, r11 = s1 * s3, r12 = c3 * r3, r13 = c2 * c3, r14 = c1 * c3 - s3 * r2;
-    const double r16 = r9 + r10, r18 = s1 * c3 + s3 * r3, r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16;
-    const double r26 = s4 * r18, r27 = c4 * r20, r28 = s4 * r8, r29 = c4 * r13, r30 = c4 * r14 - s4 * r16;
-    const double r32 = r24 + r25, r34 = c4 * r18 - s4 * r20, r35 = c5 * r34, r36 = r26 + r27, r37 = s5 * r36;
-    const double r38 = c4 * r8 + s4 * r13, r40 = r28 - r29, r48 = c6 * r0, r49 = s5 * r30 + c5 * r32;
-    const double r50 = s6 * r49, r52 = s5 * r34 + c5 * r36, r55 = s5 * r38 + c5 * r40, r57 = s6 * r0;
-    const double r58 = c6 * r49, r59 = s6 * r1, r60 = c6 * r52, r61 = s2 * s6, r62 = c6 * r55, r64 = 0.0175 * s2;
-    const double r66 = 0.3 * r28, r68 = 0.3 * r29, r70 = 0.123005 * r61, r72 = 0.123005 * r62;
-    const double r73 = 0.33 * r13 + r64 - r66 + r68 - r70 - r72, r77 = 0.0175 * r1, r79 = 0.3 * r26;
-    const double r81 = 0.3 * r27, r83 = 0.123005 * r59, r84 = 0.33 * r11 - 0.33 * r12 + r77 + r79 + r81 - r83;
-    const double r85 = 0.123005 * r60, r86 = r84 + r85, r90 = 0.0175 * r0, r92 = 0.3 * r24, r94 = 0.3 * r25;
-    const double r96 = 0.123005 * r57, r97 = 0.33 * r9 + 0.33 * r10 - r90 + r92 + r94 + r96;
-    const double r98 = 0.123005 * r58, r99 = r97 + r98, r100 = r61 + r62, r101 = r57 + r58, r102 = r35 - r37;
-    const double r103 = c5 * r30 - s5 * r32, r115 = s2 * c6 - s6 * r55, r116 = c6 * r1 + s6 * r52;
-    const double r139 = r68 + (r64 - r66) - r70 - r72, r144 = r85 + (r81 + (r77 + r79) - r83);
-    const double r149 = r90 - r92 - r94 - r96 - r98, r154 = r1 * r100, r155 = r59 - r60, r156 = s2 * r155;
-    const double r162 = c5 * r38 - s5 * r40, r164 = r101 * r162, r165 = r100 * r103;
-    const double r173 = r100 * r102 + r155 * r162, r178 = s2 * r101 - r0 * r100, r186 = r0 * r155 - r1 * r101;
-    const double r189 = r155 * r103 + r101 * r102, r204 = 0.0 - (r1 * r162 + s2 * r102);
-    const double r205 = s2 * r103 - r0 * r162, r208 = 0.0 - (r0 * r102 + r1 * r103), r212 = r48 - r50;
-    const double r227 = r1 * r115 - s2 * r116, r230 = r0 * r115 - s2 * r212, r233 = r1 * r212 - r0 * r116;
-    const double r240 = r156 - r154;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
+    const double r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3, r10 = c3 * r2, r11 = s1 * s3, r12 = c3 * r3;
+    const double r13 = c2 * c3, r14 = c1 * c3 - s3 * r2, r16 = r9 + r10, r18 = s1 * c3 + s3 * r3;
+    const double r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16, r26 = s4 * r18, r27 = c4 * r20, r28 = s4 * r8;
+    const double r29 = c4 * r13, r30 = c4 * r14 - s4 * r16, r32 = r24 + r25, r34 = c4 * r18 - s4 * r20;
+    const double r35 = c5 * r34, r36 = r26 + r27, r37 = s5 * r36, r38 = c4 * r8 + s4 * r13, r40 = r28 - r29;
+    const double r48 = c6 * r0, r49 = s5 * r30 + c5 * r32, r50 = s6 * r49, r52 = s5 * r34 + c5 * r36;
+    const double r55 = s5 * r38 + c5 * r40, r57 = s6 * r0, r58 = c6 * r49, r59 = s6 * r1, r60 = c6 * r52;
+    const double r61 = s2 * s6, r62 = c6 * r55, r64 = 0.0175 * s2, r66 = 0.3 * r28, r68 = 0.3 * r29;
+    const double r70 = 0.123005 * r61, r72 = 0.123005 * r62, r73 = 0.33 * r13 + r64 - r66 + r68 - r70 - r72;
+    const double r77 = 0.0175 * r1, r79 = 0.3 * r26, r81 = 0.3 * r27, r83 = 0.123005 * r59;
+    const double r84 = 0.33 * r11 - 0.33 * r12 + r77 + r79 + r81 - r83, r85 = 0.123005 * r60, r86 = r84 + r85;
+    const double r90 = 0.0175 * r0, r92 = 0.3 * r24, r94 = 0.3 * r25, r96 = 0.123005 * r57;
+    const double r97 = 0.33 * r9 + 0.33 * r10 - r90 + r92 + r94 + r96, r98 = 0.123005 * r58, r99 = r97 + r98;
+    const double r100 = r61 + r62, r101 = r57 + r58, r102 = r35 - r37, r103 = c5 * r30 - s5 * r32;
+    const double r115 = s2 * c6 - s6 * r55, r116 = c6 * r1 + s6 * r52, r139 = r68 + (r64 - r66) - r70 - r72;
+    const double r144 = r85 + (r81 + (r77 + r79) - r83), r149 = r90 - r92 - r94 - r96 - r98, r154 = r1 * r100;
+    const double r155 = r59 - r60, r156 = s2 * r155, r162 = c5 * r38 - s5 * r40, r164 = r101 * r162;
+    const double r165 = r100 * r103, r173 = r100 * r102 + r155 * r162, r178 = s2 * r101 - r0 * r100;
+    const double r186 = r0 * r155 - r1 * r101, r189 = r155 * r103 + r101 * r102;
+    const double r204 = 0.0 - (r1 * r162 + s2 * r102), r205 = s2 * r103 - r0 * r162;
+    const double r208 = 0.0 - (r0 * r102 + r1 * r103), r212 = r48 - r50, r227 = r1 * r115 - s2 * r116;
+    const double r230 = r0 * r115 - s2 * r212, r233 = r1 * r212 - r0 * r116, r240 = r156 - r154;
     const Jacobian result = { {
         {r86, 0.0 - s1 * r73, s2 * r86 - r1 * r73, s2 * r144 - r1 * r139, 0.123005 * (r154 - r156), 0.123005 * r173},
         {0.0 - r99, c1 * r73, 0.0 - (s2 * r99 + r0 * r73), s2 * r149 - r0 * r139, 0.0 - 0.123005 * r178, 0.123005 * (r164 - r165)},
@@ -447,15 +395,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, DBL_MIN));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -464,16 +417,62 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION
+        && fabs(at[10] * at[10] + at[11] * at[11] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+#define REST 3.061616997868383e-17
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -484,35 +483,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+#define ROWS (EQUATIONS + JOINTS)
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -529,32 +542,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -666,22 +679,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -717,7 +735,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -756,6 +774,17 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[2] - b[2])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance
+        && fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[3] - b[3])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -774,9 +803,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -879,10 +905,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1022,7 +1051,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1054,6 +1083,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == TEO_LEG_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1135,6 +1201,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double c4;
     double s4;
@@ -1147,9 +1215,14 @@ typedef struct {
     double s1;
     double c2;
     double s2;
+    double q0;
+    double q1;
+    double q3;
+    double q4;
+    double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1171,23 +1244,37 @@ typedef struct {
 
 /* Chart 1 of block 6: generic.
  */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r50 = 0.33 * shared->r46 / 0.10890000000000001, r52 = 0.33 * shared->r48 / 0.10890000000000001;
-    const double r56 = sqrt(fmax(r52 * r52 + r50 * r50, 0.0)), c3 = r52 / r56, s3 = 0.0 - r50 / r56;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
-        angle(c3, s3),
-        angle(known->c4, known->s4),
-        angle(known->c5, known->s5),
-        angle(known->c6, known->s6),
+    const double r49 = 0.33 * shared->r46, r50 = 0.33 * shared->r48;
+    const double r55 = 1.0 / sqrt(fmax(r50 * r50 + r49 * r49, 0.0)), c3 = r50 * r55, s3 = 0.0 - r49 * r55;
+    const double at[PLACES] = {
+        known->c1,
+        known->s1,
+        known->c2,
+        known->s2,
+        c3,
+        s3,
+        known->c4,
+        known->s4,
+        known->c5,
+        known->s5,
+        known->c6,
+        known->s6,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        angle(at[4], at[5]),
+        known->q3,
+        known->q4,
+        known->q5,
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 6: HipPitch. */
-static void block_6(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r5 = 0.0175 * known->c6 + 0.3 * (known->c5 * known->s6);
     const double r9 = 0.3 * (known->c5 * known->c6) - 0.0175 * known->s6, r10 = r9 + 0.123005;
@@ -1212,20 +1299,22 @@ typedef struct {
 
 /* Chart 1 of block 5: generic.
  */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r15 = sqrt(fmax(r14, 0.0));
-    const double c2 = shared->r11 / r15, s2 = shared->r10 / r15;
+    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r16 = 1.0 / sqrt(fmax(r14, 0.0));
+    const double c2 = shared->r11 * r16, s2 = shared->r10 * r16, q1 = angle(c2, s2);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
+    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
 /* Block 5: HipRoll. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r8 = known->c1 * (p->r22_ * known->c6 - p->r23_ * known->s6);
     const double r9 = known->s1 * (p->r12_ * known->c6 - p->r13_ * known->s6);
@@ -1233,6 +1322,12 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const Shared5 own = { r10, r11 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
+}
+
+/* Block 5 behind a chart that hardly ever runs. */
+COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_5(p, known, answers);
 }
 
 /* What the charts of block 4 share. */
@@ -1244,22 +1339,24 @@ typedef struct {
 /* Chart 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
-    if (!is_away(r8, 80000.0)) {
+    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5;
+    if (!is_away(r6 + r7, 80000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 2.8284271247461903 * known->f5);
+    const Roots roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903 * known->f5);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r13 = w1 * shared->r4 / r8, r15 = w1 * shared->r5 / r8;
-        const double r19 = sqrt(fmax(r15 * r15 + r13 * r13, 0.0)), c1 = 0.0 - r15 / r19, s1 = r13 / r19;
+        const double w1 = roots0.values[i0], r12 = w1 * shared->r4, r13 = w1 * shared->r5;
+        const double r18 = 1.0 / sqrt(fmax(r13 * r13 + r12 * r12, 0.0)), c1 = 0.0 - r13 * r18, s1 = r12 * r18;
+        const double q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c1 = c1;
         next.s1 = s1;
+        next.q0 = q0;
         block_5(p, &next, answers);
     }
 }
@@ -1275,19 +1372,21 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
-        block_5(p, &next, answers);
+        next.q0 = q0;
+        again_5(p, &next, answers);
     }
 }
 
 /* Block 4: HipYaw. */
-static void block_4(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r13_ * known->s6 - p->r12_ * known->c6, r5 = p->r23_ * known->s6 - p->r22_ * known->c6;
     const Shared4 own = { r4, r5 };
@@ -1308,26 +1407,29 @@ typedef struct {
 /* Chart 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r33 = shared->r13 * shared->r13 + shared->r20 * shared->r20;
     const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
     if (!is_away(r33, 10000.0 * r36)) {
         return;
     }
-    const double r40 = 0.0175 * shared->r20 - shared->r13 * shared->r25, r41 = r40 / r33;
-    const double r44 = 0.0175 * shared->r13 + shared->r20 * shared->r25, r45 = r44 / r33;
-    const double r49 = sqrt(fmax(r45 * r45 + r41 * r41, 0.0)), c6 = 0.0 - r45 / r49, s6 = r41 / r49;
+    const double r40 = 0.0175 * shared->r20 - shared->r13 * shared->r25;
+    const double r43 = 0.0175 * shared->r13 + shared->r20 * shared->r25;
+    const double r48 = 1.0 / sqrt(fmax(r43 * r43 + r40 * r40, 0.0)), c6 = 0.0 - r43 * r48, s6 = r40 * r48;
+    const double q5 = angle(c6, s6);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c6 = c6;
     next.s6 = s6;
+    next.q5 = q5;
     block_4(p, &next, answers);
 }
 
 /* Block 3: AnkleRoll. */
-static void block_3(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r11 = 0.146 * p->r22_ - 0.092 * p->r32_ - p->px * p->r12_;
     const double r13 = p->pz * p->r32_ - (r11 - p->py * p->r22_);
@@ -1341,6 +1443,12 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     chart_3_1(p, known, shared, answers);
 }
 
+/* Block 3 behind a chart that hardly ever runs. */
+COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_3(p, known, answers);
+}
+
 /* What the charts of block 2 share. */
 typedef struct {
     double r3;
@@ -1352,25 +1460,27 @@ typedef struct {
 /* Chart 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r15 = shared->r3 * shared->r3, r16 = shared->r5 * shared->r5, r17 = r15 + r16;
-    if (!is_away(r17, 30131.599999999995)) {
+    const double r15 = shared->r3 * shared->r3, r16 = shared->r5 * shared->r5;
+    if (!is_away(r15 + r16, 30131.599999999995)) {
         return;
     }
     const double f5 = 1.0;
-    const double choice0_0[3] = {shared->r11 * shared->r11 - r15 - r16, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.7358456152549973);
+    const Roots roots0 = square_roots(shared->r11 * shared->r11 - r15 - r16, 1.7358456152549973);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w5 = roots0.values[i0], r24 = (shared->r5 * shared->r11 - w5 * shared->r3) / r17;
-        const double r28 = shared->r3 * shared->r11 - (0.0 - w5 * shared->r5), r29 = r28 / r17;
-        const double r33 = sqrt(fmax(r29 * r29 + r24 * r24, 0.0)), c5 = r29 / r33, s5 = r24 / r33;
+        const double w5 = roots0.values[i0], r23 = shared->r5 * shared->r11 - w5 * shared->r3;
+        const double r27 = shared->r3 * shared->r11 - (0.0 - w5 * shared->r5);
+        const double r32 = 1.0 / sqrt(fmax(r27 * r27 + r23 * r23, 0.0)), c5 = r27 * r32, s5 = r23 * r32;
+        const double q4 = angle(c5, s5);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c5 = c5;
         next.s5 = s5;
         next.f5 = f5;
+        next.q4 = q4;
         block_3(p, &next, answers);
     }
 }
@@ -1387,20 +1497,22 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f5 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
+        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1], q4 = angle(c5, s5);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[4] = true;
         next.c5 = c5;
         next.s5 = s5;
         next.f5 = f5;
-        block_3(p, &next, answers);
+        next.q4 = q4;
+        again_3(p, &next, answers);
     }
 }
 
 /* Block 2: AnklePitch. */
-static void block_2(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r3 = 0.33 * known->s4, r5 = 0.33 * known->c4 + 0.3;
     const double r9 = 0.146 * p->r21_ - 0.092 * p->r31_ - p->px * p->r11_;
@@ -1418,18 +1530,20 @@ typedef struct {
 
 /* Chart 1 of block 1: generic.
  */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double choice0_0[3] = {shared->r28 * shared->r28 - 0.039204, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
+    const Roots roots0 = square_roots(shared->r28 * shared->r28 - 0.039204, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r32 = 0.198 * w4 / 0.039204, r34 = 0.198 * shared->r28 / 0.039204;
-        const double r38 = sqrt(fmax(r34 * r34 + r32 * r32, 0.0)), c4 = 0.0 - r34 / r38, s4 = r32 / r38;
+        const double w4 = roots0.values[i0], r31 = 0.198 * w4, r32 = 0.198 * shared->r28;
+        const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), c4 = 0.0 - r32 * r37, s4 = r31 * r37;
+        const double q3 = angle(c4, s4);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
+        next.close = roots0.close;
         next.c4 = c4;
         next.s4 = s4;
+        next.q3 = q3;
         block_2(p, &next, answers);
     }
 }
@@ -1515,8 +1629,9 @@ int teo_leg_solve(const double *given, teo_leg_solution *out)
 
 void teo_leg_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];
@@ -1538,7 +1653,9 @@ double teo_leg_residual(const double *given, const double *q)
         return NAN;
     }
     const Parameters p = parameters(target);
-    const Equations f = equations(&p, q);
+    double at[PLACES];
+    place(q, at);
+    const Equations f = equations(&p, at);
     double size = 0.0;
     for (size_t i = 0; i < EQUATIONS; i++) {
         if (isnan(f.value[i])) {

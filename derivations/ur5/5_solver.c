@@ -121,6 +121,13 @@ int ur5_nearest(const ur5_solution *list, int count, const double *reference, co
 #define INPUTS UR5_INPUTS
 #define JOINTS UR5_JOINTS
 #define EQUATIONS 12
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE __attribute__((always_inline)) inline
+#define COLD __attribute__((noinline, cold))
+#else
+#define INLINE
+#define COLD
+#endif
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -131,6 +138,8 @@ int ur5_nearest(const ur5_solution *list, int count, const double *reference, co
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
+/* So many steps in a row that do not halve the miss are the last. */
+#define PATIENCE 3
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -168,27 +177,17 @@ const double ur5_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINITY, INFINITY,
 
 /* The highest degree of a polynomial. */
 #define DEGREE 2
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-#define NEGLIGIBLE 1e-290
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 #define TANGENT 1e-10
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-#define ROUNDING (2.0 * DBL_EPSILON)
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -198,87 +197,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -312,19 +247,19 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 #define TIP 12
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
-    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2;
-    const double r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16;
-    const double r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
-    const double r34 = c4 * r16 - s4 * r18, r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = c5 * r40;
-    const double r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40;
-    const double r47 = c5 * r34 + s1 * s5, r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r53 = r30 + r31;
-    const double r56 = r32 + r33, r70 = 0.425 * s2 + 0.39225 * r8 + 0.39225 * r9 - 0.09465 * r32;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
+    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
+    const double r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3;
+    const double r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20;
+    const double r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26, r34 = c4 * r16 - s4 * r18;
+    const double r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = c5 * r40, r42 = s5 * r34;
+    const double r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40, r47 = c5 * r34 + s1 * s5;
+    const double r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r53 = r30 + r31, r56 = r32 + r33;
+    const double r70 = 0.425 * s2 + 0.39225 * r8 + 0.39225 * r9 - 0.09465 * r32;
     const double r81 = 0.425 * r1 + 0.39225 * r6 - 0.39225 * r7 + 0.10915 * c1;
     const double r87 = r81 - 0.09465 * r30 - 0.09465 * r31 + 0.0823 * r44;
     const double r96 = 0.425 * r0 + 0.39225 * r4 - 0.39225 * r5 - 0.10915 * s1;
@@ -344,16 +279,40 @@ static void tip(const double *q, double *reached)
     reached[11] = 0.0 - r46;
 }
 
+/* What the equations read of joints: 12 numbers. */
+#define PLACES 12
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+    at[6] = cos(q[3]);
+    at[7] = sin(q[3]);
+    at[8] = cos(q[4]);
+    at[9] = sin(q[4]);
+    at[10] = cos(q[5]);
+    at[11] = sin(q[5]);
+}
+
+#define SIZES 2
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->px,
@@ -371,16 +330,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             1.192509,
-            1.192509,
-            1.192509,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
             1.0,
         },
     };
@@ -392,25 +341,24 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]), c6 = cos(q[5]), s6 = sin(q[5]);
-    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2;
-    const double r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2;
-    const double r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16;
-    const double r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
-    const double r34 = c4 * r16 - s4 * r18, r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = c5 * r40;
-    const double r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40;
-    const double r47 = c5 * r34 + s1 * s5, r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r52 = c6 * r51;
-    const double r53 = r30 + r31, r54 = s6 * r53, r56 = r32 + r33, r65 = 0.39225 * r8, r67 = 0.39225 * r9;
-    const double r69 = 0.09465 * r32, r71 = 0.09465 * r33, r73 = 0.0823 * r46;
-    const double r74 = 0.425 * s2 + r65 + r67 - r69 - r71 + r73, r76 = 0.39225 * r6, r78 = 0.39225 * r7;
-    const double r80 = 0.10915 * c1, r82 = 0.09465 * r30, r84 = 0.09465 * r31, r86 = 0.0823 * r44;
-    const double r87 = 0.425 * r1 + r76 - r78 + r80 - r82 - r84 + r86, r88 = 0.0823 * r45, r89 = r87 + r88;
-    const double r91 = 0.39225 * r4, r93 = 0.39225 * r5, r95 = 0.10915 * s1, r97 = 0.09465 * r28;
-    const double r99 = 0.09465 * r29, r101 = 0.0823 * r42;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
+    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
+    const double r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3;
+    const double r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20;
+    const double r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26, r34 = c4 * r16 - s4 * r18;
+    const double r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = c5 * r40, r42 = s5 * r34;
+    const double r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40, r47 = c5 * r34 + s1 * s5;
+    const double r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r52 = c6 * r51, r53 = r30 + r31, r54 = s6 * r53;
+    const double r56 = r32 + r33, r65 = 0.39225 * r8, r67 = 0.39225 * r9, r69 = 0.09465 * r32;
+    const double r71 = 0.09465 * r33, r73 = 0.0823 * r46, r74 = 0.425 * s2 + r65 + r67 - r69 - r71 + r73;
+    const double r76 = 0.39225 * r6, r78 = 0.39225 * r7, r80 = 0.10915 * c1, r82 = 0.09465 * r30;
+    const double r84 = 0.09465 * r31, r86 = 0.0823 * r44, r87 = 0.425 * r1 + r76 - r78 + r80 - r82 - r84 + r86;
+    const double r88 = 0.0823 * r45, r89 = r87 + r88, r91 = 0.39225 * r4, r93 = 0.39225 * r5, r95 = 0.10915 * s1;
+    const double r97 = 0.09465 * r28, r99 = 0.09465 * r29, r101 = 0.0823 * r42;
     const double r102 = 0.425 * r0 + r91 - r93 - r95 - r97 - r99 + r101, r103 = 0.0823 * r43, r104 = r44 + r45;
     const double r111 = c6 * r41 - s6 * r56, r112 = r52 - r54, r113 = c6 * r47 - s6 * r49;
     const double r117 = s6 * r41 + c6 * r56, r118 = s6 * r51 + c6 * r53, r119 = s6 * r47 + c6 * r49;
@@ -448,15 +396,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, DBL_MIN));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -465,16 +418,62 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION
+        && fabs(at[6] * at[6] + at[7] * at[7] - 1.0) < RESOLUTION
+        && fabs(at[8] * at[8] + at[9] * at[9] - 1.0) < RESOLUTION
+        && fabs(at[10] * at[10] + at[11] * at[11] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+#define REST 3.061616997868383e-17
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -485,35 +484,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+#define ROWS (EQUATIONS + JOINTS)
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -530,32 +543,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -667,22 +680,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], DBL_MIN));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -718,7 +736,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -757,6 +775,17 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[3] - b[3])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[2] - b[2])) <= tolerance
+        && fabs(shorter(a[4] - b[4])) <= tolerance
+        && fabs(shorter(a[5] - b[5])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -775,9 +804,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -880,10 +906,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1023,7 +1052,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -1055,6 +1084,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == UR5_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1136,6 +1202,8 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1148,9 +1216,14 @@ typedef struct {
     double s3;
     double c2;
     double s2;
+    double q0;
+    double q1;
+    double q2;
+    double q4;
+    double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1172,23 +1245,37 @@ typedef struct {
 
 /* Chart 1 of block 6: generic.
  */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r25 = 0.09465 * shared->r23 / 0.0089586225, r27 = 0.09465 * shared->r21 / 0.0089586225;
-    const double r31 = sqrt(fmax(r27 * r27 + r25 * r25, 0.0)), c4 = 0.0 - r27 / r31, s4 = r25 / r31;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
-        angle(known->c3, known->s3),
-        angle(c4, s4),
-        angle(known->c5, known->s5),
-        angle(known->c6, known->s6),
+    const double r24 = 0.09465 * shared->r23, r25 = 0.09465 * shared->r21;
+    const double r30 = 1.0 / sqrt(fmax(r25 * r25 + r24 * r24, 0.0)), c4 = 0.0 - r25 * r30, s4 = r24 * r30;
+    const double at[PLACES] = {
+        known->c1,
+        known->s1,
+        known->c2,
+        known->s2,
+        known->c3,
+        known->s3,
+        c4,
+        s4,
+        known->c5,
+        known->s5,
+        known->c6,
+        known->s6,
     };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double q[JOINTS] = {
+        known->q0,
+        known->q1,
+        known->q2,
+        angle(at[6], at[7]),
+        known->q4,
+        known->q5,
+    };
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 6: Wrist1. */
-static void block_6(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r6 = known->c1 * (p->px - 0.0823 * p->r13_) + known->s1 * (p->py - 0.0823 * p->r23_);
     const double r10 = p->pz - 0.0823 * p->r33_ - 0.089159, r15 = known->c2 * r6 + known->s2 * r10 + 0.425;
@@ -1197,6 +1284,12 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const Shared6 own = { r21, r23 };
     const Shared6 *const shared = &own;
     chart_6_1(p, known, shared, answers);
+}
+
+/* Block 6 behind a chart that hardly ever runs. */
+COLD static void again_6(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_6(p, known, answers);
 }
 
 /* What the charts of block 5 share. */
@@ -1213,20 +1306,23 @@ typedef struct {
 /* Chart 1 of block 5: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r39 = shared->r20 * shared->r20 + shared->r22 * shared->r22;
     if (!is_away(r39, 59625.5768362)) {
         return;
     }
-    const double r42 = shared->r20 * shared->r30 - shared->r22 * shared->r29, r43 = r42 / r39;
-    const double r46 = shared->r20 * shared->r29 + shared->r22 * shared->r30, r47 = r46 / r39;
-    const double r51 = sqrt(fmax(r47 * r47 + r43 * r43, 0.0)), c2 = 0.0 - r47 / r51, s2 = r43 / r51;
+    const double r42 = shared->r20 * shared->r30 - shared->r22 * shared->r29;
+    const double r45 = shared->r20 * shared->r29 + shared->r22 * shared->r30;
+    const double r50 = 1.0 / sqrt(fmax(r45 * r45 + r42 * r42, 0.0)), c2 = 0.0 - r45 * r50, s2 = r42 * r50;
+    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
+    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
+    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
@@ -1241,19 +1337,21 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
+        next.close = known->close;
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
-        block_6(p, &next, answers);
+        next.q1 = q1;
+        again_6(p, &next, answers);
     }
 }
 
 /* Block 5: ShoulderLift. */
-static void block_5(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r9 = p->px + 0.09465 * (p->r11_ * known->s6) + 0.09465 * (p->r12_ * known->c6);
     const double r16 = p->py + 0.09465 * (p->r21_ * known->s6) + 0.09465 * (p->r22_ * known->c6);
@@ -1276,25 +1374,26 @@ typedef struct {
 
 /* Chart 1 of block 4: generic.
  */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double choice0_0[3] = {shared->r46 * shared->r46 - 0.11116389515625, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951 * known->f6);
+    const Roots roots0 = square_roots(shared->r46 * shared->r46 - 0.11116389515625, 1.4142135623730951 * known->f6);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r51 = 0.3334125 * w3 / 0.11116389515625;
-        const double r53 = 0.3334125 * shared->r46 / 0.11116389515625;
-        const double r57 = sqrt(fmax(r53 * r53 + r51 * r51, 0.0)), c3 = 0.0 - r53 / r57, s3 = r51 / r57;
+        const double w3 = roots0.values[i0], r50 = 0.3334125 * w3, r51 = 0.3334125 * shared->r46;
+        const double r56 = 1.0 / sqrt(fmax(r51 * r51 + r50 * r50, 0.0)), c3 = 0.0 - r51 * r56, s3 = r50 * r56;
+        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
+        next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
+        next.q2 = q2;
         block_5(p, &next, answers);
     }
 }
 
 /* Block 4: Elbow. */
-static void block_4(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r31_ * known->s6, r5 = p->r32_ * known->c6;
     const double r9 = p->px + 0.09465 * (p->r11_ * known->s6) + 0.09465 * (p->r12_ * known->c6);
@@ -1317,20 +1416,22 @@ typedef struct {
 
 /* Chart 1 of block 3: generic.
  */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r14 = shared->r10 * shared->r10 + shared->r11 * shared->r11, r15 = sqrt(fmax(r14, 0.0));
-    const double c5 = shared->r10 / r15, s5 = shared->r11 / r15;
+    const double r14 = shared->r10 * shared->r10 + shared->r11 * shared->r11, r16 = 1.0 / sqrt(fmax(r14, 0.0));
+    const double c5 = shared->r10 * r16, s5 = shared->r11 * r16, q4 = angle(c5, s5);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
+    next.q4 = q4;
     block_4(p, &next, answers);
 }
 
 /* Block 3: Wrist2. */
-static void block_3(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r8 = known->c1 * (p->r21_ * known->c6 - p->r22_ * known->s6);
     const double r9 = known->s1 * (p->r11_ * known->c6 - p->r12_ * known->s6);
@@ -1338,6 +1439,12 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const Shared3 own = { r10, r11 };
     const Shared3 *const shared = &own;
     chart_3_1(p, known, shared, answers);
+}
+
+/* Block 3 behind a chart that hardly ever runs. */
+COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_3(p, known, answers);
 }
 
 /* What the charts of block 2 share. */
@@ -1349,24 +1456,26 @@ typedef struct {
 /* Chart 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
-    if (!is_away(r8, 80000.0)) {
+    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5;
+    if (!is_away(r6 + r7, 80000.0)) {
         return;
     }
     const double f6 = 1.0;
-    const double choice0_0[3] = {0.0 - r6 - r7, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 2.8284271247461903);
+    const Roots roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w6 = roots0.values[i0], r12 = w6 * shared->r4 / r8, r14 = w6 * shared->r5 / r8;
-        const double r18 = sqrt(fmax(r14 * r14 + r12 * r12, 0.0)), c6 = 0.0 - r14 / r18, s6 = r12 / r18;
+        const double w6 = roots0.values[i0], r11 = w6 * shared->r4, r12 = w6 * shared->r5;
+        const double r17 = 1.0 / sqrt(fmax(r12 * r12 + r11 * r11, 0.0)), c6 = 0.0 - r12 * r17, s6 = r11 * r17;
+        const double q5 = angle(c6, s6);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
+        next.close = known->close || roots0.close;
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
+        next.q5 = q5;
         block_3(p, &next, answers);
     }
 }
@@ -1383,20 +1492,22 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
+        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1], q5 = angle(c6, s6);
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
+        next.close = known->close;
         next.free[5] = true;
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
-        block_3(p, &next, answers);
+        next.q5 = q5;
+        again_3(p, &next, answers);
     }
 }
 
 /* Block 2: Wrist3. */
-static void block_2(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r12_ * known->s1 - p->r22_ * known->c1, r5 = p->r11_ * known->s1 - p->r21_ * known->c1;
     const Shared2 own = { r4, r5 };
@@ -1415,24 +1526,26 @@ typedef struct {
 /* Chart 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero.
  */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
-    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
-    if (!is_away(r8, 10000.0 * r10)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
+    const double r10 = r9 + r9;
+    if (!is_away(r6 + r7, 10000.0 * r10)) {
         return;
     }
-    const double choice0_0[3] = {0.0119137225 - r6 - r7, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, sqrt(fmax(r10, 0.0)));
+    const Roots roots0 = square_roots(0.0119137225 - r6 - r7, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r18 = (w1 * shared->r1 - 0.10915 * shared->r3) / r8;
-        const double r22 = (w1 * shared->r3 + 0.10915 * shared->r1) / r8;
-        const double r26 = sqrt(fmax(r22 * r22 + r18 * r18, 0.0)), c1 = 0.0 - r22 / r26, s1 = r18 / r26;
+        const double w1 = roots0.values[i0], r17 = w1 * shared->r1 - 0.10915 * shared->r3;
+        const double r20 = w1 * shared->r3 + 0.10915 * shared->r1;
+        const double r25 = 1.0 / sqrt(fmax(r20 * r20 + r17 * r17, 0.0)), c1 = 0.0 - r20 * r25, s1 = r17 * r25;
+        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
+        next.close = roots0.close;
         next.c1 = c1;
         next.s1 = s1;
+        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1515,8 +1628,9 @@ int ur5_solve(const double *given, ur5_solution *out)
 
 void ur5_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[1];
     target[2] = reached[2];
@@ -1538,7 +1652,9 @@ double ur5_residual(const double *given, const double *q)
         return NAN;
     }
     const Parameters p = parameters(target);
-    const Equations f = equations(&p, q);
+    double at[PLACES];
+    place(q, at);
+    const Equations f = equations(&p, at);
     double size = 0.0;
     for (size_t i = 0; i < EQUATIONS; i++) {
         if (isnan(f.value[i])) {

@@ -99,6 +99,8 @@ static const double BLUR = 0.05;
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
 static const int POLISH_STEPS = 32;
+/* So many steps in a row that do not halve the miss are the last. */
+static const int PATIENCE = 3;
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 static const double APART = 0.7;
 static const double SPLIT = 0.001;
@@ -132,27 +134,17 @@ typedef wrist_rotation_solution Solution;
 
 /* The highest degree of a polynomial. */
 static const int DEGREE = 2;
-/* A leading coefficient below this share of the largest coefficient counts as zero. */
-static const double NEGLIGIBLE = 1e-290;
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 static const double TANGENT = 1e-10;
-/* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
-static const double ROUNDING = (2.0 * std::numeric_limits<double>::epsilon());
 
 /* Real roots, ascending. */
 typedef struct {
     double values[DEGREE];
     size_t count;
+    /* Whether some are close to one another, or one is double. */
+    bool close;
 } Roots;
-
-/* A polynomial with coefficients of magnitude one and less, constant term first. */
-typedef struct {
-    double a[DEGREE + 1];
-    size_t degree;
-    /* The unknown's typical size. */
-    double scale;
-} Polynomial;
 
 static void push(Roots *roots, double x)
 {
@@ -162,87 +154,23 @@ static void push(Roots *roots, double x)
     }
 }
 
-static double largest(const double *coefficients, size_t length)
+/* All real roots of x^2 + constant; a miss is measured against the unknown's typical size scale. */
+static Roots square_roots(double constant, double scale)
 {
-    double size = 0.0;
-    for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
-    }
-    return size;
-}
-
-/* The polynomial divided by its largest coefficient. */
-static Polynomial scaled(Polynomial p)
-{
-    const double size = largest(p.a, DEGREE + 1);
-    for (size_t i = 0; i <= DEGREE; i++) {
-        p.a[i] /= size;
-    }
-    return p;
-}
-
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool polynomial(const double *coefficients, size_t length, Polynomial *result)
-{
-    const double size = largest(coefficients, length);
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(coefficients[i])) {
-            return false;
-        }
-    }
-    while (length > 0 && fabs(coefficients[length - 1]) <= NEGLIGIBLE * size) {
-        length--;
-    }
-    if (length == 0) {
-        return false;
-    }
-    Polynomial p = {{0.0}, length - 1, 0.0};
-    for (size_t i = 0; i < length; i++) {
-        p.a[i] = coefficients[i];
-    }
-    *result = scaled(p);
-    return true;
-}
-
-static Roots linear_root(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    if (p->degree == 1) {
-        push(&roots, -p->a[0] / p->a[1]);
-    }
-    return roots;
-}
-
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
-static Roots quadratic_roots(const Polynomial *p)
-{
-    Roots roots = {{0.0}, 0};
-    const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
-    const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    Roots roots = {{0.0}, 0, false};
+    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
         return roots;
     }
-    if (discriminant <= ROUNDING * size) {
-        push(&roots, -b / (2.0 * a));
+    if (constant >= 0.0) {
+        push(&roots, 0.0);
+        roots.close = true;
         return roots;
     }
-    const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    const double root = sqrt(-constant);
+    roots.close = root <= SPLIT * scale;
+    push(&roots, -root);
+    push(&roots, root);
     return roots;
-}
-
-/* All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and a
- * double root that misses the axis by rounding, measured at the unknown's typical size scale, are reported once. */
-static Roots real_roots(const double *coefficients, size_t length, double scale)
-{
-    Polynomial p;
-    if (!polynomial(coefficients, length, &p)) {
-        const Roots none = {{0.0}, 0};
-        return none;
-    }
-    p.scale = scale;
-    return p.degree < 2 ? linear_root(&p) : quadratic_roots(&p);
 }
 
 /* Parameters of the equations. */
@@ -269,11 +197,11 @@ static Parameters parameters(const double *target)
 /* What the equations compare with the target. */
 static const int TIP = 9;
 
-/* The tip at joint values q, as the equations compare it. */
-static void tip(const double *q, double *reached)
+/* The tip, as the equations compare it. */
+static void tip(const double *at, double *reached)
 {
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double r2 = c1 * s2, r3 = s1 * s2;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], r2 = c1 * s2;
+    const double r3 = s1 * s2;
     reached[0] = c1 * c2;
     reached[1] = s1 * c2;
     reached[2] = 0.0 - s2;
@@ -285,16 +213,34 @@ static void tip(const double *q, double *reached)
     reached[8] = c2 * c3;
 }
 
+/* What the equations read of joints: 6 numbers. */
+static const int PLACES = 6;
+
+/* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]). */
+static void place(const double *q, double *at)
+{
+    at[0] = cos(q[0]);
+    at[1] = sin(q[0]);
+    at[2] = cos(q[1]);
+    at[3] = sin(q[1]);
+    at[4] = cos(q[2]);
+    at[5] = sin(q[2]);
+}
+
+static const int SIZES = 1;
+/* Which of the sizes is that of each equation. */
+static const size_t SIZE_OF[EQUATIONS] = { 0, 0, 0, 0, 0, 0, 0, 0, 0 };
+
 /* The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes. */
 typedef struct {
     double value[EQUATIONS];
-    double size[EQUATIONS];
+    double size[SIZES];
 } Equations;
 
-static Equations equations(const Parameters *p, const double *q)
+static Equations equations(const Parameters *p, const double *at)
 {
     double reached[TIP];
-    tip(q, reached);
+    tip(at, reached);
     const Equations result = {
         {
             reached[0] - p->r11_,
@@ -309,14 +255,6 @@ static Equations equations(const Parameters *p, const double *q)
         },
         {
             1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
-            1.0,
         },
     };
     return result;
@@ -327,12 +265,12 @@ typedef struct {
     double rows[EQUATIONS][JOINTS];
 } Jacobian;
 
-static Jacobian jacobian(const Parameters *p, const double *q)
+static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = cos(q[0]), s1 = sin(q[0]), c2 = cos(q[1]), s2 = sin(q[1]), c3 = cos(q[2]), s3 = sin(q[2]);
-    const double r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = s1 * c3, r5 = s3 * r2;
-    const double r8 = c2 * s3, r13 = c2 * c3, r18 = c1 * c3 + s3 * r3, r23 = s1 * s3 + c3 * r2, r38 = r4 - r5;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], r0 = c1 * c2;
+    const double r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = s1 * c3, r5 = s3 * r2, r8 = c2 * s3;
+    const double r13 = c2 * c3, r18 = c1 * c3 + s3 * r3, r23 = s1 * s3 + c3 * r2, r38 = r4 - r5;
     const double r53 = c1 * s3 - c3 * r3;
     const Jacobian result = { {
         {0.0 - r1, 0.0 - r2, 0.0},
@@ -358,15 +296,20 @@ typedef struct {
     bool accepted;
 } Fit;
 
-static Fit measure(const Parameters *p, const double *q)
+/* How well joint values solve the equations, whose cosines and sines are known. */
+static Fit measure_at(const Parameters *p, const double *at, const double *q)
 {
-    const Equations f = equations(p, q);
+    const Equations f = equations(p, at);
     Fit fit = { 0.0, 0.0, true };
+    double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
-        const double value = fabs(f.value[i]), size = f.size[i];
-        fit.residual = fmax(fit.residual, value);
-        fit.relative = fmax(fit.relative, value / fmax(size, (std::numeric_limits<double>::min)()));
-        fit.accepted = fit.accepted && value <= ACCEPT * size;
+        const double value = fabs(f.value[i]);
+        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
+    }
+    for (size_t i = 0; i < SIZES; i++) {
+        fit.residual = fmax(fit.residual, most[i]);
+        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -375,16 +318,59 @@ static Fit measure(const Parameters *p, const double *q)
     return fit;
 }
 
+static Fit measure(const Parameters *p, const double *q)
+{
+    double at[PLACES];
+    place(q, at);
+    return measure_at(p, at, q);
+}
+
+/* Whether the cosines and sines of all angles are on the circle. */
+static bool is_round(const double *at)
+{
+    return fabs(at[0] * at[0] + at[1] * at[1] - 1.0) < RESOLUTION
+        && fabs(at[2] * at[2] + at[3] * at[3] - 1.0) < RESOLUTION
+        && fabs(at[4] * at[4] + at[5] * at[5] - 1.0) < RESOLUTION;
+}
+
 /* The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi. */
 static double half_open(double angle)
 {
     return angle <= -PI ? angle + TAU : angle;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi]. */
+/* What the double nearest to pi/4 lacks. */
+static const double REST = 3.061616997868383e-17;
+
+/* (atan(z) / z - 1) / z^2 for u = z^2 up to tan(pi/8)^2, by interpolation at eleven Chebyshev points. */
+static double series(double u)
+{
+    const double square = u * u, fourth = u * u * (u * u);
+    const double first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
+    const double second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
+    const double third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
+    return first + (second + third * fourth) * fourth;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
 static double angle(double cosine, double sine)
 {
-    return half_open(atan2(sine, cosine));
+    const double across = fabs(cosine), up = fabs(sine);
+    const bool steep = up > across;
+    const double low = steep ? across : up, high = steep ? up : across;
+    const bool far = low > 0.41421356237309503 * high;
+    const double z = (far ? low - high : low) / (far ? low + high : high);
+    double value = z + z * (z * z) * series(z * z);
+    if (far) {
+        value = 0.25 * PI + (value + REST);
+    }
+    if (steep) {
+        value = 0.5 * PI - (value - 2.0 * REST);
+    }
+    if (cosine < 0.0) {
+        value = PI - (value - 4.0 * REST);
+    }
+    return half_open(copysign(value, sine));
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -395,35 +381,49 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 
-/* Adds a row to a triangle by plane rotations that leave nothing of it. */
-static void turn_in(double triangle[JOINTS][JOINTS + 1], double *line)
+/* Rows of the equations and of the damping. */
+static const int ROWS = (EQUATIONS + JOINTS);
+
+/* Turns columns into a triangle by reflections. */
+static void reflect(double columns[JOINTS + 1][ROWS])
 {
     for (size_t pivot = 0; pivot < JOINTS; pivot++) {
-        double *top = triangle[pivot];
-        const double length = sqrt(top[pivot] * top[pivot] + line[pivot] * line[pivot]);
-        if (line[pivot] == 0.0 || length == 0.0) {
+        double mirror[ROWS], square = 0.0;
+        for (size_t i = pivot; i < ROWS; i++) {
+            mirror[i] = columns[pivot][i];
+            square += mirror[i] * mirror[i];
+        }
+        if (square == 0.0) {
             continue;
         }
-        const double cosine = top[pivot] / length, sine = line[pivot] / length;
-        for (size_t k = pivot; k <= JOINTS; k++) {
-            const double above = top[k], entry = line[k];
-            top[k] = cosine * above + sine * entry;
-            line[k] = cosine * entry - sine * above;
+        const double length = copysign(sqrt(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const double half = length * mirror[pivot];
+        columns[pivot][pivot] = -length;
+        for (size_t k = pivot + 1; k <= JOINTS; k++) {
+            double along = 0.0;
+            for (size_t i = pivot; i < ROWS; i++) {
+                along += mirror[i] * columns[k][i];
+            }
+            along /= half;
+            for (size_t i = pivot; i < ROWS; i++) {
+                columns[k][i] -= along * mirror[i];
+            }
         }
     }
 }
 
 /* The solution of a triangular system; false for a zero or non-finite pivot. */
-static bool substituted(double triangle[JOINTS][JOINTS + 1], double *solution)
+static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
 {
     for (size_t row = JOINTS; row-- > 0;) {
-        const double pivot = triangle[row][row];
+        const double pivot = columns[row][row];
         if (pivot == 0.0 || !isfinite(pivot)) {
             return false;
         }
-        double sum = triangle[row][JOINTS];
+        double sum = columns[JOINTS][row];
         for (size_t k = row + 1; k < JOINTS; k++) {
-            sum -= triangle[row][k] * solution[k];
+            sum -= columns[k][row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
@@ -440,32 +440,32 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by rotations. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
-    double triangle[JOINTS][JOINTS + 1] = {{0.0}};
-    double squares[JOINTS] = {0.0};
-    for (size_t i = 0; i < EQUATIONS; i++) {
-        double line[JOINTS + 1];
-        for (size_t column = 0; column < JOINTS; column++) {
-            line[column] = held[column] ? 0.0 : j.rows[i][column];
-            squares[column] += line[column] * line[column];
-        }
-        line[JOINTS] = f.value[i];
-        turn_in(triangle, line);
-    }
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        size = fmax(size, squares[i]);
+        double square = 0.0;
+        for (size_t row = 0; row < EQUATIONS; row++) {
+            const double entry = held[i] ? 0.0 : j.rows[row][i];
+            columns[i][row] = entry;
+            square += entry * entry;
+        }
+        size = fmax(size, square);
+    }
+    for (size_t row = 0; row < EQUATIONS; row++) {
+        columns[JOINTS][row] = f.value[row];
     }
     for (size_t i = 0; i < JOINTS; i++) {
-        double line[JOINTS + 1] = {0.0};
-        line[i] = held[i] ? 1.0 : sqrt(damping * size);
-        turn_in(triangle, line);
+        columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
-    return substituted(triangle, step);
+    reflect(columns);
+    return substituted(columns, step);
 }
 
 /* q - step, angles in (-pi, pi]. */
@@ -571,22 +571,27 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
  * after a leap. Joints that are held stay. */
 static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
-    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED); i++) {
+    int slow = 0;
+    for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        const double before = fit->relative;
         if (!improve(p, q, fit, held)) {
             return;
         }
+        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
     }
 }
 
 /* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
 static void weights(const Parameters *p, const double *q, double *weight)
 {
-    const Jacobian j = jacobian(p, q);
-    const Equations f = equations(p, q);
+    double at[PLACES];
+    place(q, at);
+    const Jacobian j = jacobian(p, at);
+    const Equations f = equations(p, at);
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[row], (std::numeric_limits<double>::min)()));
+            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
     }
     weight[0] = fmin(weight[0], 1.0);
@@ -616,7 +621,7 @@ typedef struct {
 
 static double shorter(double difference)
 {
-    return difference - TAU * round(difference / TAU);
+    return difference > PI ? difference - TAU : difference < -PI ? difference + TAU : difference;
 }
 
 /* a - b joint by joint, angles by the shorter way round. */
@@ -649,6 +654,14 @@ static double farthest_of(const double *a, const double *b)
     return farthest;
 }
 
+/* Whether joint values differ by tolerance at most. */
+static bool is_within(const double *a, const double *b, double tolerance)
+{
+    return fabs(shorter(a[2] - b[2])) <= tolerance
+        && fabs(shorter(a[1] - b[1])) <= tolerance
+        && fabs(shorter(a[0] - b[0])) <= tolerance;
+}
+
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
 static bool is_close(const Solution *a, const Solution *b, double tolerance)
 {
@@ -667,9 +680,6 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
  * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
     differences(a->q, b->q, way);
     for (size_t i = 0; i < JOINTS; i++) {
@@ -772,10 +782,13 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
+    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
+        return false;
+    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -915,7 +928,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
-static void finish(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
+static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
     double q[JOINTS];
     copy(candidate, q);
@@ -947,6 +960,43 @@ static void finish(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
+}
+
+/* Whether there is room for an isolated answer of this branch, and none of the others is near it. */
+static bool is_apart(const Answers *answers, size_t branch, const double *q)
+{
+    if (answers->count == WRIST_ROTATION_CAPACITY) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        const Solution *other = &answers->out[i];
+        if (other->branch == branch || !is_isolated(other->free) || is_within(other->q, q, BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+{
+    const Fit fit = measure_at(p, at, q);
+    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        refine(p, branch, last, q, free, answers);
+    } else if (is_apart(answers, branch, q)) {
+        Solution *answer = &answers->out[answers->count];
+        answer->residual = fit.residual;
+        answer->branch = branch;
+        answer->chosen = false;
+        for (size_t i = 0; i < JOINTS; i++) {
+            answer->q[i] = q[i];
+            answer->free[i] = false;
+        }
+        answers->relative[answers->count] = fit.relative;
+        answers->count++;
+    } else {
+        keep(p, answers, branch, last, q, &fit, free);
+    }
 }
 
 /* Whether no joint of an answer is free. */
@@ -1028,14 +1078,18 @@ typedef struct {
     size_t branch;
     /* The end of the branch numbers of the first block's chart. */
     size_t last;
+    /* Whether roots on the way are so near one another that rounding moves them. */
+    bool close;
     bool free[JOINTS];
     double c1;
     double s1;
     double c2;
     double s2;
+    double q0;
+    double q1;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, {false}, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1061,13 +1115,10 @@ typedef struct {
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r5 = shared->r1 - shared->r0, r9 = sqrt(fmax(shared->r4 * shared->r4 + r5 * r5, 0.0));
-    const double c3 = shared->r4 / r9, s3 = r5 / r9;
-    const double q[JOINTS] = {
-        angle(known->c1, known->s1),
-        angle(known->c2, known->s2),
-        angle(c3, s3),
-    };
-    finish(p, known->branch, known->last, q, known->free, answers);
+    const double r10 = 1.0 / r9, c3 = shared->r4 * r10, s3 = r5 * r10;
+    const double at[PLACES] = {known->c1, known->s1, known->c2, known->s2, c3, s3};
+    const double q[JOINTS] = {known->q0, known->q1, angle(at[4], at[5])};
+    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
 }
 
 /* Block 3: Roll. */
@@ -1089,13 +1140,15 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r6 = sqrt(fmax(shared->r2 * shared->r2 + p->r31_ * p->r31_, 0.0)), c2 = shared->r2 / r6;
-    const double s2 = 0.0 - p->r31_ / r6;
+    const double r6 = sqrt(fmax(shared->r2 * shared->r2 + p->r31_ * p->r31_, 0.0)), r7 = 1.0 / r6;
+    const double c2 = shared->r2 * r7, s2 = 0.0 - p->r31_ * r7, q1 = angle(c2, s2);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
+    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
+    next.q1 = q1;
     block_3(p, &next, answers);
 }
 
@@ -1108,25 +1161,33 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     chart_2_1(p, known, shared, answers);
 }
 
+/* Block 2 behind a chart that hardly ever runs. */
+static void again_2(const Parameters *p, const Known *known, Answers *answers)
+{
+    block_2(p, known, answers);
+}
+
 /* Chart 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero.
  */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r0 = p->r21_ * p->r21_, r1 = p->r11_ * p->r11_, r2 = r0 + r1;
-    if (!is_away(r2, 20000.0)) {
+    const double r0 = p->r21_ * p->r21_, r1 = p->r11_ * p->r11_;
+    if (!is_away(r0 + r1, 20000.0)) {
         return;
     }
-    const double choice0_0[3] = {0.0 - r0 - r1, 0.0, 1.0};
-    const Roots roots0 = real_roots(choice0_0, 3, 1.4142135623730951);
+    const Roots roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r6 = p->r21_ * w1 / r2, r8 = p->r11_ * w1 / r2;
-        const double r12 = sqrt(fmax(r8 * r8 + r6 * r6, 0.0)), c1 = 0.0 - r8 / r12, s1 = 0.0 - r6 / r12;
+        const double w1 = roots0.values[i0], r5 = p->r21_ * w1, r6 = p->r11_ * w1;
+        const double r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0)), c1 = 0.0 - r6 * r11, s1 = 0.0 - r5 * r11;
+        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
+        next.close = roots0.close;
         next.c1 = c1;
         next.s1 = s1;
+        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1141,14 +1202,16 @@ static void chart_1_2(const Parameters *p, Answers *answers)
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = 2;
         next.last = 3;
+        next.close = false;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
-        block_2(p, &next, answers);
+        next.q0 = q0;
+        again_2(p, &next, answers);
     }
 }
 
@@ -1227,8 +1290,9 @@ int wrist_rotation_solve(const double *given, wrist_rotation_solution *out)
 
 void wrist_rotation_forward(const double *q, double *target)
 {
-    double reached[TIP];
-    tip(q, reached);
+    double at[PLACES], reached[TIP];
+    place(q, at);
+    tip(at, reached);
     target[0] = reached[0];
     target[1] = reached[3];
     target[2] = reached[6];
