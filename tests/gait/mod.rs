@@ -1,0 +1,3 @@
+//! Walking.
+
+mod seed;
