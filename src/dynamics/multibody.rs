@@ -51,7 +51,8 @@ impl Multibody {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a parent that does not stand before its limb, or a frame that is not finite.
     pub fn new(base: Body, limbs: Vec<Limb>) -> Result<Self> {
-        if let Some(link) = limbs.iter().enumerate().position(|(i, limb)| limb.parent.is_some_and(|parent| parent >= i)) {
+        if let Some(link) = limbs.iter().enumerate().position(|(i, limb)| limb.parent.is_some_and(|parent| parent >= i))
+        {
             let text = format!("link {link}: its parent stands behind it; name parents before their limbs");
             return Err(Error::new(ErrorKind::BadValue, text));
         }

@@ -47,7 +47,8 @@ pub fn balance(humanoid: &Humanoid, references: &[Reference], motion: &Motion, t
             angular: (after.angular - before.angular) / tick,
         };
         let falls = || {
-            let text = format!("t = {:.2} s: nothing presses the robot to the floor; walk slower", sample as f64 * tick);
+            let text =
+                format!("t = {:.2} s: nothing presses the robot to the floor; walk slower", sample as f64 * tick);
             Error::new(ErrorKind::BadValue, text)
         };
         let zmp = zero_moment_point(humanoid.body.mass(), &centre, &rate).ok_or_else(falls)?;
@@ -82,9 +83,8 @@ fn momenta(humanoid: &Humanoid, motion: &Motion, tick: f64) -> Result<Vec<Moment
         let posture = &motion.postures[sample];
         Configuration { world_from_base: &posture.world_from_torso, q: &posture.q }
     };
-    let between = |sample: usize| {
-        momentum_between(&humanoid.body, configuration(sample), configuration(sample + 1), tick)
-    };
+    let between =
+        |sample: usize| momentum_between(&humanoid.body, configuration(sample), configuration(sample + 1), tick);
     let mut momenta = vec![Momentum::zero()];
     for sample in 1..motion.postures.len() {
         momenta.push(between(sample - 1)?);

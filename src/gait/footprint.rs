@@ -144,12 +144,17 @@ impl Route {
             return Err(bad(format!("{steps} steps are asked for; give 1 to {MAX_STEPS}")));
         }
         if !(length.is_finite() && turn.is_finite() && half_width.is_finite() && half_width > 0.0) {
-            return Err(bad("the length, the turn and the width of the steps must be finite, the width positive".into()));
+            return Err(bad(
+                "the length, the turn and the width of the steps must be finite, the width positive".into()
+            ));
         }
         let advances = (steps - 1).max(1);
         let share = turn / advances as f64;
-        let stride = Footprint { x: 0.0, y: 0.0, yaw: share / 2.0 }.then(&Footprint { x: length, y: 0.0, yaw: share / 2.0 });
-        let beside = |middle: &Footprint, side: Side| middle.then(&Footprint { y: side.sign() * half_width, ..Default::default() });
+        let stride =
+            Footprint { x: 0.0, y: 0.0, yaw: share / 2.0 }.then(&Footprint { x: length, y: 0.0, yaw: share / 2.0 });
+        let beside = |middle: &Footprint, side: Side| {
+            middle.then(&Footprint { y: side.sign() * half_width, ..Default::default() })
+        };
         let mut middle = Footprint::default();
         let start = [Side::Left, Side::Right].map(|side| beside(&middle, side));
         let mut side = first;
@@ -190,7 +195,8 @@ impl Route {
             }
             steps.push(step);
         }
-        let start = [Side::Left, Side::Right].map(|side| Footprint { y: side.sign() * half_width, ..Default::default() });
+        let start =
+            [Side::Left, Side::Right].map(|side| Footprint { y: side.sign() * half_width, ..Default::default() });
         Route { start, steps }.checked()
     }
 
@@ -198,7 +204,8 @@ impl Route {
         if self.steps.is_empty() || self.steps.len() > MAX_STEPS {
             return Err(bad(format!("{} steps are asked for; give 1 to {MAX_STEPS}", self.steps.len())));
         }
-        let is_near = |print: &Footprint| [print.x, print.y, print.yaw].iter().all(|value| value.abs() <= MAX_COORDINATE);
+        let is_near =
+            |print: &Footprint| [print.x, print.y, print.yaw].iter().all(|value| value.abs() <= MAX_COORDINATE);
         if !self.steps.iter().all(|step| is_near(&step.print)) {
             return Err(bad(format!("a footstep is beyond {MAX_COORDINATE} m or rad, or not finite")));
         }
@@ -232,7 +239,9 @@ fn footstep(row: &str) -> Result<Footstep> {
     };
     let number = |name: &str, text: &str| {
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
-        value.ok_or_else(|| Error::new(ErrorKind::Syntax, format!("`{name}` must be a finite number, in metres or radians")))
+        value.ok_or_else(|| {
+            Error::new(ErrorKind::Syntax, format!("`{name}` must be a finite number, in metres or radians"))
+        })
     };
     Ok(Footstep { side, print: Footprint { x: number("x", x)?, y: number("y", y)?, yaw: number("yaw", yaw)? } })
 }

@@ -3,10 +3,11 @@
 //!
 //! A [`Route`] of footprints becomes a [`Schedule`] of phases, that becomes a [`Reference`] for feet and centre of mass at each sample,
 //! that becomes a [`Motion`] of joint angles and its [`Balance`]. [`plan`] goes this way and slows down or refuses what would fall; its
-//! result is a [`Walk`]. The world has z up and the floor at 0; metres, seconds, radians.
+//! result is a [`Walk`], which prints as CSV, JSON and SVG and has a [`Summary`]. The world has z up and the floor at 0; metres, seconds, radians.
 
 mod balance;
 mod check;
+mod drawing;
 mod footprint;
 mod humanoid;
 mod legs;
@@ -18,6 +19,8 @@ mod preview;
 mod reference;
 mod refusal;
 mod schedule;
+mod summary;
+mod table;
 mod zmp;
 
 pub use balance::{Balance, balance, support};
@@ -32,4 +35,5 @@ pub use polygon::Polygon;
 pub use preview::{Preview, zmp_reference};
 pub use reference::{Reference, Style, arch, seed_centre, smooth, soles};
 pub use schedule::{Action, Durations, Phase, Schedule};
+pub use summary::{Extreme, Summary};
 pub use zmp::{Configuration, GRAVITY, momentum_between, of_pendulum, zero_moment_point};

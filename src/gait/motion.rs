@@ -12,8 +12,10 @@ use crate::{Error, ErrorKind, Result, Watch};
 const NEAR: f64 = 1e-8;
 /// The most corrections of the torso at a sample; two or three are needed.
 const MOST_CORRECTIONS: usize = 30;
-/// How much further the torso is moved than the centre of mass is to move: the legs lag behind. Any value from one to two converges.
-const LEAD: f64 = 1.25;
+/// How much further the torso must move than the centre of mass is to move, at first: the legs lag behind.
+const FIRST_GAIN: f64 = 1.25;
+/// Between which values the gain is kept as it is measured.
+const GAINS: (f64, f64) = (1.0, 2.0);
 /// After how many samples progress is told.
 const REPORTED: usize = 64;
 
@@ -39,45 +41,82 @@ pub fn realise(
     tick: f64,
     watch: &Watch,
 ) -> Result<Motion> {
-    let mut motion = Motion { postures: Vec::with_capacity(references.len()), centres: Vec::with_capacity(references.len()) };
-    let mut last = legs.crouch();
-    let mut leads = [Vector2::zeros(); 2];
+    let count = references.len();
+    let mut motion = Motion { postures: Vec::with_capacity(count), centres: Vec::with_capacity(count) };
+    let mut pursuit = Pursuit { last: legs.crouch(), leads: Vec::new(), gains: Vector2::repeat(FIRST_GAIN) };
     for (sample, reference) in references.iter().enumerate() {
         if sample % REPORTED == 0 {
             watch.check()?;
-            watch.report("samples of the walk", sample, references.len() - sample);
+            watch.report("samples of the walk", sample, count - sample);
         }
-        let guess = if sample == 1 { leads[1] } else { leads[1] * 2.0 - leads[0] };
-        let (posture, centre) = follow(humanoid, legs, reference, torso_height, guess, last)
+        let centre = pursuit
+            .follow(humanoid, legs, reference, torso_height)
             .map_err(|error| error.with_context(format!("t = {:.2} s", sample as f64 * tick)))?;
-        leads = [leads[1], posture.world_from_torso.translation.vector.xy() - reference.centre.coords];
-        last = posture.clone();
-        motion.postures.push(posture);
+        motion.postures.push(pursuit.last.clone());
         motion.centres.push(centre);
     }
     Ok(motion)
 }
 
-/// The posture whose centre of mass is where `reference` asks for it; `lead` is how far the torso may be from there.
-fn follow(
-    humanoid: &Humanoid,
-    legs: &impl Legs,
-    reference: &Reference,
-    torso_height: f64,
-    lead: Vector2<f64>,
-    mut last: Posture,
-) -> Result<(Posture, Point3<f64>)> {
-    let mut torso: Point2<f64> = reference.centre + lead;
-    for _ in 0..MOST_CORRECTIONS {
-        let at = Point3::new(torso.x, torso.y, torso_height);
-        last = legs.stand(&reference.world_from_soles, &at, &last)?;
-        let centre = humanoid.body.place(&last.world_from_torso, &last.q)?.centre_of_mass();
-        let miss = reference.centre - centre.xy();
-        if miss.norm() <= NEAR {
-            return Ok((last, centre));
+/// The torso on the way: where it was, and how the centre of mass answers to it.
+struct Pursuit {
+    /// The posture at the last sample.
+    last: Posture,
+    /// How far the torso was from the centre of mass that was asked for, at up to three last samples, the latest first.
+    leads: Vec<Vector2<f64>>,
+    /// How far the torso moves for a move of the centre of mass, along x and y.
+    gains: Vector2<f64>,
+}
+
+impl Pursuit {
+    /// Moves the torso until the centre of mass is where `reference` asks for it, by secants; returns the centre of mass.
+    fn follow(
+        &mut self,
+        humanoid: &Humanoid,
+        legs: &impl Legs,
+        reference: &Reference,
+        torso_height: f64,
+    ) -> Result<Point3<f64>> {
+        let mut torso = reference.centre + self.guess();
+        let mut before: Option<(Point2<f64>, Point2<f64>)> = None;
+        for _ in 0..MOST_CORRECTIONS {
+            let at = Point3::new(torso.x, torso.y, torso_height);
+            self.last = legs.stand(&reference.world_from_soles, &at, &self.last)?;
+            let centre = humanoid.body.place(&self.last.world_from_torso, &self.last.q)?.centre_of_mass();
+            let miss = reference.centre - centre.xy();
+            if miss.norm() <= NEAR {
+                self.leads.insert(0, torso - reference.centre);
+                self.leads.truncate(3);
+                return Ok(centre);
+            }
+            if let Some((torso_before, centre_before)) = before {
+                self.learn(&(torso - torso_before), &(centre.xy() - centre_before));
+            }
+            before = Some((torso, centre.xy()));
+            torso += miss.component_mul(&self.gains);
         }
-        torso += miss * LEAD;
+        let text =
+            "the centre of mass cannot be brought to where the gait asks for it; lower the hip or shorten the steps";
+        Err(Error::new(ErrorKind::BadValue, text))
     }
-    let text = "the centre of mass cannot be brought to where the gait asks for it; lower the hip or shorten the steps";
-    Err(Error::new(ErrorKind::BadValue, text))
+
+    /// How far the torso will be from the centre of mass: by the parabola through the last three samples.
+    fn guess(&self) -> Vector2<f64> {
+        match self.leads[..] {
+            [] => Vector2::zeros(),
+            [a] => a,
+            [a, b] => a * 2.0 - b,
+            [a, b, c, ..] => (a - b) * 3.0 + c,
+        }
+    }
+
+    /// Takes the gains from a move of the torso and what it did, where it was large enough to be measured.
+    fn learn(&mut self, moved: &Vector2<f64>, answered: &Vector2<f64>) {
+        for axis in 0..2 {
+            let gain = moved[axis] / answered[axis];
+            if answered[axis].abs() > NEAR && gain.is_finite() {
+                self.gains[axis] = gain.clamp(GAINS.0, GAINS.1);
+            }
+        }
+    }
 }

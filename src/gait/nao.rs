@@ -85,7 +85,8 @@ impl NaoLegs {
 
 impl Legs for NaoLegs {
     fn stand(&self, world_from_soles: &[Pose; 2], torso: &Point3<f64>, last: &Posture) -> Result<Posture> {
-        let at = |yaw: f64| Pose::from_parts(torso.coords.into(), UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw));
+        let at =
+            |yaw: f64| Pose::from_parts(torso.coords.into(), UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw));
         let solve = |yaw: f64| {
             let legs = self.both(&at(yaw), world_from_soles, last)?;
             Ok((legs, angle::difference(legs[0][0], legs[1][0])))
@@ -129,7 +130,8 @@ fn shared_motor(start: f64, solve: impl Fn(f64) -> Result<([Leg; 2], f64)>) -> R
     if miss.abs() <= ROUNDED {
         return Ok((yaw, legs));
     }
-    let text = "no heading of the torso lets both legs share the motor of HipYawPitch; turn the feet less against one another";
+    let text =
+        "no heading of the torso lets both legs share the motor of HipYawPitch; turn the feet less against one another";
     Err(Error::new(ErrorKind::BadValue, text))
 }
 
@@ -137,9 +139,7 @@ fn shared_motor(start: f64, solve: impl Fn(f64) -> Result<([Leg; 2], f64)>) -> R
 fn target(torso_from_sole: &Pose) -> [f64; 12] {
     let (p, r) = (torso_from_sole.translation.vector, torso_from_sole.rotation.to_rotation_matrix());
     let r = r.matrix();
-    [
-        p.x, p.y, p.z, r[(0, 0)], r[(0, 1)], r[(0, 2)], r[(1, 0)], r[(1, 1)], r[(1, 2)], r[(2, 0)], r[(2, 1)], r[(2, 2)],
-    ]
+    [p.x, p.y, p.z, r[(0, 0)], r[(0, 1)], r[(0, 2)], r[(1, 0)], r[(1, 1)], r[(1, 2)], r[(2, 0)], r[(2, 1)], r[(2, 2)]]
 }
 
 /// The solution of a leg that is nearest to `near`; `None` when the target is out of reach.

@@ -86,7 +86,8 @@ pub fn plan(humanoid: &Humanoid, legs: &impl Legs, request: &Request, watch: &Wa
     loop {
         let schedule = Schedule::new(request.route.clone(), &request.durations, &slowed, TICK);
         if schedule.samples() > MOST_SAMPLES {
-            let text = format!("the walk would last {:.0} s; walk fewer steps or faster", schedule.samples() as f64 * TICK);
+            let text =
+                format!("the walk would last {:.0} s; walk fewer steps or faster", schedule.samples() as f64 * TICK);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let mut references = references(&request.style, &schedule);
@@ -97,11 +98,8 @@ pub fn plan(humanoid: &Humanoid, legs: &impl Legs, request: &Request, watch: &Wa
             Gait::Seed => moved(humanoid, legs, request, &references, watch)?,
             Gait::Preview => preview::moved(humanoid, legs, request, &schedule, &mut references, watch)?,
         };
-        let demand = Demand {
-            margin: request.margin,
-            statically: request.gait == Gait::Seed,
-            speed_share: request.speed_share,
-        };
+        let demand =
+            Demand { margin: request.margin, statically: request.gait == Gait::Seed, speed_share: request.speed_share };
         let found = faults(humanoid, &references, &motion, &balances, &demand, TICK);
         if found.is_empty() {
             return Ok(Walk { request: request.clone(), schedule, references, motion, balances });

@@ -11,7 +11,8 @@ pub struct Polygon {
 impl Polygon {
     /// The convex hull of `points` (Andrew 1979). Points that are not finite are left out.
     pub fn hull(points: &[Point2<f64>]) -> Self {
-        let mut sorted: Vec<Point2<f64>> = points.iter().filter(|p| p.x.is_finite() && p.y.is_finite()).copied().collect();
+        let mut sorted: Vec<Point2<f64>> =
+            points.iter().filter(|p| p.x.is_finite() && p.y.is_finite()).copied().collect();
         sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         sorted.dedup();
         if sorted.len() < 3 {

@@ -123,7 +123,13 @@ fn riccati(a: &Matrix4<f64>, b: &Vector4<f64>) -> Option<Matrix4<f64>> {
 }
 
 /// Where the zero moment point is to be: over the foot that stands while the other one swings, and on a smooth way from foot to foot.
-pub fn zmp_reference(style: &Style, schedule: &Schedule, action: Action, feet: &[Footprint; 2], share: f64) -> Point2<f64> {
+pub fn zmp_reference(
+    style: &Style,
+    schedule: &Schedule,
+    action: Action,
+    feet: &[Footprint; 2],
+    share: f64,
+) -> Point2<f64> {
     match action {
         Action::Rest => style.between(feet),
         Action::Swing(step) => style.ends(schedule, step, feet)[1],

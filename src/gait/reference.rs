@@ -71,7 +71,13 @@ impl Style {
 
 /// The seed's law, NAO (6.8.1): on both feet the centre of mass follows `y = A sin(pi x / x_d)` with x from `-x_d/2` to `x_d/2`; over one
 /// foot it stays. The first shift starts, and the last one ends, at `x = 0`, where the curve crosses the middle.
-pub fn seed_centre(style: &Style, schedule: &Schedule, action: Action, feet: &[Footprint; 2], share: f64) -> Point2<f64> {
+pub fn seed_centre(
+    style: &Style,
+    schedule: &Schedule,
+    action: Action,
+    feet: &[Footprint; 2],
+    share: f64,
+) -> Point2<f64> {
     match action {
         Action::Rest => style.between(feet),
         Action::Swing(step) => style.ends(schedule, step, feet)[1],
@@ -97,14 +103,26 @@ fn along_sine(from: &Point2<f64>, to: &Point2<f64>, middle: &Footprint, u: f64) 
     nalgebra::center(from, to) + ahead * u + aside * (0.5 * (std::f64::consts::PI * u).sin())
 }
 
+/// The shares of a swing between which the foot moves ahead: it leaves the floor before, and lands behind, so that a robot whose servos
+/// sag does not drag it.
+const AHEAD: (f64, f64) = (0.1, 0.8);
+
 /// The poses of the soles, and which feet stand, at the share `share` of a phase: the swinging foot is lifted in the plane of its way.
-pub fn soles(style: &Style, schedule: &Schedule, action: Action, feet: &[Footprint; 2], share: f64) -> ([Pose; 2], [bool; 2]) {
+pub fn soles(
+    style: &Style,
+    schedule: &Schedule,
+    action: Action,
+    feet: &[Footprint; 2],
+    share: f64,
+) -> ([Pose; 2], [bool; 2]) {
     let mut poses = feet.map(|print| print.at_height(0.0));
     let mut stands = [true; 2];
     if let Action::Swing(step) = action {
         let step = schedule.route.steps[step];
         let place = step.side as usize;
-        poses[place] = feet[place].towards(&step.print, smooth(share)).at_height(style.lift * arch(share));
+        poses[place] = feet[place]
+            .towards(&step.print, smooth((share - AHEAD.0) / (AHEAD.1 - AHEAD.0)))
+            .at_height(style.lift * arch(share));
         stands[place] = share >= 1.0;
     }
     (poses, stands)

@@ -139,7 +139,8 @@ fn link(table: &Table<'_>, chain: &Chain, place: usize, prefix: &str, parent: Op
         let text = format!("joint {place} of the chain is `{}`; list its joints in order", joint.name);
         return Err(named.error(ErrorKind::UnknownName, text));
     }
-    let missing = || named.error(ErrorKind::MissingKey, "the chain gives no limits of this joint; a whole robot needs them");
+    let missing =
+        || named.error(ErrorKind::MissingKey, "the chain gives no limits of this joint; a whole robot needs them");
     Ok(WholeLink {
         name: table.required("name")?.text()?.to_owned(),
         joint: format!("{prefix}{}", joint.name),
@@ -182,9 +183,10 @@ fn sole(table: &Table<'_>, tips: &[LimbTip]) -> Result<Sole> {
     table.deny_unknown(&["limb", "x", "y", "seed"])?;
     let named = table.required("limb")?;
     let name = named.text()?;
-    let tip = tips.iter().find(|tip| tip.chain == name).ok_or_else(|| -> Error {
-        named.error(ErrorKind::UnknownName, "no limb of this robot has that chain")
-    })?;
+    let tip = tips
+        .iter()
+        .find(|tip| tip.chain == name)
+        .ok_or_else(|| -> Error { named.error(ErrorKind::UnknownName, "no limb of this robot has that chain") })?;
     let measured = [table.required("x")?.float_vector::<2>()?.into(), table.required("y")?.float_vector::<2>()?.into()];
     let size = table.required("seed")?.float_vector::<2>()?;
     let about = |(low, high): (f64, f64), size: f64| ((low + high - size) / 2.0, (low + high + size) / 2.0);

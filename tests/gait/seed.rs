@@ -25,8 +25,15 @@ fn try_it() {
             Ok(walk) => {
                 let worst = walk.balances.iter().map(|b| b.margin).fold(f64::INFINITY, f64::min);
                 let gap = walk.balances.iter().map(|b| (b.zmp - b.pendulum).norm()).fold(0.0, f64::max);
-                println!("{gait:?} {turn}: {} samples, margin {worst:.4}, zmp-lipm {gap:.4} in {:?}", walk.balances.len(), start.elapsed());
-                println!("{:?}", walk.schedule.phases.iter().map(|p| (p.slowed * 100.0).round() / 100.0).collect::<Vec<_>>());
+                println!(
+                    "{gait:?} {turn}: {} samples, margin {worst:.4}, zmp-lipm {gap:.4} in {:?}",
+                    walk.balances.len(),
+                    start.elapsed()
+                );
+                println!(
+                    "{:?}",
+                    walk.schedule.phases.iter().map(|p| (p.slowed * 100.0).round() / 100.0).collect::<Vec<_>>()
+                );
             }
             Err(error) => println!("{gait:?} {turn} {error}"),
         }

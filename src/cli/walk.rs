@@ -1,0 +1,219 @@
+//! `groebot walk`: joint angles of a walk that does not fall, with their proof by the zero moment point.
+
+use std::path::{Path, PathBuf};
+
+use super::progress::{Limits, Session};
+use super::{Outcome, console};
+use crate::document::read_text;
+use crate::files::write_atomically;
+use crate::gait::{Durations, Gait, Humanoid, Outline, Regular, Request, Route, Side, Style, Summary, Walk, nao, plan};
+use crate::{Error, ErrorKind, Result};
+
+/// The longest file of footsteps, in bytes.
+const FOOTSTEPS_LIMIT: u64 = 4_000_000;
+/// From the axes of the hip up to the origin of the torso \[m\]: HipOffsetZ of NAO Table 6.1.
+const HIP_TO_TORSO: f64 = 0.085;
+/// Half of the way from foot to foot \[m\]: HipOffsetY of NAO Table 6.1.
+const HALF_WIDTH: f64 = 0.05;
+
+const EXAMPLES: &str = "Examples:
+  groebot walk nao --steps 8 -o walk.csv --plot walk.svg
+  groebot walk nao --steps 8 --length 0 --turn 40 -o turn.csv
+  groebot walk nao --steps 12 --gait preview -o dynamic.csv
+  groebot walk nao --footsteps steps.csv -o curve.json
+
+Metres, seconds; degrees for --turn and in the summary, radians in files. The last step closes the feet: 8 steps of 0.04 m lead 0.28 m ahead.
+A file of footsteps has the header foot,x,y,yaw and a line for each step: left or right, metres, radians; it starts at the origin.
+Rows are 0.01 s apart. A phase that would be unstable or too fast is slowed down; a walk that no slower phase makes stable is refused.";
+
+/// How the centre of mass is moved.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum GaitName {
+    /// The seed's sine: over one foot the centre of mass rests
+    Seed,
+    /// Preview control of the zero moment point: the centre of mass never rests
+    Preview,
+}
+
+/// Which soles.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum SoleName {
+    /// As measured on the robot
+    Measured,
+    /// 160 x 90 mm, as the seed has it
+    Seed,
+}
+
+/// Which foot steps first.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum FootName {
+    /// The left foot
+    Left,
+    /// The right foot
+    Right,
+}
+
+/// The robot that walks.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum RobotName {
+    /// NAO V5
+    Nao,
+}
+
+/// Plans a walk that keeps its zero moment point over the feet, with joint angles by the derived solver
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The robot
+    robot: RobotName,
+    /// The number of steps; the last one closes the feet
+    #[arg(long, default_value_t = 8, conflicts_with = "footsteps")]
+    steps: usize,
+    /// x_d: how far ahead of the standing foot the other one lands [m]
+    #[arg(
+        long,
+        default_value_t = 0.04,
+        value_name = "METRES",
+        allow_hyphen_values = true,
+        conflicts_with = "footsteps"
+    )]
+    length: f64,
+    /// The turn of the whole walk, anticlockwise [degrees]
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        value_name = "DEGREES",
+        allow_hyphen_values = true,
+        conflicts_with = "footsteps"
+    )]
+    turn: f64,
+    /// The foot that steps first
+    #[arg(long, value_enum, default_value = "left", conflicts_with = "footsteps")]
+    first: FootName,
+    /// Footsteps from a CSV file
+    #[arg(long, value_name = "FILE")]
+    footsteps: Option<PathBuf>,
+    /// How the centre of mass is moved
+    #[arg(long, value_enum, default_value = "seed")]
+    gait: GaitName,
+    /// z_d: how high a foot is lifted [m] [default: 0.02, or 0.03 with --gait preview]
+    #[arg(long, value_name = "METRES")]
+    lift: Option<f64>,
+    /// A: how far to the side the centre of mass goes [m]
+    #[arg(long, default_value_t = 0.05, value_name = "METRES")]
+    amplitude: f64,
+    /// The height of the axes of the hip over the floor [m]
+    #[arg(long, default_value_t = 0.225, value_name = "METRES")]
+    hip_height: f64,
+    /// How far ahead of the ankles the centre of mass is held [m]
+    #[arg(long, default_value_t = 0.015, value_name = "METRES", allow_hyphen_values = true)]
+    ahead: f64,
+    /// The time of a step [s] [default: 1.4, or 0.65 with --gait preview]
+    #[arg(long, value_name = "SECONDS")]
+    period: Option<f64>,
+    /// The share of a step in which both feet stand [default: 0.6, or 0.3 with --gait preview]
+    #[arg(long, value_name = "SHARE")]
+    double_support: Option<f64>,
+    /// How long the robot stands before the first and behind the last step [s] [default: 0.5, or 1.5 with --gait preview]
+    #[arg(long, value_name = "SECONDS")]
+    rest: Option<f64>,
+    /// The least distance of the zero moment point from the border of the support polygon [m]
+    #[arg(long, default_value_t = 0.01, value_name = "METRES")]
+    margin: f64,
+    /// The greatest share of its own speed that a joint may have
+    #[arg(long, default_value_t = 0.9, value_name = "SHARE")]
+    speed: f64,
+    /// The outline of the soles
+    #[arg(long, value_enum, default_value = "measured")]
+    sole: SoleName,
+    /// Where the joint angles go: CSV, or JSON when the name ends in .json
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Where the same goes as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Where the picture goes, SVG
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// No progress and no summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Plans the walk and writes what is asked for.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let outline = match arguments.sole {
+        SoleName::Measured => Outline::Measured,
+        SoleName::Seed => Outline::Seed,
+    };
+    let (humanoid, legs) = match arguments.robot {
+        RobotName::Nao => nao(outline)?,
+    };
+    let request = arguments.request()?;
+    let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
+    let walk = plan(&humanoid, &legs, &request, &session.watch)?;
+    drop(session);
+    arguments.write(&humanoid, &walk)?;
+    if arguments.quiet {
+        return Ok(());
+    }
+    console::print(&Summary::of(&humanoid, &walk).to_string())
+}
+
+impl Arguments {
+    fn request(&self) -> Result<Request> {
+        let (gait, lift, period, double, rest) = match self.gait {
+            GaitName::Seed => (Gait::Seed, 0.02, 1.4, 0.6, 0.5),
+            GaitName::Preview => (Gait::Preview, 0.03, 0.65, 0.3, 1.5),
+        };
+        let period = self.period.unwrap_or(period);
+        let double = self.double_support.unwrap_or(double);
+        if !(double > 0.0 && double < 1.0) {
+            let text = format!("--double-support is {double}; give a share between 0 and 1");
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let style = Style {
+            lift: self.lift.unwrap_or(lift),
+            amplitude: self.amplitude,
+            half_width: HALF_WIDTH,
+            ahead: self.ahead,
+            torso_height: self.hip_height + HIP_TO_TORSO,
+        };
+        let durations =
+            Durations { rest: self.rest.unwrap_or(rest), shift: period * double, swing: period * (1.0 - double) };
+        let (margin, speed_share) = (self.margin, self.speed);
+        Ok(Request { route: self.route()?, gait, style, durations, margin, speed_share })
+    }
+
+    fn route(&self) -> Result<Route> {
+        if let Some(file) = &self.footsteps {
+            let text = read_text(file, FOOTSTEPS_LIMIT)?;
+            return Route::from_csv(&text, HALF_WIDTH).map_err(|error| error.in_file(file));
+        }
+        Route::regular(&Regular {
+            steps: self.steps,
+            length: self.length,
+            turn: self.turn.to_radians(),
+            half_width: HALF_WIDTH,
+            first: match self.first {
+                FootName::Left => Side::Left,
+                FootName::Right => Side::Right,
+            },
+        })
+    }
+
+    fn write(&self, humanoid: &Humanoid, walk: &Walk) -> Result<()> {
+        let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+        if let Some(file) = &self.out {
+            let text = if is_json(file) { walk.to_json(humanoid) } else { walk.to_csv(humanoid) };
+            write_atomically(file, text.as_bytes())?;
+        }
+        if let Some(file) = &self.json {
+            write_atomically(file, walk.to_json(humanoid).as_bytes())?;
+        }
+        if let Some(file) = &self.plot {
+            write_atomically(file, walk.to_svg(humanoid).as_bytes())?;
+        }
+        Ok(())
+    }
+}
