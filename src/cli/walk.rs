@@ -69,15 +69,9 @@ pub struct Arguments {
     /// The number of steps; the last one closes the feet
     #[arg(long, default_value_t = 8, conflicts_with = "footsteps")]
     steps: usize,
-    /// x_d: how far ahead of the standing foot the other one lands [m]
-    #[arg(
-        long,
-        default_value_t = 0.04,
-        value_name = "METRES",
-        allow_hyphen_values = true,
-        conflicts_with = "footsteps"
-    )]
-    length: f64,
+    /// x_d: how far ahead of the standing foot the other one lands [m] [default: 0.04, or 0.05 with --gait preview]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true, conflicts_with = "footsteps")]
+    length: Option<f64>,
     /// The turn of the whole walk, anticlockwise [degrees]
     #[arg(
         long,
@@ -103,15 +97,15 @@ pub struct Arguments {
     #[arg(long, default_value_t = 0.05, value_name = "METRES")]
     amplitude: f64,
     /// The height of the axes of the hip over the floor [m]
-    #[arg(long, default_value_t = 0.225, value_name = "METRES")]
+    #[arg(long, default_value_t = 0.228, value_name = "METRES")]
     hip_height: f64,
     /// How far ahead of the ankles the centre of mass is held [m]
-    #[arg(long, default_value_t = 0.015, value_name = "METRES", allow_hyphen_values = true)]
+    #[arg(long, default_value_t = 0.005, value_name = "METRES", allow_hyphen_values = true)]
     ahead: f64,
-    /// The time of a step [s] [default: 1.4, or 0.65 with --gait preview]
+    /// The time of a step [s] [default: 1.5, or 0.8 with --gait preview]
     #[arg(long, value_name = "SECONDS")]
     period: Option<f64>,
-    /// The share of a step in which both feet stand [default: 0.6, or 0.3 with --gait preview]
+    /// The share of a step in which both feet stand [default: 0.64, or 0.3 with --gait preview]
     #[arg(long, value_name = "SHARE")]
     double_support: Option<f64>,
     /// How long the robot stands before the first and behind the last step [s] [default: 0.5, or 1.5 with --gait preview]
@@ -160,39 +154,58 @@ pub fn run(arguments: &Arguments) -> Outcome {
     console::print(&Summary::of(&humanoid, &walk).to_string())
 }
 
+/// The figures that a gait has unless others are given.
+struct Defaults {
+    gait: Gait,
+    length: f64,
+    lift: f64,
+    period: f64,
+    double_support: f64,
+    rest: f64,
+}
+
+const SEED: Defaults =
+    Defaults { gait: Gait::Seed, length: 0.04, lift: 0.02, period: 1.5, double_support: 0.64, rest: 0.5 };
+const PREVIEW: Defaults =
+    Defaults { gait: Gait::Preview, length: 0.05, lift: 0.03, period: 0.8, double_support: 0.3, rest: 1.5 };
+
 impl Arguments {
     fn request(&self) -> Result<Request> {
-        let (gait, lift, period, double, rest) = match self.gait {
-            GaitName::Seed => (Gait::Seed, 0.02, 1.4, 0.6, 0.5),
-            GaitName::Preview => (Gait::Preview, 0.03, 0.65, 0.3, 1.5),
+        let defaults = match self.gait {
+            GaitName::Seed => SEED,
+            GaitName::Preview => PREVIEW,
         };
-        let period = self.period.unwrap_or(period);
-        let double = self.double_support.unwrap_or(double);
+        let period = self.period.unwrap_or(defaults.period);
+        let double = self.double_support.unwrap_or(defaults.double_support);
         if !(double > 0.0 && double < 1.0) {
             let text = format!("--double-support is {double}; give a share between 0 and 1");
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let style = Style {
-            lift: self.lift.unwrap_or(lift),
+            lift: self.lift.unwrap_or(defaults.lift),
             amplitude: self.amplitude,
             half_width: HALF_WIDTH,
             ahead: self.ahead,
             torso_height: self.hip_height + HIP_TO_TORSO,
         };
-        let durations =
-            Durations { rest: self.rest.unwrap_or(rest), shift: period * double, swing: period * (1.0 - double) };
-        let (margin, speed_share) = (self.margin, self.speed);
-        Ok(Request { route: self.route()?, gait, style, durations, margin, speed_share })
+        let durations = Durations {
+            rest: self.rest.unwrap_or(defaults.rest),
+            shift: period * double,
+            swing: period * (1.0 - double),
+        };
+        let (gait, margin, speed_share) = (defaults.gait, self.margin, self.speed);
+        let route = self.route(defaults.length)?;
+        Ok(Request { route, gait, style, durations, margin, speed_share })
     }
 
-    fn route(&self) -> Result<Route> {
+    fn route(&self, length: f64) -> Result<Route> {
         if let Some(file) = &self.footsteps {
             let text = read_text(file, FOOTSTEPS_LIMIT)?;
             return Route::from_csv(&text, HALF_WIDTH).map_err(|error| error.in_file(file));
         }
         Route::regular(&Regular {
             steps: self.steps,
-            length: self.length,
+            length: self.length.unwrap_or(length),
             turn: self.turn.to_radians(),
             half_width: HALF_WIDTH,
             first: match self.first {

@@ -111,15 +111,19 @@ impl Walk {
         svg.add(format_args!(
             r#"<text x="{MARGIN}" y="38"><tspan class="com-key">centre of mass</tspan>, <tspan class="zmp-key">zero moment point</tspan>, left and right soles by the number of their step</text>"#
         ));
-        for (place, (side, print)) in self.prints().iter().enumerate() {
-            let corners: Vec<String> = sole(humanoid, *side, print)
-                .iter()
-                .map(|corner| view.at(corner))
-                .map(|(x, y)| format!("{x:.1},{y:.1}"))
-                .collect();
+        let prints = self.prints();
+        for (side, print) in &prints {
+            let corners = sole(humanoid, *side, print).into_iter().map(|corner| view.at(&corner));
+            let corners: Vec<String> = corners.map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
             svg.add(format_args!(r#"<polygon class="{}" points="{}"/>"#, side.name(), corners.join(" ")));
-            let (x, y) = view.at(&print.carry(&Point2::new(0.08, 0.0)));
-            svg.text(x, y, &place.checked_sub(1).map_or("start".into(), |step| step.to_string()));
+        }
+        for (place, (_, print)) in prints.iter().enumerate() {
+            let (x, y) = view.at(&print.carry(&Point2::new(0.085, 0.0)));
+            svg.text(
+                x,
+                y,
+                &place.checked_sub(1).filter(|step| *step > 0).map_or("start".into(), |step| step.to_string()),
+            );
         }
         svg.line("zmp", self.balances.iter().map(|balance| view.at(&balance.zmp)));
         svg.line("com", self.balances.iter().map(|balance| view.at(&balance.pressure)));

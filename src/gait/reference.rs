@@ -105,7 +105,7 @@ fn along_sine(from: &Point2<f64>, to: &Point2<f64>, middle: &Footprint, u: f64) 
 
 /// The shares of a swing between which the foot moves ahead: it leaves the floor before, and lands behind, so that a robot whose servos
 /// sag does not drag it.
-const AHEAD: (f64, f64) = (0.1, 0.8);
+const AHEAD: (f64, f64) = (0.05, 0.9);
 
 /// The poses of the soles, and which feet stand, at the share `share` of a phase: the swinging foot is lifted in the plane of its way.
 pub fn soles(
