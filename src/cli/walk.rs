@@ -102,10 +102,10 @@ pub struct Arguments {
     /// How far ahead of the ankles the centre of mass is held [m]
     #[arg(long, default_value_t = 0.005, value_name = "METRES", allow_hyphen_values = true)]
     ahead: f64,
-    /// The time of a step [s] [default: 1.5, or 0.8 with --gait preview]
+    /// The time of a step [s] [default: 1.6, or 0.8 with --gait preview]
     #[arg(long, value_name = "SECONDS")]
     period: Option<f64>,
-    /// The share of a step in which both feet stand [default: 0.64, or 0.3 with --gait preview]
+    /// The share of a step in which both feet stand [default: 0.66, or 0.3 with --gait preview]
     #[arg(long, value_name = "SHARE")]
     double_support: Option<f64>,
     /// How long the robot stands before the first and behind the last step [s] [default: 0.5, or 1.5 with --gait preview]
@@ -165,7 +165,7 @@ struct Defaults {
 }
 
 const SEED: Defaults =
-    Defaults { gait: Gait::Seed, length: 0.04, lift: 0.02, period: 1.5, double_support: 0.64, rest: 0.5 };
+    Defaults { gait: Gait::Seed, length: 0.04, lift: 0.02, period: 1.6, double_support: 0.66, rest: 0.5 };
 const PREVIEW: Defaults =
     Defaults { gait: Gait::Preview, length: 0.05, lift: 0.03, period: 0.8, double_support: 0.3, rest: 1.5 };
 

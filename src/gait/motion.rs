@@ -1,21 +1,29 @@
 //! From what is asked of feet and centre of mass to joint angles, sample by sample. Main type: [`Motion`].
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use nalgebra::{Point2, Point3, Vector2};
 
+use super::footprint::Footprint;
 use super::humanoid::Humanoid;
 use super::legs::{Legs, Posture};
 use super::reference::Reference;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How near the centre of mass comes to where it is asked to be \[m\]. What is left moves the zero moment point by about a thousand
-/// times as much.
-const NEAR: f64 = 1e-8;
+/// How near the centre of mass comes to where it is asked to be \[m\]. What is left varies slowly from sample to sample; where it jumps,
+/// the zero moment point moves by at most a thousand times as much, which its margins count.
+const NEAR: f64 = 5e-7;
+/// How far the centre of mass must move to tell the gains \[m\].
+const TELLING: f64 = 1e-7;
 /// The most corrections of the torso at a sample; two or three are needed.
 const MOST_CORRECTIONS: usize = 30;
 /// How much further the torso must move than the centre of mass is to move, at first: the legs lag behind.
 const FIRST_GAIN: f64 = 1.25;
 /// Between which values the gain is kept as it is measured.
 const GAINS: (f64, f64) = (1.0, 2.0);
+/// In how many parts a walk is solved, each on a thread of its own; their number does not depend on the machine, so that the same walk
+/// comes out everywhere.
+const PARTS: usize = 4;
 /// After how many samples progress is told.
 const REPORTED: usize = 64;
 
@@ -35,27 +43,38 @@ pub struct Motion {
 /// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
 pub fn realise(
     humanoid: &Humanoid,
-    legs: &impl Legs,
+    legs: &(impl Legs + Sync),
     references: &[Reference],
     torso_height: f64,
     tick: f64,
     watch: &Watch,
 ) -> Result<Motion> {
-    let count = references.len();
-    let mut motion = Motion { postures: Vec::with_capacity(count), centres: Vec::with_capacity(count) };
-    let mut pursuit = Pursuit { last: legs.crouch(), leads: Vec::new(), gains: Vector2::repeat(FIRST_GAIN) };
-    for (sample, reference) in references.iter().enumerate() {
-        if sample % REPORTED == 0 {
-            watch.check()?;
-            watch.report("samples of the walk", sample, count - sample);
-        }
-        let centre = pursuit
-            .follow(humanoid, legs, reference, torso_height)
-            .map_err(|error| error.with_context(format!("t = {:.2} s", sample as f64 * tick)))?;
-        motion.postures.push(pursuit.last.clone());
-        motion.centres.push(centre);
-    }
-    Ok(motion)
+    let done = AtomicUsize::new(0);
+    let size = references.len().div_ceil(PARTS).max(1);
+    let solve = |(place, part): (usize, &[Reference])| {
+        let mut pursuit = Pursuit::new(legs, part);
+        let solved = part.iter().enumerate().map(|(sample, reference)| {
+            if sample % REPORTED == 0 {
+                watch.check()?;
+                let done = done.fetch_add(REPORTED.min(part.len() - sample), Ordering::Relaxed);
+                watch.report("samples of the walk", done, references.len() - done);
+            }
+            let time = (place * size + sample) as f64 * tick;
+            let centre = pursuit.follow(humanoid, legs, reference, torso_height);
+            let centre = centre.map_err(|error| error.with_context(format!("t = {time:.2} s")))?;
+            Ok((pursuit.last.clone(), centre))
+        });
+        solved.collect::<Result<Vec<_>>>()
+    };
+    let parts: Vec<Result<Vec<_>>> = std::thread::scope(|scope| {
+        let spawned: Vec<_> =
+            references.chunks(size).enumerate().map(|part| scope.spawn(move || solve(part))).collect();
+        let joined = spawned.into_iter().map(|part| part.join());
+        joined.map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+    });
+    let samples = parts.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten();
+    let (postures, centres) = samples.unzip();
+    Ok(Motion { postures, centres })
 }
 
 /// The torso on the way: where it was, and how the centre of mass answers to it.
@@ -69,6 +88,18 @@ struct Pursuit {
 }
 
 impl Pursuit {
+    /// Before the first of `references`: a crouch above the feet.
+    fn new(legs: &impl Legs, references: &[Reference]) -> Self {
+        let mut last = legs.crouch();
+        if let Some(reference) = references.first() {
+            let [left, right] = reference.world_from_soles.each_ref().map(|sole| sole.rotation.euler_angles().2);
+            let middle = Footprint { yaw: left, ..Footprint::default() }
+                .middle(&Footprint { yaw: right, ..Footprint::default() });
+            last.world_from_torso = middle.at_height(0.0);
+        }
+        Pursuit { last, leads: Vec::new(), gains: Vector2::repeat(FIRST_GAIN) }
+    }
+
     /// Moves the torso until the centre of mass is where `reference` asks for it, by secants; returns the centre of mass.
     fn follow(
         &mut self,
@@ -85,7 +116,7 @@ impl Pursuit {
             let centre = humanoid.body.place(&self.last.world_from_torso, &self.last.q)?.centre_of_mass();
             let miss = reference.centre - centre.xy();
             if miss.norm() <= NEAR {
-                self.leads.insert(0, torso - reference.centre);
+                self.leads.insert(0, torso - reference.centre + miss.component_mul(&self.gains));
                 self.leads.truncate(3);
                 return Ok(centre);
             }
@@ -114,7 +145,7 @@ impl Pursuit {
     fn learn(&mut self, moved: &Vector2<f64>, answered: &Vector2<f64>) {
         for axis in 0..2 {
             let gain = moved[axis] / answered[axis];
-            if answered[axis].abs() > NEAR && gain.is_finite() {
+            if answered[axis].abs() > TELLING && gain.is_finite() {
                 self.gains[axis] = gain.clamp(GAINS.0, GAINS.1);
             }
         }

@@ -80,7 +80,7 @@ impl Walk {
 /// [`ErrorKind::BadValue`] with the first time and the reason: a foot out of reach, a joint beyond its limits, feet that meet, a centre of
 /// mass too near to the border, a margin that no slower phase keeps, a figure of the gait that is not finite or not positive;
 /// [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
-pub fn plan(humanoid: &Humanoid, legs: &impl Legs, request: &Request, watch: &Watch) -> Result<Walk> {
+pub fn plan(humanoid: &Humanoid, legs: &(impl Legs + Sync), request: &Request, watch: &Watch) -> Result<Walk> {
     refusal::check(request)?;
     let mut slowed = vec![1.0; Schedule::count(request.route.steps.len())];
     loop {
@@ -114,7 +114,7 @@ pub fn plan(humanoid: &Humanoid, legs: &impl Legs, request: &Request, watch: &Wa
 /// As [`realise`] and [`balance`].
 pub(super) fn moved(
     humanoid: &Humanoid,
-    legs: &impl Legs,
+    legs: &(impl Legs + Sync),
     request: &Request,
     references: &[Reference],
     watch: &Watch,

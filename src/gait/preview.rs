@@ -146,7 +146,7 @@ pub fn zmp_reference(
 /// As the motion of given references.
 pub(super) fn moved(
     humanoid: &Humanoid,
-    legs: &impl Legs,
+    legs: &(impl Legs + Sync),
     request: &Request,
     schedule: &Schedule,
     references: &mut [Reference],
