@@ -6,6 +6,9 @@ use groebot::gait::{Action, Regular, Side, Walk, arch, smooth};
 
 use super::{regular, request, robot, walk};
 
+/// How far the centre of mass may be from the law \[m\]: the motion is solved to half of it.
+const MICROMETRE: f64 = 1e-6;
+
 /// Samples with the action of their phase.
 fn actions(walk: &Walk) -> impl Iterator<Item = (usize, Action)> + '_ {
     walk.references.iter().enumerate().map(|(sample, reference)| (sample, walk.schedule.phases[reference.phase].action))
@@ -21,13 +24,13 @@ fn feet_stand_until_the_centre_of_mass_is_50_mm_aside() {
         match action {
             Action::Swing(step) => {
                 let stance = walk.schedule.route.steps[step].side.other();
-                assert!((y - stance.sign() * 0.05).abs() < 1e-7, "{sample}: {y}");
+                assert!((y - stance.sign() * 0.05).abs() < MICROMETRE, "{sample}: {y}");
                 swings += 1;
             }
             Action::Rest | Action::Shift(_) => {
                 assert_eq!(walk.references[sample].stands, [true; 2], "{sample}");
                 assert!(walk.references[sample].world_from_soles.iter().all(|sole| sole.translation.z == 0.0));
-                assert!(y.abs() <= 0.05 + 1e-7);
+                assert!(y.abs() <= 0.05 + MICROMETRE);
             }
         }
     }
@@ -45,8 +48,8 @@ fn on_both_feet_the_centre_of_mass_follows_the_sine() {
         // Before step 1 the feet stand at 0 and 40 mm: the middle is at 20 mm; and so on.
         let x = centre.x - 0.005 - (0.02 + 0.04 * (step as f64 - 1.0));
         let sign = walk.schedule.route.steps[step].side.other().sign();
-        assert!((centre.y - sign * 0.05 * (PI * x / 0.04).sin()).abs() < 1e-6, "{sample}: {centre}");
-        assert!(x.abs() <= 0.02 + 1e-7);
+        assert!((centre.y - sign * 0.05 * (PI * x / 0.04).sin()).abs() < 5.0 * MICROMETRE, "{sample}: {centre}");
+        assert!(x.abs() <= 0.02 + MICROMETRE);
         followed += 1;
     }
     assert!(followed > 200);
