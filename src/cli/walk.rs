@@ -6,8 +6,10 @@ use super::progress::{Limits, Session};
 use super::{Outcome, console};
 use crate::document::read_text;
 use crate::files::write_atomically;
-use crate::gait::{Durations, Gait, Humanoid, Outline, Regular, Request, Route, Side, Style, Summary, Walk, nao, plan};
-use crate::{Error, ErrorKind, Result};
+use crate::gait::{
+    Durations, Gait, Humanoid, NaoLegs, Outline, Regular, Request, Route, Side, Style, Summary, Walk, nao, plan,
+};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest file of footsteps, in bytes.
 const FOOTSTEPS_LIMIT: u64 = 4_000_000;
@@ -96,9 +98,9 @@ pub struct Arguments {
     /// A: how far to the side the centre of mass goes [m]
     #[arg(long, default_value_t = 0.05, value_name = "METRES")]
     amplitude: f64,
-    /// The height of the axes of the hip over the floor [m]
-    #[arg(long, default_value_t = 0.228, value_name = "METRES")]
-    hip_height: f64,
+    /// The height of the axes of the hip over the floor [m] [default: the first of 0.228, 0.225, 0.232, 0.222, 0.215, 0.205 that works]
+    #[arg(long, value_name = "METRES")]
+    hip_height: Option<f64>,
     /// How far ahead of the ankles the centre of mass is held [m]
     #[arg(long, default_value_t = 0.005, value_name = "METRES", allow_hyphen_values = true)]
     ahead: f64,
@@ -143,9 +145,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let (humanoid, legs) = match arguments.robot {
         RobotName::Nao => nao(outline)?,
     };
-    let request = arguments.request()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
-    let walk = plan(&humanoid, &legs, &request, &session.watch)?;
+    let walk = arguments.plan(&humanoid, &legs, &session.watch)?;
     drop(session);
     arguments.write(&humanoid, &walk)?;
     if arguments.quiet {
@@ -169,8 +170,30 @@ const SEED: Defaults =
 const PREVIEW: Defaults =
     Defaults { gait: Gait::Preview, length: 0.05, lift: 0.03, period: 0.8, double_support: 0.3, rest: 1.5 };
 
+/// Heights of the hip that are tried when none is given \[m\]: higher ones leave the ankles' roll more room, lower ones reach further.
+const HIP_HEIGHTS: [f64; 6] = [0.228, 0.225, 0.232, 0.222, 0.215, 0.205];
+
 impl Arguments {
-    fn request(&self) -> Result<Request> {
+    /// The walk at the height of the hip that is given, or at the first of [`HIP_HEIGHTS`] at which it can be walked.
+    ///
+    /// # Errors
+    /// As [`plan`]; that of the first height when it can be walked at none.
+    fn plan(&self, humanoid: &Humanoid, legs: &NaoLegs, watch: &Watch) -> Result<Walk> {
+        let walk = |height: f64| plan(humanoid, legs, &self.request(height)?, watch);
+        let Some(height) = self.hip_height else {
+            let first = walk(HIP_HEIGHTS[0]);
+            let is_refused =
+                |walk: &Result<Walk>| walk.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue);
+            if !is_refused(&first) {
+                return first;
+            }
+            let others = HIP_HEIGHTS[1..].iter().map(|height| walk(*height));
+            return others.into_iter().find(|walk| !is_refused(walk)).unwrap_or(first);
+        };
+        walk(height)
+    }
+
+    fn request(&self, hip_height: f64) -> Result<Request> {
         let defaults = match self.gait {
             GaitName::Seed => SEED,
             GaitName::Preview => PREVIEW,
@@ -186,7 +209,7 @@ impl Arguments {
             amplitude: self.amplitude,
             half_width: HALF_WIDTH,
             ahead: self.ahead,
-            torso_height: self.hip_height + HIP_TO_TORSO,
+            torso_height: hip_height + HIP_TO_TORSO,
         };
         let durations = Durations {
             rest: self.rest.unwrap_or(defaults.rest),

@@ -4,7 +4,6 @@ use std::fmt;
 
 use super::humanoid::Humanoid;
 use super::plan::{Gait, Walk};
-use crate::spatial::angle;
 
 /// A figure at its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +29,8 @@ pub struct Summary {
     pub distance: f64,
     /// How far the middle of the feet turns \[rad\].
     pub turn: f64,
+    /// The height of the torso's origin over the floor \[m\].
+    pub torso_height: f64,
     /// The distance by the time from the first shift to the last \[m/s\].
     pub speed: f64,
     /// The least margin of the zero moment point \[m\], RH0 (3-5).
@@ -63,7 +64,8 @@ impl Summary {
             steps: walk.schedule.route.steps.len(),
             duration: walk.time(walk.balances.len() - 1),
             distance,
-            turn: angle::difference(middles[1].yaw, middles[0].yaw),
+            turn: middles[1].yaw - middles[0].yaw,
+            torso_height: walk.request.style.torso_height,
             speed: distance / walking,
             margin: least(&|sample| walk.balances[sample].margin),
             static_margin: least(&|sample| walk.balances[sample].static_margin),
@@ -136,10 +138,11 @@ impl fmt::Display for Summary {
         writeln!(f, "{}: {} steps by {gait}, {:.2} s", self.robot, self.steps, self.duration)?;
         writeln!(
             f,
-            "  way             {:.3} m, turn {:.1} deg, {:.1} cm/s between the rests",
+            "  way             {:.3} m, turn {:.1} deg, {:.1} cm/s between the rests, torso {:.3} m high",
             self.distance,
             self.turn.to_degrees(),
-            100.0 * self.speed
+            100.0 * self.speed,
+            self.torso_height
         )?;
         writeln!(f, "  least margin    {} (ZMP, RH0 (3-5))", millimetres(&self.margin))?;
         writeln!(f, "  static margin   {} (centre of mass, RH0 (3-1))", millimetres(&self.static_margin))?;

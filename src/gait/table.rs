@@ -11,7 +11,7 @@ use super::schedule::Action;
 use super::summary::Summary;
 
 /// The columns behind the joints.
-const COLUMNS: [&str; 24] = [
+const COLUMNS: [&str; 26] = [
     "torso_x",
     "torso_y",
     "torso_z",
@@ -34,14 +34,16 @@ const COLUMNS: [&str; 24] = [
     "com_z",
     "zmp_x",
     "zmp_y",
+    "pendulum_x",
+    "pendulum_y",
     "static_margin",
     "margin",
 ];
 
 impl Walk {
     /// The walk as CSV, a row a sample: `time` \[s\], the joints by name \[rad\], the pose of the torso with its quaternion xyzw, for each
-    /// foot its sole's position and heading and whether it stands (1 or 0), the centre of mass, the zero moment point, the static and the
-    /// dynamic margin \[m\]. Nine decimals.
+    /// foot its sole's position and heading and whether it stands (1 or 0), the centre of mass, the zero moment points of the multibody
+    /// and of the pendulum, the static and the dynamic margin \[m\]. Nine decimals.
     pub fn to_csv(&self, humanoid: &Humanoid) -> String {
         let joints = humanoid.joints.iter().map(|joint| joint.name.as_str());
         let mut text = ["time"].into_iter().chain(joints).chain(COLUMNS).collect::<Vec<_>>().join(",");
@@ -69,7 +71,7 @@ impl Walk {
         }
         let centre = self.motion.centres[sample];
         figures.extend([centre.x, centre.y, centre.z, balance.zmp.x, balance.zmp.y]);
-        figures.extend([balance.static_margin, balance.margin]);
+        figures.extend([balance.pendulum.x, balance.pendulum.y, balance.static_margin, balance.margin]);
         figures
     }
 
@@ -118,8 +120,6 @@ impl Walk {
         for (name, figure) in COLUMNS.into_iter().zip(self.figures(sample)) {
             value[name] = figure.into();
         }
-        value["pendulum_x"] = balance.pendulum.x.into();
-        value["pendulum_y"] = balance.pendulum.y.into();
         value["support"] = balance.support.corners().iter().map(|corner| json!([corner.x, corner.y])).collect();
         value
     }
@@ -145,6 +145,7 @@ fn summary(summary: &Summary) -> Value {
         "duration": summary.duration,
         "distance": summary.distance,
         "turn": summary.turn,
+        "torso_height": summary.torso_height,
         "speed": summary.speed,
         "margin": extreme(&summary.margin),
         "static_margin": extreme(&summary.static_margin),

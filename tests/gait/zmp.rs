@@ -19,7 +19,7 @@ fn wheel() -> Multibody {
 
 /// The zero moment point at time 0 of poses and joint values as functions of time.
 fn zmp(body: &Multibody, tick: f64, at: impl Fn(f64) -> (Pose, f64)) -> nalgebra::Point2<f64> {
-    let [before, now, after] = [-tick, 0.0, tick].map(|time| at(time));
+    let [before, now, after] = [-tick, 0.0, tick].map(&at);
     let between = |a: &(Pose, f64), b: &(Pose, f64)| {
         let [a, b] = [a, b].map(|(pose, q)| (pose, [*q]));
         let [a, b] = [&a, &b].map(|(pose, q)| Configuration { world_from_base: pose, q });
