@@ -1,15 +1,15 @@
-"""NAO V5 as a MuJoCo model, from this repository's own data (src/robots/data)."""
+"""NAO V5 as a MuJoCo model, from this repository's own data (src/robots)."""
 
 import math
 import tomllib
 from pathlib import Path
 
-DATA = Path(__file__).resolve().parents[2] / "src" / "robots" / "data"
+ROBOTS = Path(__file__).resolve().parents[2] / "src" / "robots"
 SOLE_THICKNESS = 0.01
 
 
 def read(name):
-    with open(DATA / f"{name}.toml", "rb") as file:
+    with open(ROBOTS / f"{name}.toml", "rb") as file:
         return tomllib.load(file)
 
 
@@ -67,10 +67,10 @@ def limb_body(limb, chain, soles, actuators, scale):
 
 def xml(friction=0.8, torso_mass=1.0, gain=1.0, slope=(0.0, 0.0)):
     """The model as MJCF: slope is the tilt of the floor about x and about y [rad]."""
-    robot = read("nao_v5")
+    robot = read("whole/nao_v5")
     actuators = []
     limbs = "".join(
-        limb_body(limb, read(limb["chain"]), robot["sole"], actuators, gain) for limb in robot["limb"]
+        limb_body(limb, read(f"data/{limb['chain']}"), robot["sole"], actuators, gain) for limb in robot["limb"]
     )
     gravity = 9.80665
     roll, pitch = slope

@@ -83,5 +83,5 @@ pub fn by_name(name: &str) -> Option<Chain> {
 
 /// NAO V5 as a whole: torso, head, arms and legs, their masses, speeds and soles.
 pub fn nao_v5() -> Whole {
-    Whole::from_toml(include_str!("data/nao_v5.toml")).expect("the crate's own data, which tests/robots reads")
+    Whole::from_toml(include_str!("whole/nao_v5.toml")).expect("the crate's own data, which tests/robots reads")
 }

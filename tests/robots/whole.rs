@@ -34,7 +34,7 @@ fn left_and_right_are_mirror_images() {
 
 #[test]
 fn mistakes_in_a_file_are_told_with_their_line() {
-    let text = include_str!("../../src/robots/data/nao_v5.toml");
+    let text = include_str!("../../src/robots/whole/nao_v5.toml");
     let refused = [
         (text.replacen("speed = 8.26797", "speeds = 8.26797", 1), ErrorKind::UnknownKey),
         (text.replacen("joint = \"HeadPitch\"", "joint = \"HeadRoll\"", 1), ErrorKind::UnknownName),
