@@ -81,7 +81,7 @@ pub fn realise(
 struct Pursuit {
     /// The posture at the last sample.
     last: Posture,
-    /// How far the torso was from the centre of mass that was asked for, at up to three last samples, the latest first.
+    /// How far the torso was from the centre of mass that was asked for, at up to four last samples, the latest first.
     leads: Vec<Vector2<f64>>,
     /// How far the torso moves for a move of the centre of mass, along x and y.
     gains: Vector2<f64>,
@@ -117,7 +117,7 @@ impl Pursuit {
             let miss = reference.centre - centre.xy();
             if miss.norm() <= NEAR {
                 self.leads.insert(0, torso - reference.centre + miss.component_mul(&self.gains));
-                self.leads.truncate(3);
+                self.leads.truncate(4);
                 return Ok(centre);
             }
             if let Some((torso_before, centre_before)) = before {
@@ -131,13 +131,14 @@ impl Pursuit {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// How far the torso will be from the centre of mass: by the parabola through the last three samples.
+    /// How far the torso will be from the centre of mass: by the cubic through the last four samples.
     fn guess(&self) -> Vector2<f64> {
         match self.leads[..] {
             [] => Vector2::zeros(),
             [a] => a,
             [a, b] => a * 2.0 - b,
-            [a, b, c, ..] => (a - b) * 3.0 + c,
+            [a, b, c] => (a - b) * 3.0 + c,
+            [a, b, c, d, ..] => (a + c) * 4.0 - b * 6.0 - d,
         }
     }
 

@@ -2,6 +2,9 @@
 
 use super::footprint::{Footprint, Route, Side};
 
+/// The most samples of a phase.
+const MOST_SAMPLES: usize = 1 << 30;
+
 /// What happens in a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -60,7 +63,7 @@ impl Schedule {
                 Action::Shift(_) => durations.shift,
                 Action::Swing(_) => durations.swing,
             };
-            Phase { action, samples: ((seconds * slowed / tick).round() as usize).max(1), slowed }
+            Phase { action, samples: ((seconds * slowed / tick).round() as usize).clamp(1, MOST_SAMPLES), slowed }
         };
         Schedule { phases: actions.enumerate().map(phase).collect(), route, tick }
     }
