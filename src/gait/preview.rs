@@ -24,7 +24,7 @@ const MOST_RECURSIONS: usize = 100_000;
 /// How little the solution of Riccati's equation may still change, as a share of it.
 const SETTLED: f64 = 1e-13;
 /// How often the difference between the zero moment points of multibody and cart is fed back, Kajita's second stage.
-const FEEDBACKS: usize = 2;
+const FEEDBACKS: usize = 1;
 
 /// The gains of preview control for a height of the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
