@@ -167,19 +167,22 @@ pub(super) fn moved(
         x.into_iter().zip(y).map(|(x, y)| Vector2::new(x, y)).collect()
     };
     let mut centres = follow(&wanted.iter().map(|point| point.coords).collect::<Vec<_>>());
-    for feedback in 0..=FEEDBACKS {
-        for (reference, centre) in references.iter_mut().zip(&centres) {
-            reference.centre = Point2::from(*centre);
-        }
-        let (motion, balances) = realised(humanoid, legs, request, references, watch)?;
-        if feedback == FEEDBACKS {
-            return Ok((motion, balances));
-        }
+    for _ in 0..FEEDBACKS {
+        aim(references, &centres);
+        let (_, balances) = realised(humanoid, legs, request, references, watch)?;
         let missing: Vec<Vector2<f64>> =
             wanted.iter().zip(&balances).map(|(wanted, balance)| wanted - balance.zmp).collect();
         for (centre, correction) in centres.iter_mut().zip(follow(&missing)) {
             *centre += correction;
         }
     }
-    Err(Error::new(ErrorKind::BadValue, "preview control: no feedback is asked for"))
+    aim(references, &centres);
+    realised(humanoid, legs, request, references, watch)
+}
+
+/// Asks the references for these centres of mass.
+fn aim(references: &mut [Reference], centres: &[Vector2<f64>]) {
+    for (reference, centre) in references.iter_mut().zip(centres) {
+        reference.centre = Point2::from(*centre);
+    }
 }
