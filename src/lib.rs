@@ -76,6 +76,8 @@ pub mod solver;
 
 pub mod robots;
 
+pub mod gait;
+
 pub mod derive;
 
 pub mod codegen;

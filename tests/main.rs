@@ -9,6 +9,7 @@ mod derive;
 mod document;
 mod dynamics;
 mod files;
+mod gait;
 mod groebner;
 mod kinematics;
 mod number;

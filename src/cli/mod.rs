@@ -27,6 +27,7 @@ mod report;
 mod solve;
 mod strata;
 mod targets;
+mod walk;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -48,6 +49,7 @@ const EXAMPLES: &str = "Examples:
   groebot plan nao_left_leg
   groebot ik ur5 --target 0.4,0.1,0.5,0,180,0 --degrees
   groebot basis cyclic5.txt --order lex
+  groebot walk nao --steps 8 -o walk.csv --plot walk.svg
 
 Exit status: 0 success, 1 failure, 2 wrong usage, 130 interrupted.";
 
@@ -71,6 +73,7 @@ enum Command {
     Ik(ik::Arguments),
     Fk(fk::Arguments),
     Basis(basis::Arguments),
+    Walk(walk::Arguments),
 }
 
 /// Why a subcommand ends early.
@@ -110,6 +113,7 @@ pub fn run() -> ExitCode {
         Command::Ik(arguments) => ik::run(arguments),
         Command::Fk(arguments) => fk::run(arguments),
         Command::Basis(arguments) => basis::run(arguments),
+        Command::Walk(arguments) => walk::run(arguments),
     };
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,

@@ -1,7 +1,11 @@
 //! Known robots as [`Chain`]s: NAO, RH0, TEO, PUMA, Stanford, a polar robot, UR5, IRB 120. The figures stand in `data/*.toml`
 //! (format: [`crate::kinematics::chain_toml`]) with their source beside them; what is inferred or assumed says so there.
 //!
-//! All are in metres and radians. Main type: [`Robot`].
+//! All are in metres and radians. Main type: [`Robot`]. [`Whole`] is NAO with all its limbs and masses.
+
+mod whole;
+
+pub use whole::{Sole, Weight, Whole, WholeLink};
 
 use crate::kinematics::Chain;
 
@@ -75,4 +79,9 @@ robots! {
 /// The chain of the robot called `name`; `None` when no robot of [`ALL`] has that name.
 pub fn by_name(name: &str) -> Option<Chain> {
     ALL.iter().find(|robot| robot.name == name).map(Robot::chain)
+}
+
+/// NAO V5 as a whole: torso, head, arms and legs, their masses, speeds and soles.
+pub fn nao_v5() -> Whole {
+    Whole::from_toml(include_str!("whole/nao_v5.toml")).expect("the crate's own data, which tests/robots reads")
 }

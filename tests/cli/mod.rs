@@ -14,6 +14,7 @@ mod limbs;
 mod plan;
 mod refused;
 mod solve;
+mod walk;
 
 use std::collections::BTreeMap;
 use std::fs;

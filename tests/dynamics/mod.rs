@@ -3,6 +3,7 @@
 mod coriolis;
 mod inertia;
 mod manipulator;
+mod multibody;
 
 use groebot::dynamics::{Body, LinkInertia, Manipulator};
 use groebot::spatial::Pose;

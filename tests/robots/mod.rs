@@ -3,6 +3,7 @@
 mod derivations;
 mod figures;
 mod polar;
+mod whole;
 
 use groebot::kinematics::{LengthUnit, Task};
 use groebot::robots;

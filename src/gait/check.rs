@@ -1,0 +1,124 @@
+//! What keeps a motion from being walked: margins, joint limits, speeds, feet that meet. Main type: [`Fault`].
+
+use super::balance::Balance;
+use super::footprint::{Footprint, Side};
+use super::humanoid::Humanoid;
+use super::motion::Motion;
+use super::polygon::Polygon;
+use super::reference::Reference;
+use super::schedule::{Action, Schedule};
+
+/// Two feet must stay this far apart, seen from above \[m\].
+pub const FEET_APART: f64 = 0.004;
+
+/// What is wrong at a sample.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// The projection of the centre of mass is too near to the border of the support polygon: no slower walk helps.
+    Static {
+        /// Its distance \[m\], negative outside.
+        margin: f64,
+    },
+    /// The zero moment point is too near to the border: a slower walk may help.
+    Dynamic {
+        /// Its distance \[m\], negative outside.
+        margin: f64,
+    },
+    /// A joint is beyond its limits.
+    Limit {
+        /// The joint.
+        joint: usize,
+        /// Its value \[rad\].
+        value: f64,
+    },
+    /// A joint turns too fast.
+    Speed {
+        /// The joint.
+        joint: usize,
+        /// Its rate \[rad/s\].
+        rate: f64,
+    },
+    /// The feet meet, seen from above.
+    Feet {
+        /// How far apart they are \[m\].
+        apart: f64,
+    },
+}
+
+/// A fault with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The sample.
+    pub sample: usize,
+    /// The phase.
+    pub phase: usize,
+    /// What is wrong.
+    pub fault: Fault,
+}
+
+/// What is asked of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Demand {
+    /// The least margin of the zero moment point \[m\].
+    pub margin: f64,
+    /// Whether the centre of mass must keep that margin too, as in a walk that can stop at any time.
+    pub statically: bool,
+    /// The greatest share of its own speed that a joint may have.
+    pub speed_share: f64,
+}
+
+/// All faults of a motion in the order of time, at most one of each kind for a sample.
+pub fn faults(
+    humanoid: &Humanoid,
+    references: &[Reference],
+    motion: &Motion,
+    balances: &[Balance],
+    demand: &Demand,
+    tick: f64,
+) -> Vec<Found> {
+    let mut found = Vec::new();
+    for (sample, (reference, balance)) in references.iter().zip(balances).enumerate() {
+        let mut add = |fault: Fault| found.push(Found { sample, phase: reference.phase, fault });
+        if let Some(fault) = limit(humanoid, &motion.postures[sample].q) {
+            add(fault);
+        }
+        if demand.statically && balance.static_margin < demand.margin {
+            add(Fault::Static { margin: balance.static_margin });
+        } else if balance.margin < demand.margin {
+            add(Fault::Dynamic { margin: balance.margin });
+        }
+        if sample > 0 {
+            let rate = |joint: usize| (motion.postures[sample].q[joint] - motion.postures[sample - 1].q[joint]) / tick;
+            let fast = |joint: &usize| rate(*joint).abs() > humanoid.joints[*joint].speed * demand.speed_share;
+            if let Some(joint) = (0..humanoid.joints.len()).find(fast) {
+                add(Fault::Speed { joint, rate: rate(joint) });
+            }
+        }
+    }
+    found
+}
+
+fn limit(humanoid: &Humanoid, q: &[f64]) -> Option<Fault> {
+    let beyond = |(range, value): (&super::JointRange, &f64)| *value < range.limits.0 || *value > range.limits.1;
+    let joint = humanoid.joints.iter().zip(q).position(beyond)?;
+    Some(Fault::Limit { joint, value: q[joint] })
+}
+
+/// The first step of a schedule, with the time in samples, on which the feet come too near to one another, seen from above.
+pub fn feet_meet(humanoid: &Humanoid, schedule: &Schedule, references: &[Reference]) -> Option<Found> {
+    references.iter().enumerate().find_map(|(sample, reference)| {
+        let swings = matches!(schedule.phases[reference.phase].action, Action::Swing(_));
+        if sample > 0 && !swings {
+            return None;
+        }
+        let [left, right] = [Side::Left, Side::Right].map(|side| outline(humanoid, side, reference));
+        let apart = left.distance_to(&right);
+        (apart < FEET_APART).then_some(Found { sample, phase: reference.phase, fault: Fault::Feet { apart } })
+    })
+}
+
+fn outline(humanoid: &Humanoid, side: Side, reference: &Reference) -> Polygon {
+    let pose = reference.world_from_soles[side as usize];
+    let (at, turn) = (pose.translation.vector, pose.rotation.euler_angles().2);
+    humanoid.sole_at(side, &Footprint { x: at.x, y: at.y, yaw: turn })
+}

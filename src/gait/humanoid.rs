@@ -1,0 +1,126 @@
+//! What a gait needs to know of a robot on two legs. Main type: [`Humanoid`].
+
+use nalgebra::{Point2, Point3};
+
+use super::footprint::{Footprint, Side};
+use super::polygon::Polygon;
+use crate::dynamics::{Body, Limb, LinkInertia, Multibody};
+use crate::robots::{Sole, Weight, Whole};
+use crate::spatial::Pose;
+use crate::{Error, ErrorKind, Result};
+
+/// Which outline the soles have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outline {
+    /// As it was measured on the robot.
+    #[default]
+    Measured,
+    /// As the source document states it: 160 x 90 mm for NAO.
+    Seed,
+}
+
+/// A joint as a gait sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointRange {
+    /// Its name in the robot's own documents.
+    pub name: String,
+    /// Least and greatest value \[rad\].
+    pub limits: (f64, f64),
+    /// The greatest rate \[rad/s\].
+    pub speed: f64,
+}
+
+/// A foot: where its sole is and what of it touches the floor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Foot {
+    /// The link that the sole is fixed to.
+    pub link: usize,
+    /// The frame of the sole in the torso frame at the zero configuration: x ahead, y left, z up.
+    pub torso_from_sole: Pose,
+    /// The corners of what touches the floor, in the frame of the sole \[m\].
+    pub corners: Vec<Point2<f64>>,
+}
+
+/// A robot on two legs: its joints, masses and soles. Link `i` of the body is moved by joint `i`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Humanoid {
+    /// Its name.
+    pub name: String,
+    /// The joints in the order of the output.
+    pub joints: Vec<JointRange>,
+    /// Pairs of joints that one motor turns by the same angle.
+    pub shared: Vec<(usize, usize)>,
+    /// Masses and joints; its base is the torso.
+    pub body: Multibody,
+    /// The feet, left and right.
+    pub feet: [Foot; 2],
+}
+
+impl Humanoid {
+    /// The humanoid of a whole robot, with soles of the given outline.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for masses that no body has.
+    pub fn new(whole: &Whole, outline: Outline) -> Result<Self> {
+        let base = Body { base_from_link: Pose::identity(), inertia: inertia(&whole.base)? };
+        let limb = |link: &crate::robots::WholeLink| {
+            let inertia = inertia(&link.weight).map_err(|error| error.with_context(&link.name))?;
+            let body = Body { base_from_link: link.base_from_link, inertia };
+            Ok(Limb { parent: link.parent, screw: link.screw, body })
+        };
+        let limbs = whole.links.iter().map(limb).collect::<Result<_>>()?;
+        let range = |link: &crate::robots::WholeLink| JointRange {
+            name: link.joint.clone(),
+            limits: link.limits,
+            speed: link.speed,
+        };
+        Ok(Humanoid {
+            name: whole.name.clone(),
+            joints: whole.links.iter().map(range).collect(),
+            shared: whole.shared.clone(),
+            body: Multibody::new(base, limbs)?,
+            feet: whole.soles.each_ref().map(|sole| foot(sole, outline)),
+        })
+    }
+
+    /// The place of the joint `name`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] when no joint has that name.
+    pub fn joint(&self, name: &str) -> Result<usize> {
+        let unknown = || Error::new(ErrorKind::UnknownName, format!("{} has no joint `{name}`", self.name));
+        self.joints.iter().position(|joint| joint.name == name).ok_or_else(unknown)
+    }
+
+    /// What the foot of `side` covers when its sole stands flat on `print`.
+    pub fn sole_at(&self, side: Side, print: &Footprint) -> Polygon {
+        let corners = &self.feet[side as usize].corners;
+        Polygon::hull(&corners.iter().map(|corner| print.carry(corner)).collect::<Vec<_>>())
+    }
+
+    /// The support polygon: the hull of the contact points of the feet that stand, each at the pose world_from_sole \[m\]; the floor is
+    /// flat, and a sole at any pose touches it with those of its corners that are lowest, within `depth` \[m\].
+    pub fn support(&self, soles: &[(Side, Pose)], depth: f64) -> Polygon {
+        let points = |(side, pose): &(Side, Pose)| {
+            let at = |corner: &Point2<f64>| pose * Point3::new(corner.x, corner.y, 0.0);
+            self.feet[*side as usize].corners.iter().map(at).collect::<Vec<_>>()
+        };
+        let points: Vec<Point3<f64>> = soles.iter().flat_map(points).collect();
+        let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+        let touching = points.iter().filter(|point| point.z <= lowest + depth);
+        Polygon::hull(&touching.map(Point3::xy).collect::<Vec<_>>())
+    }
+}
+
+fn inertia(weight: &Weight) -> Result<LinkInertia> {
+    LinkInertia::new(weight.mass, weight.centre, weight.inertia)
+}
+
+fn foot(sole: &Sole, outline: Outline) -> Foot {
+    let [(back, front), (right, left)] = match outline {
+        Outline::Measured => sole.measured,
+        Outline::Seed => sole.seed,
+    };
+    let corners = [(back, right), (front, right), (front, left), (back, left)].map(|(x, y)| Point2::new(x, y));
+    Foot { link: sole.link, torso_from_sole: sole.base_from_sole, corners: corners.to_vec() }
+}

@@ -1,0 +1,39 @@
+//! Walking on two legs: the way of the feet, the centre of mass above them, joint angles by the derived solver, and the proof that the
+//! walk does not fall. NAO 6.4 and 6.8; RH0 3.1.1.
+//!
+//! A [`Route`] of footprints becomes a [`Schedule`] of phases, that becomes a [`Reference`] for feet and centre of mass at each sample,
+//! that becomes a [`Motion`] of joint angles and its [`Balance`]. [`plan`] goes this way and slows down or refuses what would fall; its
+//! result is a [`Walk`], which prints as CSV, JSON and SVG and has a [`Summary`]. The world has z up and the floor at 0; metres, seconds, radians.
+
+mod balance;
+mod check;
+mod drawing;
+mod footprint;
+mod humanoid;
+mod legs;
+mod motion;
+mod nao;
+mod plan;
+mod polygon;
+mod preview;
+mod reference;
+mod refusal;
+mod schedule;
+mod summary;
+mod table;
+mod zmp;
+
+pub use balance::{Balance, balance, support};
+pub use check::{Demand, FEET_APART, Fault, Found, faults, feet_meet};
+pub use footprint::{Footprint, Footstep, MAX_STEPS, Regular, Route, Side};
+pub use humanoid::{Foot, Humanoid, JointRange, Outline};
+pub use legs::{Legs, Posture};
+pub use motion::{Motion, realise};
+pub use nao::{NaoLegs, nao};
+pub use plan::{Gait, Request, TICK, Walk, plan};
+pub use polygon::Polygon;
+pub use preview::{Preview, zmp_reference};
+pub use reference::{Reference, Style, arch, seed_centre, smooth, soles};
+pub use schedule::{Action, Durations, Phase, Schedule};
+pub use summary::{Extreme, Summary};
+pub use zmp::{Configuration, GRAVITY, momentum_between, of_pendulum, zero_moment_point};

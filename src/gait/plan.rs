@@ -1,0 +1,173 @@
+//! A walk from request to checked joint angles; what would fall is slowed down or refused. Main types: [`Request`], [`Walk`].
+
+use nalgebra::Point2;
+
+use super::balance::{Balance, balance};
+use super::check::{Demand, Found, faults, feet_meet};
+use super::footprint::Route;
+use super::humanoid::Humanoid;
+use super::legs::Legs;
+use super::motion::{Motion, realise};
+use super::preview;
+use super::reference::{Reference, Style, seed_centre, soles};
+use super::refusal;
+use super::schedule::{Durations, Schedule};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The time between two samples \[s\]: 100 Hz.
+pub const TICK: f64 = 0.01;
+/// The factor by which a phase is slowed down at a time.
+const SLOWER: f64 = 1.15;
+/// No phase lasts longer than this many times what was asked for.
+const SLOWEST: f64 = 12.0;
+/// The most samples of a walk: half an hour.
+const MOST_SAMPLES: usize = 180_000;
+
+/// How the centre of mass is moved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Gait {
+    /// The seed's sine, NAO (6.8.1): over one foot the centre of mass rests.
+    #[default]
+    Seed,
+    /// Preview control of the zero moment point (Kajita and others 2003): the centre of mass never rests.
+    Preview,
+}
+
+/// What walk is wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// The way.
+    pub route: Route,
+    /// How the centre of mass is moved.
+    pub gait: Gait,
+    /// The figures of the gait.
+    pub style: Style,
+    /// How long the phases are to last.
+    pub durations: Durations,
+    /// The least distance of the zero moment point from the border of the support polygon \[m\].
+    pub margin: f64,
+    /// The greatest share of its own speed that a joint may have.
+    pub speed_share: f64,
+}
+
+/// A checked walk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Walk {
+    /// What was wanted.
+    pub request: Request,
+    /// The phases as they are walked.
+    pub schedule: Schedule,
+    /// What was asked of feet and centre of mass, one a sample.
+    pub references: Vec<Reference>,
+    /// Postures and centres of mass, one a sample.
+    pub motion: Motion,
+    /// Zero moment point and margins, one a sample.
+    pub balances: Vec<Balance>,
+}
+
+impl Walk {
+    /// The time of a sample \[s\].
+    pub fn time(&self, sample: usize) -> f64 {
+        // Dividing keeps decimals such as 0.07 as they are written.
+        sample as f64 / (1.0 / self.schedule.tick).round()
+    }
+}
+
+/// Plans the walk that `request` asks for. A phase in which the zero moment point would leave its margin, or a joint would turn too fast, is
+/// slowed down; what no slower walk would heal is refused.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] with the first time and the reason: a foot out of reach, a joint beyond its limits, feet that meet, a centre of
+/// mass too near to the border, a margin that no slower phase keeps, a figure of the gait that is not finite or not positive;
+/// [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
+pub fn plan(humanoid: &Humanoid, legs: &(impl Legs + Sync), request: &Request, watch: &Watch) -> Result<Walk> {
+    refusal::check(request)?;
+    let mut slowed = vec![1.0; Schedule::count(request.route.steps.len())];
+    loop {
+        let schedule = Schedule::new(request.route.clone(), &request.durations, &slowed, TICK);
+        if schedule.samples() > MOST_SAMPLES {
+            let text =
+                format!("the walk would last {:.0} s; walk fewer steps or faster", schedule.samples() as f64 * TICK);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let mut references = references(&request.style, &schedule);
+        if let Some(found) = feet_meet(humanoid, &schedule, &references) {
+            return Err(refusal::of(humanoid, &schedule, request, &found));
+        }
+        let (motion, balances) = match request.gait {
+            Gait::Seed => moved(humanoid, legs, request, &references, watch)?,
+            Gait::Preview => preview::moved(humanoid, legs, request, &schedule, &mut references, watch)?,
+        };
+        let demand =
+            Demand { margin: request.margin, statically: request.gait == Gait::Seed, speed_share: request.speed_share };
+        let found = faults(humanoid, &references, &motion, &balances, &demand, TICK);
+        if found.is_empty() {
+            return Ok(Walk { request: request.clone(), schedule, references, motion, balances });
+        }
+        slow_down(humanoid, &schedule, request, &found, &mut slowed)?;
+    }
+}
+
+/// The motion of given references and its balance.
+///
+/// # Errors
+/// As [`realise`] and [`balance`].
+pub(super) fn moved(
+    humanoid: &Humanoid,
+    legs: &(impl Legs + Sync),
+    request: &Request,
+    references: &[Reference],
+    watch: &Watch,
+) -> Result<(Motion, Vec<Balance>)> {
+    let motion = realise(humanoid, legs, references, request.style.torso_height, TICK, watch)?;
+    let balances = balance(humanoid, references, &motion, TICK)?;
+    Ok((motion, balances))
+}
+
+/// What is asked of feet and centre of mass at each sample, with the seed's law for the centre of mass.
+fn references(style: &Style, schedule: &Schedule) -> Vec<Reference> {
+    let stands = schedule.route.stands();
+    let reference = |(phase, share): (usize, f64)| {
+        let action = schedule.phases[phase].action;
+        let feet = Schedule::feet(&stands, action, phase == 0);
+        let (world_from_soles, standing) = soles(style, schedule, action, &feet, share);
+        let centre: Point2<f64> = seed_centre(style, schedule, action, &feet, share);
+        Reference { phase, world_from_soles, stands: standing, centre }
+    };
+    schedule.instants().map(reference).collect()
+}
+
+/// Slows down the phases in which something is wrong.
+///
+/// # Errors
+/// The reason when no slower walk helps.
+fn slow_down(
+    humanoid: &Humanoid,
+    schedule: &Schedule,
+    request: &Request,
+    found: &[Found],
+    slowed: &mut [f64],
+) -> Result<()> {
+    if let Some(hard) = found.iter().find(|found| !refusal::is_healed_by_time(&found.fault)) {
+        return Err(refusal::of(humanoid, schedule, request, hard));
+    }
+    let mut slow = vec![request.gait == Gait::Preview; slowed.len()];
+    for found in found {
+        slow[found.phase] = true;
+        // A sample's acceleration also comes from the phase beside it.
+        let start: usize = 1 + schedule.phases[..found.phase].iter().map(|phase| phase.samples).sum::<usize>();
+        if found.sample <= start + 1 && found.phase > 0 {
+            slow[found.phase - 1] = true;
+        }
+        if found.sample + 1 >= start + schedule.phases[found.phase].samples && found.phase + 1 < slow.len() {
+            slow[found.phase + 1] = true;
+        }
+    }
+    for (factor, slow) in slowed.iter_mut().zip(slow) {
+        *factor *= if slow { SLOWER } else { 1.0 };
+        if *factor > SLOWEST {
+            return Err(refusal::of(humanoid, schedule, request, &found[0]));
+        }
+    }
+    Ok(())
+}

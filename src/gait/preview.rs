@@ -1,0 +1,188 @@
+//! Preview control of the zero moment point (Kajita and others 2003; Katayama and others 1985): the centre of mass of a cart on a table
+//! moves so that its zero moment point follows a reference whose future is known. Main type: [`Preview`].
+
+use nalgebra::{Matrix4, Point2, RowVector4, Vector2, Vector3, Vector4};
+
+use super::balance::Balance;
+use super::footprint::Footprint;
+use super::humanoid::Humanoid;
+use super::legs::Legs;
+use super::motion::Motion;
+use super::plan::{Request, TICK, moved as realised};
+use super::reference::{Reference, Style, smooth};
+use super::schedule::{Action, Schedule};
+use super::zmp::GRAVITY;
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// How far the future is looked at \[s\]; Kajita takes 1.6.
+const HORIZON: f64 = 2.0;
+/// The price of the integrated error of the zero moment point, with the price of jerk [`JERK_PRICE`]: Kajita's values.
+const ERROR_PRICE: f64 = 1.0;
+const JERK_PRICE: f64 = 1e-6;
+/// The most steps of Riccati's recursion.
+const MOST_RECURSIONS: usize = 100_000;
+/// How little the solution of Riccati's equation may still change, as a share of it.
+const SETTLED: f64 = 1e-13;
+/// How often the difference between the zero moment points of multibody and cart is fed back, Kajita's second stage.
+const FEEDBACKS: usize = 1;
+
+/// The gains of preview control for a height of the centre of mass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preview {
+    height: f64,
+    tick: f64,
+    /// Of the summed error and of position, velocity and acceleration.
+    gains: RowVector4<f64>,
+    /// Of the reference one, two, ... samples ahead.
+    ahead: Vec<f64>,
+}
+
+impl Preview {
+    /// The optimal gains for a centre of mass at `height` \[m\] and samples `tick` \[s\] apart.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when a number is not positive and finite, or no gains are found.
+    pub fn new(height: f64, tick: f64) -> Result<Self> {
+        let bad = |text: &str| Error::new(ErrorKind::BadValue, format!("preview control: {text}"));
+        if !(height.is_finite() && height > 0.0 && tick.is_finite() && tick > 0.0) {
+            return Err(bad("give a positive height and a positive time between samples"));
+        }
+        let (a, b) = augmented(height, tick);
+        let p = riccati(&a, &b).ok_or_else(|| bad("Riccati's equation has no solution"))?;
+        let weight = 1.0 / (JERK_PRICE + (b.transpose() * p * b).x);
+        let gains: RowVector4<f64> = b.transpose() * p * a * weight;
+        let closed = a - b * gains;
+        let mut carried: Vector4<f64> = -(closed.transpose() * p * Vector4::x());
+        let count = (HORIZON / tick).ceil() as usize;
+        let mut ahead = vec![-gains.x];
+        while ahead.len() < count {
+            ahead.push(weight * b.dot(&carried));
+            carried = closed.transpose() * carried;
+        }
+        Ok(Preview { height, tick, gains, ahead })
+    }
+
+    /// The positions of the centre of mass whose zero moment point follows `reference`, one coordinate, from rest over its first value;
+    /// behind its end the reference stays.
+    pub fn follow(&self, reference: &[f64]) -> Vec<f64> {
+        let Some((&first, &last)) = reference.first().zip(reference.last()) else { return Vec::new() };
+        let (mut state, mut error) = (Vector3::new(first, 0.0, 0.0), 0.0);
+        let mut positions = Vec::with_capacity(reference.len());
+        for sample in 0..reference.len() {
+            positions.push(state.x);
+            let zmp = state.x - self.height / GRAVITY * state.z;
+            error += zmp - reference[sample];
+            let future = self.ahead.iter().enumerate();
+            let future: f64 =
+                future.map(|(j, gain)| gain * reference.get(sample + 1 + j).copied().unwrap_or(last)).sum();
+            let feedback = self.gains.dot(&RowVector4::new(error, state.x, state.y, state.z));
+            let jerk = -feedback - future;
+            state = advanced(&state, jerk, self.tick);
+        }
+        positions
+    }
+}
+
+/// The cart after a tick of constant jerk.
+fn advanced(state: &Vector3<f64>, jerk: f64, tick: f64) -> Vector3<f64> {
+    let (x, v, a) = (state.x, state.y, state.z);
+    Vector3::new(
+        x + tick * (v + tick * (a / 2.0 + tick * jerk / 6.0)),
+        v + tick * (a + tick * jerk / 2.0),
+        a + tick * jerk,
+    )
+}
+
+/// Summed error and cart as one linear system: what becomes of it, and what jerk does.
+fn augmented(height: f64, tick: f64) -> (Matrix4<f64>, Vector4<f64>) {
+    let share = height / GRAVITY;
+    let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|unit| advanced(&unit, 0.0, tick));
+    let zmp = |state: &Vector3<f64>| state.x - share * state.z;
+    let column = |state: &Vector3<f64>| Vector4::new(zmp(state), state.x, state.y, state.z);
+    let pushed = advanced(&Vector3::zeros(), 1.0, tick);
+    let a = Matrix4::from_columns(&[Vector4::x(), column(&columns[0]), column(&columns[1]), column(&columns[2])]);
+    (a, column(&pushed))
+}
+
+/// The solution of the discrete algebraic Riccati equation, by its recursion.
+fn riccati(a: &Matrix4<f64>, b: &Vector4<f64>) -> Option<Matrix4<f64>> {
+    let price = Matrix4::from_diagonal(&Vector4::new(ERROR_PRICE, 0.0, 0.0, 0.0));
+    let mut p = price;
+    for _ in 0..MOST_RECURSIONS {
+        let pb = p * b;
+        let gain = pb.transpose() * a / (JERK_PRICE + b.dot(&pb));
+        let next = price + a.transpose() * p * a - (a.transpose() * pb) * gain;
+        let next = (next + next.transpose()) / 2.0;
+        let change = (next - p).norm();
+        p = next;
+        if change <= SETTLED * p.norm() {
+            return p.iter().all(|x| x.is_finite()).then_some(p);
+        }
+    }
+    None
+}
+
+/// Where the zero moment point is to be: over the foot that stands while the other one swings, and on a smooth way from foot to foot.
+pub fn zmp_reference(
+    style: &Style,
+    schedule: &Schedule,
+    action: Action,
+    feet: &[Footprint; 2],
+    share: f64,
+) -> Point2<f64> {
+    match action {
+        Action::Rest => style.between(feet),
+        Action::Swing(step) => style.ends(schedule, step, feet)[1],
+        Action::Shift(step) => {
+            let [from, to] = style.ends(schedule, step, feet);
+            from + (to - from) * smooth(share)
+        }
+    }
+}
+
+/// The motion whose zero moment point follows its reference by preview control; the centres of `references` become those of the walk.
+///
+/// # Errors
+/// As the motion of given references.
+pub(super) fn moved(
+    humanoid: &Humanoid,
+    legs: &(impl Legs + Sync),
+    request: &Request,
+    schedule: &Schedule,
+    references: &mut [Reference],
+    watch: &Watch,
+) -> Result<(Motion, Vec<Balance>)> {
+    let stands = schedule.route.stands();
+    let wanted: Vec<Point2<f64>> = (schedule.instants())
+        .map(|(phase, share)| {
+            let action = schedule.phases[phase].action;
+            let feet = Schedule::feet(&stands, action, phase == 0);
+            zmp_reference(&request.style, schedule, action, &feet, share)
+        })
+        .collect();
+    let resting = realised(humanoid, legs, request, &references[..1], watch)?;
+    let preview = Preview::new(resting.0.centres[0].z, TICK)?;
+    let follow = |way: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
+        let [x, y] = [0, 1].map(|axis| preview.follow(&way.iter().map(|point| point[axis]).collect::<Vec<_>>()));
+        x.into_iter().zip(y).map(|(x, y)| Vector2::new(x, y)).collect()
+    };
+    let mut centres = follow(&wanted.iter().map(|point| point.coords).collect::<Vec<_>>());
+    for _ in 0..FEEDBACKS {
+        aim(references, &centres);
+        let (_, balances) = realised(humanoid, legs, request, references, watch)?;
+        let missing: Vec<Vector2<f64>> =
+            wanted.iter().zip(&balances).map(|(wanted, balance)| wanted - balance.zmp).collect();
+        for (centre, correction) in centres.iter_mut().zip(follow(&missing)) {
+            *centre += correction;
+        }
+    }
+    aim(references, &centres);
+    realised(humanoid, legs, request, references, watch)
+}
+
+/// Asks the references for these centres of mass.
+fn aim(references: &mut [Reference], centres: &[Vector2<f64>]) {
+    for (reference, centre) in references.iter_mut().zip(centres) {
+        reference.centre = Point2::from(*centre);
+    }
+}

@@ -1,0 +1,127 @@
+//! Why a walk is refused, in words, and which figure would make it feasible.
+
+use nalgebra::Point2;
+
+use super::check::{Fault, Found};
+use super::humanoid::Humanoid;
+use super::plan::{Request, TICK};
+use super::schedule::{Action, Schedule};
+use crate::{Error, ErrorKind};
+
+/// Whether a slower walk may heal a fault.
+pub(super) fn is_healed_by_time(fault: &Fault) -> bool {
+    matches!(fault, Fault::Dynamic { .. } | Fault::Speed { .. })
+}
+
+/// The error for what was found.
+pub(super) fn of(humanoid: &Humanoid, schedule: &Schedule, request: &Request, found: &Found) -> Error {
+    let time = found.sample as f64 * TICK;
+    let when = format!("t = {time:.2} s, {}", phase(schedule, found.phase));
+    let text = match &found.fault {
+        Fault::Static { margin } => {
+            let asked = request.margin;
+            format!(
+                "the centre of mass is {} the border of the support polygon, {:.1} mm inside it are asked for; {}",
+                measured(*margin),
+                1e3 * asked,
+                feasible(humanoid, request)
+            )
+        }
+        Fault::Dynamic { margin } => format!(
+            "the zero moment point is {} the border of the support polygon, {:.1} mm inside it are asked for, and no slower walk helps; {}",
+            measured(*margin),
+            1e3 * request.margin,
+            feasible(humanoid, request)
+        ),
+        Fault::Limit { joint, value } => {
+            let range = &humanoid.joints[*joint];
+            format!(
+                "joint `{}` would be at {:.2} deg, its limits are {:.2}..{:.2} deg; change the hip height, the length, lift or turn of the steps",
+                range.name,
+                value.to_degrees(),
+                range.limits.0.to_degrees(),
+                range.limits.1.to_degrees()
+            )
+        }
+        Fault::Speed { joint, rate } => {
+            let range = &humanoid.joints[*joint];
+            format!(
+                "joint `{}` would turn at {:.2} rad/s, its limit is {:.2} rad/s times {}; give a longer period or shorter steps",
+                range.name, rate, range.speed, request.speed_share
+            )
+        }
+        Fault::Feet { apart } => {
+            format!("the feet come within {:.1} mm of one another; widen the steps or turn less", 1e3 * apart)
+        }
+    };
+    Error::new(ErrorKind::BadValue, format!("{when}: {text}"))
+}
+
+fn phase(schedule: &Schedule, place: usize) -> String {
+    let steps = schedule.route.steps.len();
+    match schedule.phases[place].action {
+        Action::Rest if place == 0 => "rest before the first step".into(),
+        Action::Rest => "rest behind the last step".into(),
+        Action::Shift(step) if step == steps => "shift behind the last step".into(),
+        Action::Shift(step) => format!("shift before step {}", step + 1),
+        Action::Swing(step) => format!("swing of step {} ({} foot)", step + 1, schedule.route.steps[step].side.name()),
+    }
+}
+
+fn measured(margin: f64) -> String {
+    let side = if margin < 0.0 { "outside" } else { "inside" };
+    format!("{:.1} mm {side}", 1e3 * margin.abs())
+}
+
+/// Which figures keep the centre of mass over one sole.
+fn feasible(humanoid: &Humanoid, request: &Request) -> String {
+    let corners = &humanoid.feet[0].corners;
+    let range = |coordinate: fn(&Point2<f64>) -> f64| {
+        let values = corners.iter().map(coordinate);
+        (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
+    };
+    let ((back, front), (right, left)) = (range(|corner| corner.x), range(|corner| corner.y));
+    let (margin, style) = (request.margin, &request.style);
+    let most = ((front - back).min(left - right)) / 2.0;
+    if margin > most {
+        return format!("the sole allows a margin of {most:.4} m at most");
+    }
+    format!(
+        "the soles allow an amplitude of {:.4}..{:.4} m and a centre of mass {:.4}..{:.4} m ahead of the ankles",
+        style.half_width + right + margin,
+        style.half_width + left - margin,
+        back + margin,
+        front - margin
+    )
+}
+
+/// Refuses figures that no walk can have.
+pub(super) fn check(request: &Request) -> crate::Result<()> {
+    let (style, durations) = (&request.style, &request.durations);
+    let positive = [
+        ("half width", style.half_width),
+        ("torso height", style.torso_height),
+        ("shift's duration", durations.shift),
+        ("swing's duration", durations.swing),
+        ("speed share", request.speed_share),
+    ];
+    let not_negative = [
+        ("lift", style.lift),
+        ("amplitude", style.amplitude),
+        ("rest's duration", durations.rest),
+        ("margin", request.margin),
+    ];
+    let refuse = |name: &str, value: f64, wanted: &str| {
+        Err(Error::new(ErrorKind::BadValue, format!("the {name} is {value}; give {wanted}")))
+    };
+    if let Some((name, value)) = positive.iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {
+        return refuse(name, *value, "a positive number");
+    }
+    if let Some((name, value)) = not_negative.iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0)) {
+        return refuse(name, *value, "zero or a positive number");
+    }
+    if !style.ahead.is_finite() {
+        return refuse("lead of the centre of mass", style.ahead, "a finite number");
+    }
+    Ok(())
+}

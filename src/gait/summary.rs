@@ -1,0 +1,164 @@
+//! A walk in a few figures. Main type: [`Summary`].
+
+use std::fmt;
+
+use super::humanoid::Humanoid;
+use super::plan::{Gait, Walk};
+
+/// A figure at its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// The figure.
+    pub value: f64,
+    /// When it is met first \[s\].
+    pub time: f64,
+}
+
+/// What a walk comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// The name of the robot.
+    pub robot: String,
+    /// How the centre of mass is moved.
+    pub gait: Gait,
+    /// The number of steps.
+    pub steps: usize,
+    /// How long the walk lasts, rests included \[s\].
+    pub duration: f64,
+    /// How far the middle of the feet gets \[m\].
+    pub distance: f64,
+    /// How far the middle of the feet turns \[rad\].
+    pub turn: f64,
+    /// The height of the torso's origin over the floor \[m\].
+    pub torso_height: f64,
+    /// The distance by the time from the first shift to the last \[m/s\].
+    pub speed: f64,
+    /// The least margin of the zero moment point \[m\], RH0 (3-5).
+    pub margin: Extreme,
+    /// The least margin of the projection of the centre of mass \[m\], RH0 (3-1).
+    pub static_margin: Extreme,
+    /// The greatest distance between the zero moment points of the multibody and of the linear inverted pendulum \[m\].
+    pub pendulum_error: Extreme,
+    /// The joint that comes nearest to a limit, and how near \[rad\].
+    pub nearest_limit: (String, Extreme),
+    /// The joint that turns at the greatest share of its speed, and the share.
+    pub fastest: (String, Extreme),
+    /// How many phases are slowed down, and the greatest factor.
+    pub slowed: (usize, f64),
+}
+
+impl Summary {
+    /// The figures of `walk`.
+    pub fn of(humanoid: &Humanoid, walk: &Walk) -> Self {
+        let stands = walk.schedule.route.stands();
+        let middles = [&stands[0], &stands[stands.len() - 1]].map(|feet| feet[0].middle(&feet[1]));
+        let distance = (middles[1].point() - middles[0].point()).norm();
+        let phases = &walk.schedule.phases;
+        let samples = |phases: &[super::Phase]| phases.iter().map(|phase| phase.samples).sum::<usize>();
+        let walking = samples(&phases[1..phases.len() - 1]) as f64 * walk.schedule.tick;
+        let least = |figure: &dyn Fn(usize) -> f64| extreme(walk, &|sample| -figure(sample), -1.0);
+        let slowed = phases.iter().filter(|phase| phase.slowed > 1.0);
+        Summary {
+            robot: humanoid.name.clone(),
+            gait: walk.request.gait,
+            steps: walk.schedule.route.steps.len(),
+            duration: walk.time(walk.balances.len() - 1),
+            distance,
+            turn: middles[1].yaw - middles[0].yaw,
+            torso_height: walk.request.style.torso_height,
+            speed: distance / walking,
+            margin: least(&|sample| walk.balances[sample].margin),
+            static_margin: least(&|sample| walk.balances[sample].static_margin),
+            pendulum_error: extreme(
+                walk,
+                &|sample| (walk.balances[sample].zmp - walk.balances[sample].pendulum).norm(),
+                1.0,
+            ),
+            nearest_limit: nearest_limit(humanoid, walk),
+            fastest: fastest(humanoid, walk),
+            slowed: (slowed.clone().count(), slowed.map(|phase| phase.slowed).fold(1.0, f64::max)),
+        }
+    }
+}
+
+/// The greatest figure, times `sign`, with its time.
+fn extreme(walk: &Walk, figure: &dyn Fn(usize) -> f64, sign: f64) -> Extreme {
+    let mut best = (f64::NEG_INFINITY, 0);
+    for sample in 0..walk.balances.len() {
+        let value = figure(sample);
+        if value > best.0 {
+            best = (value, sample);
+        }
+    }
+    Extreme { value: sign * best.0, time: walk.time(best.1) }
+}
+
+/// The joint whose figure is the greatest over the walk. Joints that stand still are left out.
+fn among_joints(
+    humanoid: &Humanoid,
+    walk: &Walk,
+    figure: &dyn Fn(usize, usize) -> f64,
+    sign: f64,
+) -> (String, Extreme) {
+    let postures = &walk.motion.postures;
+    let moves = |joint: &usize| postures.iter().any(|posture| posture.q[*joint] != postures[0].q[*joint]);
+    let figures = (0..humanoid.joints.len())
+        .filter(moves)
+        .map(|joint| (humanoid.joints[joint].name.clone(), extreme(walk, &|sample| figure(joint, sample), sign)));
+    figures
+        .max_by(|a, b| (sign * a.1.value).total_cmp(&(sign * b.1.value)))
+        .unwrap_or_else(|| ("none".into(), Extreme { value: 0.0, time: 0.0 }))
+}
+
+fn nearest_limit(humanoid: &Humanoid, walk: &Walk) -> (String, Extreme) {
+    let room = |joint: usize, sample: usize| {
+        let (low, high) = humanoid.joints[joint].limits;
+        let value = walk.motion.postures[sample].q[joint];
+        (value - low).min(high - value)
+    };
+    among_joints(humanoid, walk, &|joint, sample| -room(joint, sample), -1.0)
+}
+
+fn fastest(humanoid: &Humanoid, walk: &Walk) -> (String, Extreme) {
+    let postures = &walk.motion.postures;
+    let share = |joint: usize, sample: usize| {
+        let before = postures[sample.saturating_sub(1)].q[joint];
+        (postures[sample].q[joint] - before).abs() / walk.schedule.tick / humanoid.joints[joint].speed
+    };
+    among_joints(humanoid, walk, &share, 1.0)
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let gait = match self.gait {
+            Gait::Seed => "the seed's sine",
+            Gait::Preview => "preview control",
+        };
+        let millimetres = |extreme: &Extreme| format!("{:.1} mm at {:.2} s", 1e3 * extreme.value, extreme.time);
+        writeln!(f, "{}: {} steps by {gait}, {:.2} s", self.robot, self.steps, self.duration)?;
+        writeln!(
+            f,
+            "  way             {:.3} m, turn {:.1} deg, {:.1} cm/s between the rests, torso {:.3} m high",
+            self.distance,
+            self.turn.to_degrees(),
+            100.0 * self.speed,
+            self.torso_height
+        )?;
+        writeln!(f, "  least margin    {} (ZMP, RH0 (3-5))", millimetres(&self.margin))?;
+        writeln!(f, "  static margin   {} (centre of mass, RH0 (3-1))", millimetres(&self.static_margin))?;
+        writeln!(f, "  pendulum's ZMP  off by {} at most", millimetres(&self.pendulum_error))?;
+        let (joint, room) = &self.nearest_limit;
+        writeln!(f, "  joint limits    {joint} comes within {:.1} deg at {:.2} s", room.value.to_degrees(), room.time)?;
+        let (joint, share) = &self.fastest;
+        writeln!(
+            f,
+            "  joint speeds    {joint} reaches {:.0} % of its own at {:.2} s",
+            100.0 * share.value,
+            share.time
+        )?;
+        match self.slowed {
+            (0, _) => writeln!(f, "  phases          none had to be slowed down"),
+            (count, factor) => writeln!(f, "  phases          {count} slowed down, up to {factor:.2} times"),
+        }
+    }
+}

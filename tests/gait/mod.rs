@@ -1,0 +1,48 @@
+//! Walking: polygons and zero moment points against their definitions, walks against forward kinematics and against the documents.
+
+mod any;
+mod nao;
+mod polygon;
+mod preview;
+mod refused;
+mod route;
+mod seed;
+mod zmp;
+
+use std::sync::OnceLock;
+
+use groebot::Watch;
+use groebot::gait::{
+    Durations, Gait, Humanoid, NaoLegs, Outline, Regular, Request, Route, Side, Style, Walk, nao, plan,
+};
+
+/// NAO on its measured soles.
+fn robot() -> &'static (Humanoid, NaoLegs) {
+    static ROBOT: OnceLock<(Humanoid, NaoLegs)> = OnceLock::new();
+    ROBOT.get_or_init(|| nao(Outline::Measured).unwrap())
+}
+
+fn regular() -> Regular {
+    Regular { steps: 4, length: 0.04, turn: 0.0, half_width: 0.05, first: Side::Left }
+}
+
+fn style() -> Style {
+    Style { lift: 0.02, amplitude: 0.05, half_width: 0.05, ahead: 0.005, torso_height: 0.313 }
+}
+
+/// The seed's gait on a regular route.
+fn request(regular: &Regular) -> Request {
+    Request {
+        route: Route::regular(regular).unwrap(),
+        gait: Gait::Seed,
+        style: style(),
+        durations: Durations { rest: 0.3, shift: 0.96, swing: 0.54 },
+        margin: 0.01,
+        speed_share: 0.9,
+    }
+}
+
+fn walk(request: &Request) -> groebot::Result<Walk> {
+    let (humanoid, legs) = robot();
+    plan(humanoid, legs, request, &Watch::none())
+}
