@@ -1,0 +1,141 @@
+//! From the pencil to joint angles: eigenvalues, eigenvectors, back-substitution ([`Candidates`]).
+
+use crate::roots::Hessenberg;
+
+use super::formulation::{Equations, Formulation};
+use super::pencil::{ALL, Matrix, NEAR, Pencil, SIZE, Wide, monomials};
+use super::linear::solve;
+use super::profile::PRODUCTS;
+use super::reduce::{COLUMNS, FAR, Reduced};
+
+/// Half angles from which the hidden one is counted: the first whose matrix can be inverted well is taken.
+const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
+/// The smallest share of a pivot in the largest entry of its matrix at which an origin is taken at once.
+const SOUND: f64 = 1e-9;
+/// A complex pair with a smaller imaginary part, as a share of `1 + |x|^2`, may be a double root that rounding has parted.
+const BLURRED: f64 = 1e-3;
+
+/// Five joint angles; the one whose line was used is still missing.
+pub(super) type Angles = [f64; 6];
+
+/// Candidates for solutions of one formulation.
+#[derive(Clone, Debug)]
+pub(super) struct Candidates {
+    /// The angles.
+    pub list: [Angles; SIZE],
+    /// How many there are.
+    pub count: usize,
+    /// Whether an eigenvalue is complex by so little that it may be real: then the number of real solutions is not known.
+    pub is_blurred: bool,
+    /// The smallest share of a pivot in the largest entry of the matrix that was inverted.
+    pub conditioning: f64,
+}
+
+/// What an eigenvector means.
+struct Reader<'a> {
+    formulation: Formulation,
+    reduced: &'a Reduced,
+    pencil: &'a Pencil,
+}
+
+impl Candidates {
+    /// The candidates; `None` when the pencil is singular for this target or no number.
+    pub fn new(equations: &Equations<f64>, formulation: Formulation) -> Option<Self> {
+        let reduced = Reduced::new(equations);
+        let pencil = Pencil::new(&reduced, formulation.second)?;
+        let (origin, matrix, conditioning) = standard(&pencil)?;
+        let form = Hessenberg::reduce(matrix);
+        let values = form.eigenvalues()?;
+        let reader = Reader { formulation, reduced: &reduced, pencil: &pencil };
+        let mut found = Candidates { list: [[0.0; 6]; SIZE], count: 0, is_blurred: false, conditioning };
+        for value in values {
+            let size = 1.0 + value.re * value.re + value.im * value.im;
+            if value.im.abs() > BLURRED * size {
+                continue;
+            }
+            found.is_blurred |= value.im != 0.0;
+            let hidden = 2.0 * (origin + (value.re + value.im).atan());
+            found.list[found.count] = reader.angles(hidden, &form.eigenvector(value.re));
+            found.count += 1;
+        }
+        Some(found)
+    }
+}
+
+/// The origin of the half angle, `B'^-1 A'` for it, and how well `B'` was inverted.
+fn standard(pencil: &Pencil) -> Option<(f64, Matrix, f64)> {
+    let mut best: Option<(f64, Matrix, f64)> = None;
+    for origin in ORIGINS {
+        let (s, c) = origin.sin_cos();
+        let mix = |a: f64, b: f64| -> Matrix {
+            std::array::from_fn(|row| {
+                std::array::from_fn(|column| a * pencil.constant[row][column] + b * pencil.linear[row][column])
+            })
+        };
+        let (mut right, mut left) = (mix(c, -s), mix(s, c));
+        let conditioning = solve(&mut left, &mut right);
+        if best.as_ref().is_none_or(|(_, _, known)| conditioning > *known) {
+            best = Some((origin, right, conditioning));
+        }
+        if conditioning >= SOUND {
+            break;
+        }
+    }
+    best.filter(|(_, _, conditioning)| *conditioning > 0.0)
+}
+
+impl Reader<'_> {
+    /// The angles, given that of the hidden joint and its eigenvector.
+    fn angles(&self, hidden: f64, vector: &[f64; SIZE]) -> Angles {
+        let wide = self.pencil.widened(vector);
+        let (half, head) = half_angle(&wide);
+        let other = (head[2] * head[0].signum()).atan2(head[1] * head[0].signum());
+        let (first, second) = if self.formulation.second { (other, 2.0 * half) } else { (2.0 * half, other) };
+        let far = self.far(&wide, half, head[0], &products(first, second));
+        let mut angles = [0.0; 6];
+        let values = [hidden, first, second, 0.0, -far[1].atan2(far[0]), -far[5].atan2(far[2])];
+        for (steps, value) in values.into_iter().enumerate() {
+            angles[self.formulation.joint(steps)] = value;
+        }
+        angles
+    }
+
+    /// The products of the far joints.
+    fn far(&self, wide: &Wide, half: f64, head: f64, near: &[f64; PRODUCTS]) -> [f64; FAR] {
+        let (s, c) = half.sin_cos();
+        let scale = if c.abs() >= s.abs() { head / (c * c * c) } else { head / (s * s * s) };
+        let (solved, order) = (self.reduced.solved, &self.reduced.order);
+        let left = FAR - solved;
+        let mut values = [0.0; COLUMNS];
+        values[..PRODUCTS].copy_from_slice(near);
+        for (k, column) in order[solved..].iter().enumerate() {
+            values[*column] = (c * wide[NEAR + k] + s * wide[NEAR + left + k]) / scale;
+        }
+        let known = values;
+        for (row, column) in self.reduced.still.iter().zip(&order[..solved]) {
+            values[*column] = -row.iter().zip(&known).map(|(a, b)| a * b).sum::<f64>();
+        }
+        std::array::from_fn(|product| values[PRODUCTS + product])
+    }
+}
+
+/// Half of the doubled angle, and the products of the other near joint at the greatest monomial: multiples of 1, c, s.
+fn half_angle(wide: &Wide) -> (f64, [f64; 3]) {
+    let powers = [0, 1, 2, 3].map(|power| monomials(wide, power));
+    let product = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let [first, last] = [0, 3].map(|power| product(&powers[power], &powers[power]));
+    if first >= last {
+        (product(&powers[1], &powers[0]).atan2(first), powers[0])
+    } else {
+        (last.atan2(product(&powers[2], &powers[3])), powers[3])
+    }
+}
+
+/// The products of one of 1, c, s of two joints, the second changing fastest.
+fn products(first: f64, second: f64) -> [f64; PRODUCTS] {
+    let factors = |angle: f64| [1.0, angle.cos(), angle.sin()];
+    let (a, b) = (factors(first), factors(second));
+    std::array::from_fn(|product| a[product / 3] * b[product % 3])
+}
+
+const _: () = assert!(ALL == NEAR + 2 * FAR);

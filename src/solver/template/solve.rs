@@ -1,0 +1,170 @@
+//! The solver: formulations in turn until one can be trusted ([`Template`]).
+
+use std::f64::consts::{PI, TAU};
+
+use super::candidates::Candidates;
+use super::formulation::{Equations, Formulation};
+use super::polish::{Links, Rigid};
+use super::profile::Frame;
+use super::scalar::{Vector, cross, dot, scale};
+use super::screw::{Axis, Line};
+
+/// The most answers that are kept while formulations are united.
+const ROOM: usize = 32;
+/// Answers whose joints all differ by no more than this (rad) are one.
+const MERGE: f64 = 1e-7;
+/// The largest residual of an answer, as a share of the length scale or in radians.
+const ACCEPT: f64 = 1e-12;
+/// The share of a pivot below which another formulation is asked too.
+const SOUND: f64 = 1e-11;
+
+/// A joint vector that reaches the target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// The joint angles, in (-pi, pi] \[rad\].
+    pub q: [f64; 6],
+    /// The largest coordinate of what is missed: a share of the length scale, or radians.
+    pub residual: f64,
+}
+
+/// The answers at one target.
+#[derive(Clone, Debug)]
+pub struct Answers {
+    list: [Answer; ROOM],
+    count: usize,
+    /// How many formulations were run.
+    pub runs: usize,
+    /// Whether the last of them could be trusted.
+    pub is_trusted: bool,
+}
+
+/// The solver of one chain of six revolute joints.
+#[derive(Clone, Debug)]
+pub struct Template {
+    axes: [Axis<f64>; 6],
+    frames: [Frame<f64>; 6],
+    links: Links,
+    last: Rigid,
+    scale: f64,
+    formulations: Vec<Formulation>,
+}
+
+impl Answers {
+    /// The answers.
+    pub fn as_slice(&self) -> &[Answer] {
+        &self.list[..self.count]
+    }
+
+    fn keep(&mut self, answer: Answer) {
+        for known in &mut self.list[..self.count] {
+            if distance(&known.q, &answer.q) <= MERGE {
+                if answer.residual < known.residual {
+                    *known = answer;
+                }
+                return;
+            }
+        }
+        if self.count < ROOM {
+            self.list[self.count] = answer;
+            self.count += 1;
+        }
+    }
+}
+
+/// The largest difference of two joint vectors, by the shorter way round.
+fn distance(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    let way = |(x, y): (&f64, &f64)| (x - y - TAU * ((x - y) / TAU).round()).abs();
+    a.iter().zip(b).map(way).fold(0.0, f64::max)
+}
+
+/// The angle in (-pi, pi].
+fn wrapped(angle: f64) -> f64 {
+    let turned = angle - TAU * (angle / TAU).round();
+    if turned <= -PI { turned + TAU } else { turned }
+}
+
+impl Template {
+    /// The solver of the chain with these axes (directions of length one) at zero, and a typical length of it; the formulations are
+    /// taken in this order.
+    pub fn new(lines: [Line<f64>; 6], scale_of_lengths: f64, formulations: Vec<Formulation>) -> Self {
+        let axes = lines.map(|line| Axis::along(Line { point: scale(&line.point, 1.0 / scale_of_lengths), ..line }));
+        let frames = axes.map(|axis| frame(&axis.line));
+        let poses = frames.map(|frame| pose(&frame));
+        let step = |joint: usize| match joint {
+            0 => poses[0],
+            _ => poses[joint - 1].inverse().after(&poses[joint]),
+        };
+        let links = Links { steps: std::array::from_fn(step) };
+        Template { axes, frames, links, last: poses[5], scale: scale_of_lengths, formulations }
+    }
+
+    /// All real solutions of `E1 ... E6 = displacement`, which takes the chain's tip from its place at zero to the target.
+    pub fn solve(&self, displacement: &Rigid) -> Answers {
+        let translation = scale(&displacement.translation, 1.0 / self.scale);
+        let displacement = Rigid { translation, ..*displacement };
+        let back = displacement.inverse();
+        let carried = |motion: &Rigid| self.axes.map(|axis| carried(motion, &axis.line));
+        let (ahead, behind) = (carried(&displacement), carried(&back));
+        let target = displacement.after(&self.last);
+        let none = Answer { q: [0.0; 6], residual: 0.0 };
+        let mut answers = Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false };
+        for formulation in &self.formulations {
+            let frame = &self.frames[formulation.hidden];
+            let equations = Equations::new(*formulation, frame, &self.axes, &ahead, &behind);
+            answers.runs += 1;
+            if self.run(*formulation, &equations, &target, &mut answers) {
+                answers.is_trusted = true;
+                break;
+            }
+        }
+        answers
+    }
+
+    /// Adds the answers of one formulation; whether it can be trusted to have found all.
+    fn run(
+        &self,
+        formulation: Formulation,
+        equations: &Equations<f64>,
+        target: &Rigid,
+        answers: &mut Answers,
+    ) -> bool {
+        let Some(candidates) = Candidates::new(equations, formulation) else { return false };
+        let mut lost = 0;
+        for q in &candidates.list[..candidates.count] {
+            let mut q = *q;
+            let missing = formulation.joint(3);
+            q[missing] = self.links.closing(&q, missing, target);
+            let residual = self.links.polish(&mut q, target);
+            if residual <= ACCEPT {
+                answers.keep(Answer { q: q.map(wrapped), residual });
+            } else {
+                lost += 1;
+            }
+        }
+        lost == 0 && !candidates.is_blurred && answers.count % 2 == 0 && candidates.conditioning >= SOUND
+    }
+}
+
+fn carried(motion: &Rigid, line: &Line<f64>) -> Line<f64> {
+    Line { direction: motion.turned(&line.direction), point: motion.moved(&line.point) }
+}
+
+/// A frame on the line.
+fn frame(line: &Line<f64>) -> Frame<f64> {
+    let w = line.direction;
+    let mut least = 0;
+    for k in 1..3 {
+        least = if w[k].abs() < w[least].abs() { k } else { least };
+    }
+    let mut unit: Vector<f64> = [0.0; 3];
+    unit[least] = 1.0;
+    let across = cross(&w, &unit);
+    let e = scale(&across, 1.0 / dot(&across, &across).sqrt());
+    Frame { origin: line.point, axis: w, across: [e, cross(&w, &e)] }
+}
+
+/// The frame as a motion of the base frame.
+fn pose(frame: &Frame<f64>) -> Rigid {
+    let [x, y, z] = [frame.across[0], frame.across[1], frame.axis];
+    Rigid { rotation: [0, 1, 2].map(|k| [x[k], y[k], z[k]]), translation: frame.origin }
+}
