@@ -1,6 +1,6 @@
 //! From the pencil to joint angles: eigenvalues, eigenvectors, back-substitution ([`Candidates`]).
 
-use crate::roots::Hessenberg;
+use crate::roots::{Eigenvalue, Hessenberg};
 
 use super::formulation::{Equations, Formulation};
 use super::pencil::{ALL, Matrix, NEAR, Pencil, SIZE, Wide, monomials};
@@ -13,20 +13,27 @@ const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
 /// The smallest share of a pivot in the largest entry of its matrix at which an origin is taken at once.
 const SOUND: f64 = 1e-9;
 /// A complex pair with a smaller imaginary part, as a share of `1 + |x|^2`, may be a double root that rounding has parted.
-const BLURRED: f64 = 1e-3;
+const BLURRED: f64 = 1e-2;
 
 /// Five joint angles; the one whose line was used is still missing.
 pub(super) type Angles = [f64; 6];
 
+/// A candidate for a solution.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Candidate {
+    /// The angles.
+    pub q: Angles,
+    /// The size of the eigenvalue's imaginary part as a share of `1 + |x|^2`: half the way off the real line of the hidden angle.
+    pub depth: f64,
+}
+
 /// Candidates for solutions of one formulation.
 #[derive(Clone, Debug)]
 pub(super) struct Candidates {
-    /// The angles.
-    pub list: [Angles; SIZE],
+    /// The angles, those of real eigenvalues first.
+    pub list: [Candidate; SIZE],
     /// How many there are.
     pub count: usize,
-    /// Whether an eigenvalue is complex by so little that it may be real: then the number of real solutions is not known.
-    pub is_blurred: bool,
     /// The smallest share of a pivot in the largest entry of the matrix that was inverted.
     pub conditioning: f64,
 }
@@ -39,23 +46,21 @@ struct Reader<'a> {
 }
 
 impl Candidates {
-    /// The candidates; `None` when the pencil is singular for this target or no number.
-    pub fn new(equations: &Equations<f64>, formulation: Formulation) -> Option<Self> {
+    /// The candidates; each `attempt` begins with another origin of the half angle. `None` when the pencil is singular for this target or no number.
+    pub fn new(equations: &Equations<f64>, formulation: Formulation, attempt: usize) -> Option<Self> {
         let reduced = Reduced::new(equations);
         let pencil = Pencil::new(&reduced, formulation.second)?;
-        let (origin, matrix, conditioning) = standard(&pencil)?;
+        let (origin, matrix, conditioning) = standard(&pencil, attempt)?;
         let form = Hessenberg::reduce(matrix);
         let values = form.eigenvalues()?;
         let reader = Reader { formulation, reduced: &reduced, pencil: &pencil };
-        let mut found = Candidates { list: [[0.0; 6]; SIZE], count: 0, is_blurred: false, conditioning };
-        for value in values {
-            let size = 1.0 + value.re * value.re + value.im * value.im;
-            if value.im.abs() > BLURRED * size {
-                continue;
-            }
-            found.is_blurred |= value.im != 0.0;
+        let mut found = Candidates { list: [Candidate::default(); SIZE], count: 0, conditioning };
+        let depth = |value: &Eigenvalue| value.im.abs() / (1.0 + value.re * value.re + value.im * value.im);
+        let (real, near) = (values.iter().filter(|value| value.im == 0.0), values.iter().filter(|value| value.im != 0.0));
+        for value in real.chain(near.filter(|value| depth(value) <= BLURRED)) {
             let hidden = 2.0 * (origin + (value.re + value.im).atan());
-            found.list[found.count] = reader.angles(hidden, &form.eigenvector(value.re));
+            let q = reader.angles(hidden, &form.eigenvector(value.re));
+            found.list[found.count] = Candidate { q, depth: depth(value) };
             found.count += 1;
         }
         Some(found)
@@ -63,9 +68,10 @@ impl Candidates {
 }
 
 /// The origin of the half angle, `B'^-1 A'` for it, and how well `B'` was inverted.
-fn standard(pencil: &Pencil) -> Option<(f64, Matrix, f64)> {
+fn standard(pencil: &Pencil, attempt: usize) -> Option<(f64, Matrix, f64)> {
     let mut best: Option<(f64, Matrix, f64)> = None;
-    for origin in ORIGINS {
+    for index in 0..ORIGINS.len() {
+        let origin = ORIGINS[(attempt + index) % ORIGINS.len()];
         let (s, c) = origin.sin_cos();
         let mix = |a: f64, b: f64| -> Matrix {
             std::array::from_fn(|row| {

@@ -111,10 +111,11 @@ impl Links {
         size(&Links::miss(&self.reach(q), target))
     }
 
-    /// Newton steps from `q` to `target`; what residual is left.
-    pub fn polish(&self, q: &mut [f64; 6], target: &Rigid) -> f64 {
+    /// Newton steps from `q` to `target`; the residual before and after them.
+    pub fn polish(&self, q: &mut [f64; 6], target: &Rigid) -> (f64, f64) {
         let mut reach = self.reach(q);
         let mut miss = Links::miss(&reach, target);
+        let start = size(&miss);
         for _ in 0..STEPS {
             let known = size(&miss);
             if known <= EXACT || !known.is_finite() {
@@ -133,7 +134,7 @@ impl Links {
                 break;
             }
         }
-        size(&miss)
+        (start, size(&miss))
     }
 }
 

@@ -18,6 +18,17 @@ const ACCEPT: f64 = 1e-12;
 /// The share of a pivot below which another formulation is asked too.
 const SOUND: f64 = 1e-11;
 
+/// A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate.
+const ACCURATE: f64 = 1e-4;
+/// What stands in for the accuracy of the eigenvalues when it is better than that.
+const UNKNOWN: f64 = 1e-11;
+/// The square of a complex eigenvalue's depth as a multiple of the eigenvalues' accuracy: below it, it may be a double root.
+const OFF: f64 = 1e2;
+/// Below it, it is tried.
+const FAR_OFF: f64 = 1e6;
+/// Formulations, or origins of one, that are run at most.
+const MOST_RUNS: usize = 4;
+
 /// A joint vector that reaches the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
@@ -36,6 +47,15 @@ pub struct Answers {
     pub runs: usize,
     /// Whether the last of them could be trusted.
     pub is_trusted: bool,
+    /// The largest residual of a candidate before it was polished.
+    pub start: f64,
+}
+
+/// What is to be run.
+struct Run<'a> {
+    formulation: Formulation,
+    attempt: usize,
+    target: &'a Rigid,
 }
 
 /// The solver of one chain of six revolute joints.
@@ -107,12 +127,14 @@ impl Template {
         let (ahead, behind) = (carried(&displacement), carried(&back));
         let target = displacement.after(&self.last);
         let none = Answer { q: [0.0; 6], residual: 0.0 };
-        let mut answers = Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false };
-        for formulation in &self.formulations {
+        let mut answers = Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false, start: 0.0 };
+        for attempt in 0..MOST_RUNS {
+            let formulation = self.formulations[attempt % self.formulations.len()];
             let frame = &self.frames[formulation.hidden];
-            let equations = Equations::new(*formulation, frame, &self.axes, &ahead, &behind);
+            let equations = Equations::new(formulation, frame, &self.axes, &ahead, &behind);
             answers.runs += 1;
-            if self.run(*formulation, &equations, &target, &mut answers) {
+            let run = Run { formulation, attempt, target: &target };
+            if self.run(&run, &equations, &mut answers) {
                 answers.is_trusted = true;
                 break;
             }
@@ -121,27 +143,27 @@ impl Template {
     }
 
     /// Adds the answers of one formulation; whether it can be trusted to have found all.
-    fn run(
-        &self,
-        formulation: Formulation,
-        equations: &Equations<f64>,
-        target: &Rigid,
-        answers: &mut Answers,
-    ) -> bool {
-        let Some(candidates) = Candidates::new(equations, formulation) else { return false };
-        let mut lost = 0;
-        for q in &candidates.list[..candidates.count] {
-            let mut q = *q;
-            let missing = formulation.joint(3);
-            q[missing] = self.links.closing(&q, missing, target);
-            let residual = self.links.polish(&mut q, target);
+    fn run(&self, run: &Run<'_>, equations: &Equations<f64>, answers: &mut Answers) -> bool {
+        let Some(candidates) = Candidates::new(equations, run.formulation, run.attempt) else { return false };
+        let (mut lost, mut worst) = (0, 0.0_f64);
+        for candidate in &candidates.list[..candidates.count] {
+            if candidate.depth * candidate.depth > FAR_OFF * worst.max(UNKNOWN) {
+                continue;
+            }
+            let mut q = candidate.q;
+            let missing = run.formulation.joint(3);
+            q[missing] = self.links.closing(&q, missing, run.target);
+            let (start, residual) = self.links.polish(&mut q, run.target);
             if residual <= ACCEPT {
+                worst = if candidate.depth == 0.0 { worst.max(start) } else { worst };
                 answers.keep(Answer { q: q.map(wrapped), residual });
-            } else {
+            } else if candidate.depth * candidate.depth <= OFF * worst.max(UNKNOWN) {
                 lost += 1;
             }
         }
-        lost == 0 && !candidates.is_blurred && answers.count % 2 == 0 && candidates.conditioning >= SOUND
+        answers.start = answers.start.max(worst);
+        let is_clear = lost == 0 && answers.count % 2 == 0 && answers.count > 0;
+        is_clear && worst <= ACCURATE && candidates.conditioning >= SOUND
     }
 }
 
