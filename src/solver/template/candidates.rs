@@ -15,6 +15,9 @@ const SOUND: f64 = 1e-9;
 /// A complex pair with a smaller imaginary part, as a share of `1 + |x|^2`, may be a double root that rounding has parted.
 const BLURRED: f64 = 1e-2;
 
+/// Two real eigenvalues closer than this share of `1 + |x|^2` have eigenvectors that rounding mixes.
+const CROWDED: f64 = 1e-8;
+
 /// Five joint angles; the one whose line was used is still missing.
 pub(super) type Angles = [f64; 6];
 
@@ -34,6 +37,8 @@ pub(super) struct Candidates {
     pub list: [Candidate; SIZE],
     /// How many there are.
     pub count: usize,
+    /// Whether two real eigenvalues are so close that their eigenvectors are not known.
+    pub is_crowded: bool,
     /// The smallest share of a pivot in the largest entry of the matrix that was inverted.
     pub conditioning: f64,
 }
@@ -54,7 +59,8 @@ impl Candidates {
         let form = Hessenberg::reduce(matrix);
         let values = form.eigenvalues()?;
         let reader = Reader { formulation, reduced: &reduced, pencil: &pencil };
-        let mut found = Candidates { list: [Candidate::default(); SIZE], count: 0, conditioning };
+        let mut found = Candidates { list: [Candidate::default(); SIZE], count: 0, is_crowded: false, conditioning };
+        found.is_crowded = is_crowded(&values);
         let depth = |value: &Eigenvalue| value.im.abs() / (1.0 + value.re * value.re + value.im * value.im);
         let (real, near) = (values.iter().filter(|value| value.im == 0.0), values.iter().filter(|value| value.im != 0.0));
         for value in real.chain(near.filter(|value| depth(value) <= BLURRED)) {
@@ -65,6 +71,13 @@ impl Candidates {
         }
         Some(found)
     }
+}
+
+fn is_crowded(values: &[Eigenvalue; SIZE]) -> bool {
+    let is_close = |a: &Eigenvalue, b: &Eigenvalue| {
+        a.im == 0.0 && b.im == 0.0 && (a.re - b.re).abs() <= CROWDED * (1.0 + a.re * a.re + b.re * b.re)
+    };
+    (1..SIZE).any(|k| values[..k].iter().any(|other| is_close(other, &values[k])))
 }
 
 /// The origin of the half angle, `B'^-1 A'` for it, and how well `B'` was inverted.

@@ -23,11 +23,16 @@ const ACCURATE: f64 = 1e-4;
 /// What stands in for the accuracy of the eigenvalues when it is better than that.
 const UNKNOWN: f64 = 1e-11;
 /// The square of a complex eigenvalue's depth as a multiple of the eigenvalues' accuracy: below it, it may be a double root.
-const OFF: f64 = 1e2;
+const OFF: f64 = 1e3;
 /// Below it, it is tried.
-const FAR_OFF: f64 = 1e6;
+const FAR_OFF: f64 = 1e7;
 /// Formulations, or origins of one, that are run at most.
 const MOST_RUNS: usize = 4;
+/// How far aside the target is put for each of them: where solutions share a hidden angle, or a family of solutions stands at the same
+/// target, the eigenvectors of isolated ones are only found next to it.
+const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 1e-4, 1e-3];
+/// The axis of these small turns.
+const DIRECTION: [f64; 3] = [0.48, 0.6, 0.64];
 
 /// A joint vector that reaches the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,13 +54,6 @@ pub struct Answers {
     pub is_trusted: bool,
     /// The largest residual of a candidate before it was polished.
     pub start: f64,
-}
-
-/// What is to be run.
-struct Run<'a> {
-    formulation: Formulation,
-    attempt: usize,
-    target: &'a Rigid,
 }
 
 /// The solver of one chain of six revolute joints.
@@ -122,19 +120,13 @@ impl Template {
     pub fn solve(&self, displacement: &Rigid) -> Answers {
         let translation = scale(&displacement.translation, 1.0 / self.scale);
         let displacement = Rigid { translation, ..*displacement };
-        let back = displacement.inverse();
-        let carried = |motion: &Rigid| self.axes.map(|axis| carried(motion, &axis.line));
-        let (ahead, behind) = (carried(&displacement), carried(&back));
         let target = displacement.after(&self.last);
         let none = Answer { q: [0.0; 6], residual: 0.0 };
         let mut answers = Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false, start: 0.0 };
         for attempt in 0..MOST_RUNS {
-            let formulation = self.formulations[attempt % self.formulations.len()];
-            let frame = &self.frames[formulation.hidden];
-            let equations = Equations::new(formulation, frame, &self.axes, &ahead, &behind);
+            let aside = aside(DISTURBANCES[attempt], attempt).after(&displacement);
             answers.runs += 1;
-            let run = Run { formulation, attempt, target: &target };
-            if self.run(&run, &equations, &mut answers) {
+            if self.run(attempt, &aside, &target, &mut answers) {
                 answers.is_trusted = true;
                 break;
             }
@@ -142,18 +134,27 @@ impl Template {
         answers
     }
 
-    /// Adds the answers of one formulation; whether it can be trusted to have found all.
-    fn run(&self, run: &Run<'_>, equations: &Equations<f64>, answers: &mut Answers) -> bool {
-        let Some(candidates) = Candidates::new(equations, run.formulation, run.attempt) else { return false };
-        let (mut lost, mut worst) = (0, 0.0_f64);
+    /// Adds the answers of one formulation, solved for a displacement that may be a little aside from the target and then led to it;
+    /// whether it can be trusted to have found all.
+    fn run(&self, attempt: usize, displacement: &Rigid, target: &Rigid, answers: &mut Answers) -> bool {
+        let formulation = self.formulations[attempt % self.formulations.len()];
+        let back = displacement.inverse();
+        let carried = |motion: &Rigid| self.axes.map(|axis| carried(motion, &axis.line));
+        let frame = &self.frames[formulation.hidden];
+        let equations = Equations::new(formulation, frame, &self.axes, &carried(displacement), &carried(&back));
+        let Some(candidates) = Candidates::new(&equations, formulation, attempt) else { return false };
+        let (near, mut lost, mut worst) = (displacement.after(&self.last), 0, 0.0_f64);
         for candidate in &candidates.list[..candidates.count] {
             if candidate.depth * candidate.depth > FAR_OFF * worst.max(UNKNOWN) {
                 continue;
             }
             let mut q = candidate.q;
-            let missing = run.formulation.joint(3);
-            q[missing] = self.links.closing(&q, missing, run.target);
-            let (start, residual) = self.links.polish(&mut q, run.target);
+            let missing = formulation.joint(3);
+            q[missing] = self.links.closing(&q, missing, &near);
+            let (start, mut residual) = self.links.polish(&mut q, &near);
+            if DISTURBANCES[attempt] > 0.0 {
+                residual = self.links.polish(&mut q, target).1;
+            }
             if residual <= ACCEPT {
                 worst = if candidate.depth == 0.0 { worst.max(start) } else { worst };
                 answers.keep(Answer { q: q.map(wrapped), residual });
@@ -162,9 +163,23 @@ impl Template {
             }
         }
         answers.start = answers.start.max(worst);
-        let is_clear = lost == 0 && answers.count % 2 == 0 && answers.count > 0;
+        let is_clear = lost == 0 && answers.count % 2 == 0 && answers.count > 0 && !candidates.is_crowded;
         is_clear && worst <= ACCURATE && candidates.conditioning >= SOUND
     }
+}
+
+/// A small motion by `size` (rad, and shares of the length scale), another for each attempt.
+fn aside(size: f64, attempt: usize) -> Rigid {
+    let sign = if attempt % 2 == 0 { size } else { -size };
+    let (s, c) = sign.sin_cos();
+    let about = |v: [f64; 3]| {
+        let (w, along) = (DIRECTION, dot(&DIRECTION, &v) * (1.0 - c));
+        let third = cross(&w, &v);
+        std::array::from_fn(|k| c * v[k] + s * third[k] + along * w[k])
+    };
+    let columns: [[f64; 3]; 3] = [about([1.0, 0.0, 0.0]), about([0.0, 1.0, 0.0]), about([0.0, 0.0, 1.0])];
+    let rotation = std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]));
+    Rigid { rotation, translation: [-0.7 * sign, 0.5 * sign, 0.3 * sign] }
 }
 
 fn carried(motion: &Rigid, line: &Line<f64>) -> Line<f64> {
