@@ -18,5 +18,6 @@ mod robots;
 mod roots;
 mod solver;
 mod spatial;
+mod template;
 mod watch;
 mod witness;

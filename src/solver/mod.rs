@@ -12,6 +12,7 @@ mod frame;
 mod instruction;
 mod program;
 mod refine;
+pub mod template;
 mod validate;
 mod walk;
 

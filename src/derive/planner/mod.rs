@@ -16,13 +16,13 @@ mod sights;
 mod specimen;
 mod types;
 
+pub(super) use specimen::Random;
 pub use types::{Evidence, Plan, PlanStep, Way};
 
 use crate::derive::closure::{Mechanism, Relation, prove};
 use crate::{Error, ErrorKind, Result, Watch};
 use search::{Reach, Search};
 use sights::Sights;
-use specimen::Random;
 
 /// Where joints are eliminated: the first that leads to the right number of solutions is taken.
 const REACHES: [Reach; 4] = [Reach::OneJoint, Reach::WhereStuck(2), Reach::Everywhere(2), Reach::WhereStuck(3)];

@@ -3,10 +3,11 @@
 use crate::roots::{Eigenvalue, Hessenberg};
 
 use super::formulation::{Equations, Formulation};
-use super::pencil::{ALL, Matrix, NEAR, Pencil, SIZE, Wide, monomials};
 use super::linear::solve;
+use super::pencil::{ALL, Matrix, NEAR, Pencil, SIZE, Wide, monomials};
 use super::profile::PRODUCTS;
-use super::reduce::{COLUMNS, FAR, Reduced};
+use super::reduce::Reduced;
+use super::rows::{COLUMNS, FAR, Rows};
 
 /// Half angles from which the hidden one is counted: the first whose matrix can be inverted well is taken.
 const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
@@ -53,7 +54,7 @@ struct Reader<'a> {
 impl Candidates {
     /// The candidates; each `attempt` begins with another origin of the half angle. `None` when the pencil is singular for this target or no number.
     pub fn new(equations: &Equations<f64>, formulation: Formulation, attempt: usize) -> Option<Self> {
-        let reduced = Reduced::new(equations);
+        let reduced = Reduced::new(&Rows::new(equations));
         let pencil = Pencil::new(&reduced, formulation.second)?;
         let (origin, matrix, conditioning) = standard(&pencil, attempt)?;
         let form = Hessenberg::reduce(matrix);
@@ -62,7 +63,8 @@ impl Candidates {
         let mut found = Candidates { list: [Candidate::default(); SIZE], count: 0, is_crowded: false, conditioning };
         found.is_crowded = is_crowded(&values);
         let depth = |value: &Eigenvalue| value.im.abs() / (1.0 + value.re * value.re + value.im * value.im);
-        let (real, near) = (values.iter().filter(|value| value.im == 0.0), values.iter().filter(|value| value.im != 0.0));
+        let (real, near) =
+            (values.iter().filter(|value| value.im == 0.0), values.iter().filter(|value| value.im != 0.0));
         for value in real.chain(near.filter(|value| depth(value) <= BLURRED)) {
             let hidden = 2.0 * (origin + (value.re + value.im).atan());
             let q = reader.angles(hidden, &form.eigenvector(value.re));

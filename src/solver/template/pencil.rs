@@ -5,7 +5,8 @@
 //! like any other.
 
 use super::profile::{PRODUCTS, STILL};
-use super::reduce::{FAR, MOVING, Reduced, Row};
+use super::reduce::Reduced;
+use super::rows::{FAR, MOVING, Row, halved};
 
 /// Rows and columns of the pencil, the number of complex solutions of a general chain.
 pub const SIZE: usize = 16;
@@ -41,14 +42,10 @@ struct Doubling {
 
 impl Doubling {
     /// The row times the cosine (`power` 0) or the sine (`power` 1) of the half angle.
-    fn row(&self, row: &Row, order: &[usize; FAR], power: usize) -> Wide {
+    fn row(&self, row: &Row<f64>, order: &[usize; FAR], power: usize) -> Wide {
         let mut wide = [0.0; ALL];
-        let (step, other) = if self.second { (1, 3) } else { (3, 1) };
-        for k in 0..3 {
-            let [one, cosine, sine] = [0, 1, 2].map(|index| row[k * other + index * step]);
-            for (degree, value) in [one + cosine, 2.0 * sine, one - cosine].into_iter().enumerate() {
-                wide[3 * (degree + power) + k] = value;
-            }
+        for (degree, values) in halved(row, self.second, 1.0).into_iter().enumerate() {
+            wide[3 * (degree + power)..][..3].copy_from_slice(&values);
         }
         for k in 0..self.left {
             wide[NEAR + power * self.left + k] = row[order[FAR - self.left + k]];
@@ -61,7 +58,7 @@ impl Pencil {
     /// The pencil of reduced equations; `None` when a column is left that no equation determines.
     pub fn new(reduced: &Reduced, second: bool) -> Option<Self> {
         let doubling = Doubling { second, left: FAR - reduced.solved };
-        let double = |rows: &[Row; MOVING]| -> [Wide; SIZE] {
+        let double = |rows: &[Row<f64>; MOVING]| -> [Wide; SIZE] {
             std::array::from_fn(|k| doubling.row(&rows[k % MOVING], &reduced.order, k / MOVING))
         };
         let (mut constant, mut linear) = (double(&reduced.constant), double(&reduced.linear));

@@ -84,6 +84,11 @@ impl Links {
         Reach { axes, origins, end: frame }
     }
 
+    /// The frame of the last joint at `q`, turned with it.
+    pub fn end(&self, q: &[f64; 6]) -> Rigid {
+        self.reach(q).end
+    }
+
     /// The angle of `joint` that brings the end nearest to `target`, the frame of the last joint, given all others.
     pub fn closing(&self, q: &[f64; 6], joint: usize, target: &Rigid) -> f64 {
         let mut before = self.steps[0];
@@ -104,11 +109,6 @@ impl Links {
         let turns = [0, 1, 2].map(|index| cross(&reach.end.column(index), &target.column(index)));
         let turn = [0, 1, 2].map(|k| 0.5 * (turns[0][k] + turns[1][k] + turns[2][k]));
         [way[0], way[1], way[2], turn[0], turn[1], turn[2]]
-    }
-
-    /// How far `q` is from reaching `target`: the largest coordinate of the way and of the turn.
-    pub fn residual(&self, q: &[f64; 6], target: &Rigid) -> f64 {
-        size(&Links::miss(&self.reach(q), target))
     }
 
     /// Newton steps from `q` to `target`; the residual before and after them.

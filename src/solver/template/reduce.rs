@@ -1,71 +1,38 @@
 //! The still equations, solved for products of the joints behind the target ([`Reduced`]).
 
-use super::formulation::Equations;
-use super::profile::{PRODUCTS, STILL, TURNING};
-
-/// Products of the joints on the far side, without 1.
-pub(super) const FAR: usize = PRODUCTS - 1;
-/// Products of the joints on the near side, 1 among them, then those on the far side.
-pub(super) const COLUMNS: usize = PRODUCTS + FAR;
-/// Equations in which the hidden angle stands.
-pub(super) const MOVING: usize = 2 * TURNING;
+use super::profile::{PRODUCTS, STILL};
+use super::rows::{FAR, MOVING, Row, Rows};
 
 /// A pivot of a still equation below this share of its largest coefficient is not taken while the far products alone are solved for.
 const WEAK: f64 = 1e-3;
-
-pub(super) type Row = [f64; COLUMNS];
 
 /// The equations after elimination: `a - x b = 0` with `x` the tangent of half the hidden angle, in the near products and the far ones
 /// that are left.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reduced {
     /// The still equations, reduced: the first [`Reduced::solved`] each give one far product, the others are left as they are.
-    pub still: [Row; STILL],
+    pub still: [Row<f64>; STILL],
     /// How many far products are solved for.
     pub solved: usize,
     /// The far columns: those that are solved for come first, in the order of their equations.
     pub order: [usize; FAR],
     /// `a`.
-    pub constant: [Row; MOVING],
+    pub constant: [Row<f64>; MOVING],
     /// `b`.
-    pub linear: [Row; MOVING],
+    pub linear: [Row<f64>; MOVING],
 }
 
 impl Reduced {
     /// Solves the still equations for as many far products as they determine well, by complete pivoting.
-    pub fn new(equations: &Equations<f64>) -> Self {
-        let mut reduced = Reduced::assembled(equations);
+    pub fn new(rows: &Rows<f64>) -> Self {
+        let Rows { still, constant, linear } = *rows;
+        let order = std::array::from_fn(|k| PRODUCTS + k);
+        let mut reduced = Reduced { still, solved: 0, order, constant, linear };
         while reduced.solved < STILL {
             let Some((row, place)) = reduced.pivot() else { break };
             reduced.eliminate(row, place);
         }
         reduced
-    }
-
-    fn assembled(equations: &Equations<f64>) -> Self {
-        let (near, far) = (&equations.turned, &equations.reached);
-        let row = |a: &[f64; PRODUCTS], sign: f64, b: &[f64; PRODUCTS], factor: f64| -> Row {
-            std::array::from_fn(|column| match column {
-                0 => factor * (a[0] + sign * b[0]),
-                1..PRODUCTS => factor * a[column],
-                _ => factor * sign * b[column - FAR],
-            })
-        };
-        let ([near_e, near_f], [far_e, far_f]) = (&near.turning, &far.turning);
-        let square = equations.square;
-        Reduced {
-            still: std::array::from_fn(|k| row(&near.still[k], -1.0, &far.still[k], 1.0)),
-            solved: 0,
-            order: std::array::from_fn(|k| PRODUCTS + k),
-            constant: std::array::from_fn(|k| match k {
-                0..TURNING => row(&near_e[k], -1.0, &far_e[k], 1.0),
-                _ => row(&near_f[k - TURNING], -1.0, &far_f[k - TURNING], 1.0),
-            }),
-            linear: std::array::from_fn(|k| match k {
-                0..TURNING => row(&near_f[k], 1.0, &far_f[k], 1.0),
-                _ => row(&near_e[k - TURNING], 1.0, &far_e[k - TURNING], -square),
-            }),
-        }
     }
 
     /// The equation and the place in the order of the columns with the largest share of its equation's size.

@@ -31,7 +31,7 @@ pub struct Axis<T> {
 
 impl<T: Scalar> Line<T> {
     /// The line turned about `axis`, given `c` and `s'`.
-    pub(super) fn turned(&self, axis: &Axis<T>, [c, s]: [T; 2]) -> Line<T> {
+    pub fn turned(&self, axis: &Axis<T>, [c, s]: [T; 2]) -> Line<T> {
         let arm = axis.turned(&sub(&self.point, &axis.line.point), [c, s]);
         Line { direction: axis.turned(&self.direction, [c, s]), point: add(&axis.line.point, &arm) }
     }

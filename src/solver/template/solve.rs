@@ -104,7 +104,11 @@ fn wrapped(angle: f64) -> f64 {
 impl Template {
     /// The solver of the chain with these axes (directions of length one) at zero, and a typical length of it; the formulations are
     /// taken in this order.
+    ///
+    /// # Panics
+    /// Without a formulation.
     pub fn new(lines: [Line<f64>; 6], scale_of_lengths: f64, formulations: Vec<Formulation>) -> Self {
+        assert!(!formulations.is_empty(), "a solver has a formulation at least");
         let axes = lines.map(|line| Axis::along(Line { point: scale(&line.point, 1.0 / scale_of_lengths), ..line }));
         let frames = axes.map(|axis| frame(&axis.line));
         let poses = frames.map(|frame| pose(&frame));
@@ -116,14 +120,34 @@ impl Template {
         Template { axes, frames, links, last: poses[5], scale: scale_of_lengths, formulations }
     }
 
+    /// The displacement `E1 ... E6` for joint angles `q` \[rad\], in the unit of length that the lines were given in.
+    pub fn forward(&self, q: &[f64; 6]) -> Rigid {
+        let end = self.links.end(q).after(&self.last.inverse());
+        Rigid { translation: scale(&end.translation, self.scale), ..end }
+    }
+
+    /// The formulations, in the order in which they are taken.
+    pub fn formulations(&self) -> &[Formulation] {
+        &self.formulations
+    }
+
     /// All real solutions of `E1 ... E6 = displacement`, which takes the chain's tip from its place at zero to the target.
     pub fn solve(&self, displacement: &Rigid) -> Answers {
+        self.attempts(displacement, MOST_RUNS)
+    }
+
+    /// What the first formulation alone finds.
+    pub fn attempt(&self, displacement: &Rigid) -> Answers {
+        self.attempts(displacement, 1)
+    }
+
+    fn attempts(&self, displacement: &Rigid, most: usize) -> Answers {
         let translation = scale(&displacement.translation, 1.0 / self.scale);
         let displacement = Rigid { translation, ..*displacement };
         let target = displacement.after(&self.last);
         let none = Answer { q: [0.0; 6], residual: 0.0 };
         let mut answers = Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false, start: 0.0 };
-        for attempt in 0..MOST_RUNS {
+        for attempt in 0..most {
             let aside = aside(DISTURBANCES[attempt], attempt).after(&displacement);
             answers.runs += 1;
             if self.run(attempt, &aside, &target, &mut answers) {
