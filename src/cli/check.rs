@@ -86,6 +86,9 @@ fn proved(proved: &Proved) -> String {
     match proved {
         Proved::Equations(derivation) => proved_equations(derivation),
         Proved::Chain(derived) => proved_chain(derived),
+        Proved::SixAxes(derived) => {
+            format!("{} eigenvalue problems proved regular again", derived.formulations.len())
+        }
         Proved::Limbs(derived) => {
             let limb = |stage: &LimbStage| {
                 format!("{}: {}", derived.limbs.limbs()[stage.limb].name, proved_chain(&stage.derived))

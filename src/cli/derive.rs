@@ -91,6 +91,9 @@ pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness:
             let most = derived.truth.is_none().then_some(derived.plan.dimension);
             chain::Check::run(derived.measured(), &derived.program, most, &CHAIN, watch)
         }
+        Proved::SixAxes(derived) => {
+            chain::Check::run(&derived.chain, &derived.program, Some(derived.dimension()), &CHAIN, watch)
+        }
         Proved::Limbs(derived) => limbs::check(derived, &LIMBS, watch),
     }
 }

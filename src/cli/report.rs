@@ -44,6 +44,7 @@ pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
             page.text += &format!("{}\n", derived.chain);
             chain_report::describe(&mut page, derived);
         }
+        Proved::SixAxes(derived) => chain_report::describe_six_axes(&mut page, derived),
         Proved::Limbs(derived) => chain_report::describe_limbs(&mut page, derived),
     }
     checks(&mut page, told.checked);

@@ -23,6 +23,7 @@ pub(super) use coupled::Stored as StoredCoupled;
 pub use coupled::{Coupled, Side};
 pub use eliminate::{Elimination, SymbolPlace};
 pub use half_angle::{HalfAngle, HalfAngles};
+pub(super) use program::frame_of;
 pub use shape::Shape;
 pub(super) use shape::{Symbolic, TargetPoly};
 pub(super) use stages::{joint_unknowns, name};

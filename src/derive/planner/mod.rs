@@ -54,6 +54,14 @@ pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
     Ok(Plan { given: mechanism.given().to_vec(), dimension, evidence, steps })
 }
 
+/// What random reachable targets modulo three primes show; `None` when they have infinitely many solutions.
+///
+/// # Errors
+/// What `watch` stops with.
+pub(super) fn evidence(mechanism: &Mechanism, watch: &Watch) -> Result<Option<Vec<Evidence>>> {
+    evidence::gather(mechanism, &mechanism.relations(), watch)
+}
+
 /// The steps of the best plan, if it is good enough.
 fn search(
     mechanism: &Mechanism,

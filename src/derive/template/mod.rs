@@ -1,10 +1,14 @@
 //! The solver of any six revolute joints, offline: which formulations of the eigenvalue problem hold for a chain, proved modulo primes,
 //! and which of them are accurate ([`formulations`], [`SixAxes`]).
 
+mod derived;
+mod program;
 mod rank;
 mod residue;
+mod stages;
 mod survey;
 
+pub use derived::DerivedSixAxes;
 pub use rank::Determinant;
 pub use residue::Residue;
 pub use survey::survey;

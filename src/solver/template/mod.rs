@@ -15,6 +15,7 @@ mod reduce;
 mod rows;
 mod scalar;
 mod screw;
+mod six_axes;
 mod solve;
 
 pub use formulation::{Equations, Formulation};
@@ -24,4 +25,5 @@ pub use profile::{Frame, PRODUCTS, Profile, STILL, TURNING};
 pub use rows::{COLUMNS, FAR, MOVING, Row, Rows, halved};
 pub use scalar::{Scalar, Vector};
 pub use screw::{Axis, Line};
-pub use solve::{Answer, Answers, Template};
+pub use six_axes::{SixAxes, SixAxesParts};
+pub use solve::{Answer, Answers, ROOM, Template};

@@ -1,10 +1,12 @@
 //! Forward kinematics of the chain, and Newton steps on it ([`Links`]).
 
+use serde::{Deserialize, Serialize};
+
 use super::linear::solve;
 use super::scalar::{Vector, add, cross, dot, sub};
 
 /// A rigid motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rigid {
     /// The rotation matrix, by rows.
     pub rotation: [[f64; 3]; 3],

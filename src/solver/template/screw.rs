@@ -1,9 +1,11 @@
 //! Lines in space that turn about each other ([`Line`], [`Axis`]), over any [`Scalar`].
 
+use serde::{Deserialize, Serialize};
+
 use super::scalar::{Scalar, Vector, add, cross, dot, scale, sub};
 
 /// A line with a direction, and a point on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Line<T> {
     /// Not zero, of any length.
     pub direction: Vector<T>,

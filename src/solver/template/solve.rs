@@ -10,7 +10,7 @@ use super::scalar::{Vector, cross, dot, scale};
 use super::screw::{Axis, Line};
 
 /// The most answers that are kept while formulations are united.
-const ROOM: usize = 32;
+pub const ROOM: usize = 32;
 /// Answers whose joints all differ by no more than this (rad) are one.
 const MERGE: f64 = 1e-7;
 /// The largest residual of an answer, as a share of the length scale or in radians.
@@ -57,7 +57,7 @@ pub struct Answers {
 }
 
 /// The solver of one chain of six revolute joints.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Template {
     axes: [Axis<f64>; 6],
     frames: [Frame<f64>; 6],
