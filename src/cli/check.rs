@@ -152,7 +152,7 @@ fn numeric_checks(folder: &Path, source: &Source, derivation: &Proved) -> Result
     let checked = check(source, derivation, &Watch::none())?;
     let path = folder.join(CHECKS);
     let stored = read_text(&path, LIMIT).and_then(|stored| same_table(&stored, &checked.to_csv()));
-    let verdict = refuse_failures(&checked).and(stored.map_err(|error| error.in_file(&path)));
+    let verdict = refuse_failures(derivation, &checked).and(stored.map_err(|error| error.in_file(&path)));
     let summary = checked.summary();
     let verdict = verdict.map(|()| format!("{} targets solved again and right", summary.rows));
     Ok(Finding { what: CHECKS.to_owned(), verdict })

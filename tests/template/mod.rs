@@ -2,6 +2,7 @@
 
 mod counts;
 mod eigenvalues;
+mod program;
 mod regular;
 mod robots;
 mod solver;

@@ -15,7 +15,6 @@ const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
 const SOUND: f64 = 1e-9;
 /// A complex pair with a smaller imaginary part, as a share of `1 + |x|^2`, may be a double root that rounding has parted.
 const BLURRED: f64 = 1e-2;
-
 /// Two real eigenvalues closer than this share of `1 + |x|^2` have eigenvectors that rounding mixes.
 const CROWDED: f64 = 1e-8;
 
@@ -52,7 +51,8 @@ struct Reader<'a> {
 }
 
 impl Candidates {
-    /// The candidates; each `attempt` begins with another origin of the half angle. `None` when the pencil is singular for this target or no number.
+    /// The candidates; each `attempt` begins with another origin of the half angle. `None` when the pencil is singular for this target,
+    /// or not finite.
     pub fn new(equations: &Equations<f64>, formulation: Formulation, attempt: usize) -> Option<Self> {
         let reduced = Reduced::new(&Rows::new(equations));
         let pencil = Pencil::new(&reduced, formulation.second)?;

@@ -18,6 +18,8 @@ const ACCEPT: f64 = 1e-12;
 /// The share of a pivot below which another formulation is asked too.
 const SOUND: f64 = 1e-11;
 
+/// The share of a pivot at which a target without real eigenvalues is out of reach.
+const CLEAR: f64 = 1e-6;
 /// A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate.
 const ACCURATE: f64 = 1e-4;
 /// What stands in for the accuracy of the eigenvalues when it is better than that.
@@ -187,7 +189,9 @@ impl Template {
             }
         }
         answers.start = answers.start.max(worst);
-        let is_clear = lost == 0 && answers.count % 2 == 0 && answers.count > 0 && !candidates.is_crowded;
+        let is_unreachable = candidates.count == 0 && candidates.conditioning >= CLEAR;
+        let is_clear = lost == 0 && answers.count % 2 == 0 && !candidates.is_crowded;
+        let is_clear = is_clear && (answers.count > 0 || is_unreachable);
         is_clear && worst <= ACCURATE && candidates.conditioning >= SOUND
     }
 }
