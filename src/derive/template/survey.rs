@@ -15,11 +15,13 @@ const LEAST: f64 = 0.1;
 const DISTRUST: f64 = 4.0;
 
 /// Of these formulations the best ones, most accurate first: by the mean order of magnitude of what their candidates miss before they are
-/// polished.
+/// polished. The best of each hidden joint come before all others.
 pub fn survey(lines: &[Line<f64>; 6], length: f64, formulations: &[Formulation]) -> Vec<Formulation> {
     let mut ranked: Vec<(f64, Formulation)> = formulations.iter().filter_map(|f| rank(lines, length, *f)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    ranked.into_iter().take(MOST).map(|(_, formulation)| formulation).collect()
+    let is_second = |index: usize| ranked[..index].iter().any(|(_, f)| f.hidden == ranked[index].1.hidden);
+    let (second, first): (Vec<usize>, Vec<usize>) = (0..ranked.len()).partition(|&index| is_second(index));
+    first.into_iter().chain(second).take(MOST).map(|index| ranked[index].1).collect()
 }
 
 /// The mean order of magnitude; `None` for a formulation that can hardly ever be trusted.

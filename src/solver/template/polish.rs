@@ -71,6 +71,8 @@ const STEPS: usize = 40;
 const EXACT: f64 = 2e-15;
 /// A miss below which a single step that does not halve it is the last.
 const ROUNDING: f64 = 1e-13;
+/// How often a step may be shortened, over all steps.
+const SHORTENED: usize = 12;
 /// A step that turns a joint by more than this is shortened.
 const LONGEST: f64 = 0.5;
 
@@ -113,20 +115,28 @@ impl Links {
         [way[0], way[1], way[2], turn[0], turn[1], turn[2]]
     }
 
-    /// Newton steps from `q` to `target`; the residual before and after them.
+    /// Newton steps from `q` to `target`, shortened where they lead away from it; the residual before and after them.
     pub fn polish(&self, q: &mut [f64; 6], target: &Rigid) -> (f64, f64) {
         let mut reach = self.reach(q);
         let mut miss = Links::miss(&reach, target);
         let start = size(&miss);
+        let mut shortened = 0;
         for _ in 0..STEPS {
             let known = size(&miss);
             if known <= EXACT || !known.is_finite() {
                 break;
             }
             let Some(step) = newton(&reach, &miss) else { break };
-            let next: [f64; 6] = std::array::from_fn(|joint| q[joint] + step[joint]);
-            let next_reach = self.reach(&next);
-            let next_miss = Links::miss(&next_reach, target);
+            let mut share = 1.0;
+            let (next, next_reach, next_miss) = loop {
+                let next: [f64; 6] = std::array::from_fn(|joint| q[joint] + share * step[joint]);
+                let reach = self.reach(&next);
+                let miss = Links::miss(&reach, target);
+                if size(&miss) < known || known <= ROUNDING || shortened >= SHORTENED {
+                    break (next, reach, miss);
+                }
+                (share, shortened) = (0.25 * share, shortened + 1);
+            };
             let left = size(&next_miss);
             if left >= known {
                 break;

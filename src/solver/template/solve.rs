@@ -21,7 +21,7 @@ const SOUND: f64 = 1e-11;
 /// The share of a pivot at which a target without real eigenvalues is out of reach.
 const CLEAR: f64 = 1e-6;
 /// A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate.
-const ACCURATE: f64 = 1e-4;
+const ACCURATE: f64 = 1e-6;
 /// What stands in for the accuracy of the eigenvalues when it is better than that.
 const UNKNOWN: f64 = 1e-11;
 /// The square of a complex eigenvalue's depth as a multiple of the eigenvalues' accuracy: below it, it may be a double root.
@@ -70,6 +70,11 @@ pub struct Template {
 }
 
 impl Answers {
+    fn none() -> Self {
+        let none = Answer { q: [0.0; 6], residual: 0.0 };
+        Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false, start: 0.0 }
+    }
+
     /// The answers.
     pub fn as_slice(&self) -> &[Answer] {
         &self.list[..self.count]
@@ -147,8 +152,7 @@ impl Template {
         let translation = scale(&displacement.translation, 1.0 / self.scale);
         let displacement = Rigid { translation, ..*displacement };
         let target = displacement.after(&self.last);
-        let none = Answer { q: [0.0; 6], residual: 0.0 };
-        let mut answers = Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false, start: 0.0 };
+        let mut answers = Answers::none();
         for attempt in 0..most {
             let aside = aside(DISTURBANCES[attempt], attempt).after(&displacement);
             answers.runs += 1;
@@ -170,6 +174,7 @@ impl Template {
         let equations = Equations::new(formulation, frame, &self.axes, &carried(displacement), &carried(&back));
         let Some(candidates) = Candidates::new(&equations, formulation, attempt) else { return false };
         let (near, mut lost, mut worst) = (displacement.after(&self.last), 0, 0.0_f64);
+        let (known, mut own) = (answers.count, Answers::none());
         for candidate in &candidates.list[..candidates.count] {
             if candidate.depth * candidate.depth > FAR_OFF * worst.max(UNKNOWN) {
                 continue;
@@ -183,7 +188,9 @@ impl Template {
             }
             if residual <= ACCEPT {
                 worst = if candidate.depth == 0.0 { worst.max(start) } else { worst };
-                answers.keep(Answer { q: q.map(wrapped), residual });
+                let answer = Answer { q: q.map(wrapped), residual };
+                answers.keep(answer);
+                own.keep(answer);
             } else if candidate.depth * candidate.depth <= OFF * worst.max(UNKNOWN) {
                 lost += 1;
             }
@@ -192,7 +199,8 @@ impl Template {
         let is_unreachable = candidates.count == 0 && candidates.conditioning >= CLEAR;
         let is_clear = lost == 0 && answers.count % 2 == 0 && !candidates.is_crowded;
         let is_clear = is_clear && (answers.count > 0 || is_unreachable);
-        is_clear && worst <= ACCURATE && candidates.conditioning >= SOUND
+        let is_confirmed = attempt > 0 && known == answers.count && own.count == answers.count;
+        is_clear && (is_confirmed || worst <= ACCURATE && candidates.conditioning >= SOUND)
     }
 }
 
