@@ -29,10 +29,10 @@ const OFF: f64 = 1e3;
 /// Below it, it is tried.
 const FAR_OFF: f64 = 1e7;
 /// Formulations, or origins of one, that are run at most.
-const MOST_RUNS: usize = 4;
+const MOST_RUNS: usize = 6;
 /// How far aside the target is put for each of them: where solutions share a hidden angle, or a family of solutions stands at the same
 /// target, the eigenvectors of isolated ones are only found next to it.
-const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 1e-4, 1e-3];
+const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-3];
 /// The axis of these small turns.
 const DIRECTION: [f64; 3] = [0.48, 0.6, 0.64];
 
