@@ -52,10 +52,11 @@ fn determinant(chain: &Chain, formulation: Formulation, field: Zp, seed: u64) ->
     }
     let moved = axes.map(|axis| axes.iter().zip(&turns).rev().fold(axis.line, |line, (a, turn)| line.turned(a, *turn)));
     let back = axes.map(|axis| axes.iter().zip(&turns).fold(axis.line, |line, (a, [c, s])| line.turned(a, [*c, -*s])));
-    let frame = frame(&axes[formulation.hidden].line);
+    let zero = Residue::new(0, field);
+    let frame = frame(&axes[formulation.hidden].line, zero);
     let rows = Rows::new(&Equations::new(formulation, &frame, &axes, &moved, &back));
     let doubled = axes[formulation.joint(if formulation.second { 2 } else { 1 })].square;
-    Some(matrix_determinant(matrix(&rows, formulation.second, doubled, draw()), field))
+    Some(matrix_determinant(matrix(&rows, formulation.second, doubled, [zero, draw()]), field))
 }
 
 /// The axes of the chain modulo a prime.
@@ -70,7 +71,7 @@ fn axes(chain: &Chain, field: Zp) -> Option<[Axis<Residue>; 6]> {
             square,
             inverse_square: square.inverse()?,
             sample: (one + square).inverse()?,
-            units: [one, half],
+            units: [Residue::new(0, field), one, half],
         })
     };
     let axes: Option<Vec<_>> = chain.joints().iter().map(axis).collect();
@@ -79,14 +80,13 @@ fn axes(chain: &Chain, field: Zp) -> Option<[Axis<Residue>; 6]> {
 
 /// `c` and `s'` of the turn about `axis` whose half angle has the tangent `t sqrt n`.
 fn point_of_circle(axis: &Axis<Residue>, t: Residue) -> Option<[Residue; 2]> {
-    let (one, square) = (axis.units[0], axis.square * t * t);
+    let (one, square) = (axis.units[1], axis.square * t * t);
     let inverse = (one + square).inverse()?;
     Some([(one - square) * inverse, (t + t) * inverse])
 }
 
-fn frame(line: &Line<Residue>) -> Frame<Residue> {
+fn frame(line: &Line<Residue>, zero: Residue) -> Frame<Residue> {
     let [x, y, z] = line.direction;
-    let zero = x - x;
     // Perpendicular to the axis and not zero: of x, y, z one is not zero.
     let e = if x.value != 0 || y.value != 0 { [-y, x, zero] } else { [z, zero, zero] };
     let f = [y * e[2] - z * e[1], z * e[0] - x * e[2], x * e[1] - y * e[0]];
@@ -95,9 +95,8 @@ fn frame(line: &Line<Residue>) -> Frame<Residue> {
 
 type Matrix = [[Residue; ALL]; ALL];
 
-/// All equations at the half angle `x`, each times the cosine and the sine of half the doubled angle.
-fn matrix(rows: &Rows<Residue>, second: bool, square: Residue, x: Residue) -> Matrix {
-    let zero = x - x;
+/// All equations at the half angle `x`, given zero and `x`, each times the cosine and the sine of half the doubled angle.
+fn matrix(rows: &Rows<Residue>, second: bool, square: Residue, [zero, x]: [Residue; 2]) -> Matrix {
     let mut matrix = [[zero; ALL]; ALL];
     let moving = rows
         .constant

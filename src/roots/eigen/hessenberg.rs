@@ -43,8 +43,8 @@ impl<const N: usize> Hessenberg<N> {
     /// The vector `v`, of length `sqrt(2)`, whose reflection makes zeros of what stands below the subdiagonal in `column`.
     fn reflector(&self, column: usize) -> Option<[f64; N]> {
         let mut v = [0.0; N];
-        for row in column + 1..N {
-            v[row] = self.matrix[row][column];
+        for (entry, row) in v.iter_mut().zip(&self.matrix).skip(column + 1) {
+            *entry = row[column];
         }
         let below = dot(&v, &v) - v[column + 1] * v[column + 1];
         if below <= 0.0 {
@@ -60,17 +60,17 @@ impl<const N: usize> Hessenberg<N> {
     /// `H := P H`; rows from `column + 1` on change.
     fn from_left(&mut self, v: &[f64; N], column: usize) {
         let mut sum = [0.0; N];
-        for row in column + 1..N {
-            for (entry, value) in sum.iter_mut().zip(&self.matrix[row]) {
-                *entry += v[row] * value;
+        for (share, row) in v.iter().zip(&self.matrix).skip(column + 1) {
+            for (entry, value) in sum.iter_mut().zip(row) {
+                *entry += share * value;
             }
         }
-        for row in column + 1..N {
-            for (entry, value) in self.matrix[row].iter_mut().zip(&sum) {
-                *entry -= v[row] * value;
+        for (share, row) in v.iter().zip(&mut self.matrix).skip(column + 1) {
+            for (entry, value) in row.iter_mut().zip(&sum) {
+                *entry -= share * value;
             }
-            self.matrix[row][column] = if row == column + 1 { self.matrix[row][column] } else { 0.0 };
         }
+        self.matrix.iter_mut().skip(column + 2).for_each(|row| row[column] = 0.0);
     }
 
     /// `H := H P`; columns from `column + 1` on change.

@@ -133,10 +133,10 @@ impl<const N: usize> Window<'_, N> {
 
     fn reflect_rows<const SIZE: usize>(&mut self, top: usize, u: &[f64; SIZE], w: &[f64; SIZE]) {
         let rows = &mut self.h[top..top + SIZE];
-        for column in top..=self.high {
+        (top..=self.high).for_each(|column| {
             let share: f64 = (0..SIZE).map(|k| w[k] * rows[k][column]).sum();
             (0..SIZE).for_each(|k| rows[k][column] -= share * u[k]);
-        }
+        });
     }
 
     fn reflect_columns<const SIZE: usize>(&mut self, top: usize, u: &[f64; SIZE], w: &[f64; SIZE]) {

@@ -96,12 +96,12 @@ impl Links {
     /// The angle of `joint` that brings the end nearest to `target`, the frame of the last joint, given all others.
     pub fn closing(&self, q: &[f64; 6], joint: usize, target: &Rigid) -> f64 {
         let mut before = self.steps[0];
-        for index in 0..joint {
-            before = before.then_turn(q[index]).after(&self.steps[index + 1]);
+        for (angle, step) in q[..joint].iter().zip(&self.steps[1..]) {
+            before = before.then_turn(*angle).after(step);
         }
         let mut behind = Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] };
-        for index in joint + 1..6 {
-            behind = behind.after(&self.steps[index]).then_turn(q[index]);
+        for (angle, step) in q.iter().zip(&self.steps).skip(joint + 1) {
+            behind = behind.after(step).then_turn(*angle);
         }
         let turn = before.inverse().after(target).after(&behind.inverse()).rotation;
         (turn[1][0] - turn[0][1]).atan2(turn[0][0] + turn[1][1])
@@ -156,12 +156,9 @@ fn size(miss: &[f64; 6]) -> f64 {
 
 fn newton(reach: &Reach, miss: &[f64; 6]) -> Option<[f64; 6]> {
     let mut left = [[0.0; 6]; 6];
-    for joint in 0..6 {
-        let way = cross(&reach.axes[joint], &sub(&reach.end.translation, &reach.origins[joint]));
-        for k in 0..3 {
-            left[k][joint] = way[k];
-            left[3 + k][joint] = reach.axes[joint][k];
-        }
+    for (joint, (axis, origin)) in reach.axes.iter().zip(&reach.origins).enumerate() {
+        let way = cross(axis, &sub(&reach.end.translation, origin));
+        left.iter_mut().zip(way.iter().chain(axis)).for_each(|(row, entry)| row[joint] = *entry);
     }
     let mut right = miss.map(|entry| [entry]);
     if solve(&mut left, &mut right) <= 0.0 {

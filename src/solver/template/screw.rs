@@ -27,8 +27,8 @@ pub struct Axis<T> {
     pub inverse_square: T,
     /// `1 / (1 + n)`, for the turns at which functions of the angle are sampled.
     pub sample: T,
-    /// One and a half.
-    pub units: [T; 2],
+    /// Nought, one and a half.
+    pub units: [T; 3],
 }
 
 impl<T: Scalar> Line<T> {
@@ -50,15 +50,14 @@ impl<T: Scalar> Axis<T> {
 
     /// `c` and `s'` of the three turns that functions are sampled at: half-angle tangents 0, `sqrt n` and `-sqrt n`.
     pub(super) fn samples(&self) -> [[T; 2]; 3] {
-        let [one, _] = self.units;
-        let zero = one - one;
+        let [zero, one, _] = self.units;
         let (c, s) = ((one - self.square) * self.sample, (one + one) * self.sample);
         [[one, zero], [c, s], [c, -s]]
     }
 
     /// The coefficients of 1, `c` and `s'` of a function that is affine in them, from its values at the samples.
     pub(super) fn coefficients(&self, [f, g, h]: [T; 3]) -> [T; 3] {
-        let [one, half] = self.units;
+        let [_, one, half] = self.units;
         let (mean, wide) = (half * (g + h), one + self.square);
         let cosine = half * (f - mean) * wide * self.inverse_square;
         [f - cosine, cosine, half * half * (g - h) * wide]
@@ -68,6 +67,6 @@ impl<T: Scalar> Axis<T> {
 impl Axis<f64> {
     /// The axis along a direction of length one.
     pub fn along(line: Line<f64>) -> Self {
-        Axis { line, square: 1.0, inverse_square: 1.0, sample: 0.5, units: [1.0, 0.5] }
+        Axis { line, square: 1.0, inverse_square: 1.0, sample: 0.5, units: [0.0, 1.0, 0.5] }
     }
 }

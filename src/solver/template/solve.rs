@@ -153,8 +153,8 @@ impl Template {
         let displacement = Rigid { translation, ..*displacement };
         let target = displacement.after(&self.last);
         let mut answers = Answers::none();
-        for attempt in 0..most {
-            let aside = aside(DISTURBANCES[attempt], attempt).after(&displacement);
+        for (attempt, size) in DISTURBANCES.into_iter().enumerate().take(most) {
+            let aside = aside(size, attempt).after(&displacement);
             answers.runs += 1;
             if self.run(attempt, &aside, &target, &mut answers) {
                 answers.is_trusted = true;
@@ -197,7 +197,7 @@ impl Template {
         }
         answers.start = answers.start.max(worst);
         let is_unreachable = candidates.count == 0 && candidates.conditioning >= CLEAR;
-        let is_clear = lost == 0 && answers.count % 2 == 0 && !candidates.is_crowded;
+        let is_clear = lost == 0 && answers.count.is_multiple_of(2) && !candidates.is_crowded;
         let is_clear = is_clear && (answers.count > 0 || is_unreachable);
         let is_confirmed = attempt > 0 && known == answers.count && own.count == answers.count;
         is_clear && (is_confirmed || worst <= ACCURATE && candidates.conditioning >= SOUND)
@@ -206,7 +206,7 @@ impl Template {
 
 /// A small motion by `size` (rad, and shares of the length scale), another for each attempt.
 fn aside(size: f64, attempt: usize) -> Rigid {
-    let sign = if attempt % 2 == 0 { size } else { -size };
+    let sign = if attempt.is_multiple_of(2) { size } else { -size };
     let (s, c) = sign.sin_cos();
     let about = |v: [f64; 3]| {
         let (w, along) = (DIRECTION, dot(&DIRECTION, &v) * (1.0 - c));
