@@ -1,6 +1,7 @@
 //! Any six revolute joints by one eigenvalue problem: `roots::Hessenberg`, `solver::template`, `derive::template`.
 
 mod counts;
+mod derivations;
 mod eigenvalues;
 mod program;
 mod regular;
