@@ -78,27 +78,6 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
     Ok(program)
 }
 
-/// A program of `chain` with everything but blocks: the target, the joints, the checks.
-pub(in crate::derive) fn frame_of(chain: &Chain, mechanism: &Mechanism) -> Program {
-    let (layout, reach) = (Layout::new(mechanism, chain.length_unit()), reach(chain));
-    Program {
-        name: chain.name().to_owned(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        about: None,
-        checks: checks(mechanism, &layout, reach),
-        joints: joints(chain, &layout),
-        inputs: layout.inputs,
-        conditions: layout.conditions,
-        parameters: layout.parameters,
-        unknowns: layout.unknowns,
-        scale: reach,
-        capacity: 1,
-        isolated: None,
-        blocks: Vec::new(),
-        preference: None,
-    }
-}
-
 /// The checks of a program by `chain`, which has the joints and the task of the chain that the program solves.
 ///
 /// # Errors
@@ -115,7 +94,7 @@ pub(super) fn reach(chain: &Chain) -> f64 {
     if reach > 0.0 { reach } else { 1.0 }
 }
 
-fn joints(chain: &Chain, layout: &Layout) -> Vec<Joint> {
+pub(super) fn joints(chain: &Chain, layout: &Layout) -> Vec<Joint> {
     let unit = |value: &JointValue| match (value, chain.length_unit()) {
         (JointValue::Angle { .. }, _) => Unit::Radian,
         (JointValue::Plain(_), LengthUnit::Metre) => Unit::Metre,
