@@ -53,10 +53,11 @@ impl Proved {
     fn of_chain(source: &Source, chain: &Chain, watch: &Watch) -> Result<Self> {
         let by_steps = Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch));
         match by_steps {
-            Err(error) if error.kind() == ErrorKind::Unsupported && fits(chain).is_ok() => {
-                DerivedSixAxes::of_chain(chain, watch)
-                    .map(|derived| Proved::SixAxes(Box::new(derived)))
-                    .map_err(|_| error)
+            Err(refusal) if refusal.kind() == ErrorKind::Unsupported && fits(chain).is_ok() => {
+                match DerivedSixAxes::of_chain(chain, watch) {
+                    Err(error) if error.kind() == ErrorKind::Unsupported => Err(refusal),
+                    together => together.map(|derived| Proved::SixAxes(Box::new(derived))),
+                }
             }
             other => other,
         }

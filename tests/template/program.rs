@@ -28,7 +28,7 @@ fn a_program_gives_back_the_joints() {
     for _ in 0..50 {
         let q = random.angles();
         let solutions = derived.program.solve(&target(&derived.chain, &q)).unwrap();
-        assert!(solutions.len() % 2 == 0 && solutions.len() <= 16);
+        assert!(solutions.len().is_multiple_of(2) && solutions.len() <= 16);
         let near = |found: &[f64]| distance(&found.try_into().unwrap(), &q) < 1e-9;
         assert_eq!(solutions.iter().filter(|solution| near(&solution.q)).count(), 1);
         assert!(solutions.iter().all(|solution| solution.residual < 1e-12));
