@@ -19,5 +19,6 @@ mod robots;
 mod roots;
 mod solver;
 mod spatial;
+mod template;
 mod watch;
 mod witness;

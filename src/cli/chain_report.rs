@@ -3,6 +3,7 @@
 use super::report::Page;
 use crate::derive::lift::{Derived, Form};
 use crate::derive::limbs::DerivedLimbs;
+use crate::derive::template::DerivedSixAxes;
 
 /// Tells about each limb in the order in which they are solved.
 pub fn describe_limbs(page: &mut Page, derived: &DerivedLimbs) {
@@ -20,6 +21,14 @@ pub fn describe_limbs(page: &mut Page, derived: &DerivedLimbs) {
         page.line(&format!("task {}", stage.derived.chain.asked()));
         describe(page, &stage.derived);
     }
+}
+
+/// Tells about an eigenvalue problem.
+pub fn describe_six_axes(page: &mut Page, derived: &DerivedSixAxes) {
+    page.heading(&format!("{}: {} solutions at most, all joints together", derived.chain.name(), derived.dimension()));
+    derived.counts().iter().for_each(|line| page.line(line));
+    page.heading("Eigenvalue problems, proved regular");
+    derived.choices().iter().for_each(|line| page.line(line));
 }
 
 /// Tells about the plan, its steps and the proofs.

@@ -68,7 +68,7 @@ pub fn assemble_files(
     }
     files.extend(source.task_file());
     files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
-    if let (Proved::Chain(_) | Proved::Limbs(_), Some((_, page))) =
+    if let (Proved::Chain(_) | Proved::SixAxes(_) | Proved::Limbs(_), Some((_, page))) =
         (derivation, files.iter_mut().find(|(name, _)| name == stages::PAGE))
     {
         page.extend(accuracy(checked).into_bytes());
@@ -100,6 +100,9 @@ pub fn is_ours(folder: &Path, name: &str) -> bool {
 
 /// The program as source code, one file a language; IKFast's only where it has a type for the task and the file is not too long.
 pub fn printed_solvers(program: &Program) -> Vec<(String, Vec<u8>)> {
+    if !codegen::is_printable(program) {
+        return Vec::new();
+    }
     let ikfast = codegen::ikfast::emit(program, &codegen::ikfast::Options::default());
     let ikfast = ikfast
         .ok()

@@ -305,7 +305,8 @@ impl Walk<'_> {
                     let value = printer.operand(*value);
                     self.push(vec![printer.language().declare(&printer.names().unknowns[*unknown], &value)]);
                 }
-                Step::Set { .. } => {}
+                // No language prints it: see `codegen::is_printable`.
+                Step::Set { .. } | Step::SixAxes(_) => {}
                 Step::Roots { unknown, polynomials, typical } => {
                     self.roots(*unknown, polynomials, *typical, printer);
                     let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
@@ -441,11 +442,18 @@ impl Walk<'_> {
 
 /// The unknowns that a step finds.
 fn found(step: &Step) -> Vec<usize> {
-    match *step {
+    match step {
         Step::Compute(_) => vec![],
-        Step::Set { unknown, .. } | Step::Roots { unknown, .. } => vec![unknown],
-        Step::Sample { joint: JointValue::Angle { cosine, sine }, .. } => vec![cosine, sine],
-        Step::Sample { joint: JointValue::Plain(unknown), .. } => vec![unknown],
+        Step::Set { unknown, .. } | Step::Roots { unknown, .. } => vec![*unknown],
+        Step::Sample { joint, .. } => unknowns(*joint),
+        Step::SixAxes(six) => six.parts().joints.iter().flat_map(|joint| unknowns(*joint)).collect(),
+    }
+}
+
+fn unknowns(joint: JointValue) -> Vec<usize> {
+    match joint {
+        JointValue::Angle { cosine, sine } => vec![cosine, sine],
+        JointValue::Plain(unknown) => vec![unknown],
     }
 }
 

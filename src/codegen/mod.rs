@@ -23,6 +23,13 @@ pub use names::is_word;
 
 use serde::Serialize;
 
+use crate::solver::{Program, Step};
+
+/// Whether the languages have every step of `program`: they have no eigenvalue problems.
+pub fn is_printable(program: &Program) -> bool {
+    !program.charts().flat_map(|chart| &chart.steps).any(|step| matches!(step, Step::SixAxes(_)))
+}
+
 /// The skeleton with the outline's values; both come with the crate and fit one another.
 fn fill(skeleton: &str, outline: &impl Serialize) -> String {
     let mut environment = minijinja::Environment::new();

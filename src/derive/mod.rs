@@ -27,6 +27,7 @@ pub mod stages;
 pub mod strata;
 mod system;
 pub mod system_toml;
+pub mod template;
 pub mod tree;
 pub mod triangular;
 

@@ -2,6 +2,7 @@
 
 use super::lift::{self, Derived};
 use super::limbs::DerivedLimbs;
+use super::template::{DerivedSixAxes, fits};
 use super::{Derivation, Source, certificate};
 use crate::kinematics::Chain;
 use crate::solver::{About, Program};
@@ -14,6 +15,8 @@ pub enum Proved {
     Equations(Box<Derivation>),
     /// Of a chain, one joint at a time.
     Chain(Box<Derived>),
+    /// Of six revolute joints in any place, all together.
+    SixAxes(Box<DerivedSixAxes>),
     /// Of limbs that share motors, one limb after the other.
     Limbs(Box<DerivedLimbs>),
 }
@@ -25,7 +28,7 @@ impl Proved {
     /// As [`Derivation::new`], [`Derived::of_chain`] and [`DerivedLimbs::of_limbs`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
         match (source.chain_by_steps(), &source.limbs) {
-            (Some(chain), _) => Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch)),
+            (Some(chain), _) => Proved::of_chain(source, chain, watch),
             (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::of_limbs(limbs, watch)?))),
             (None, None) => Ok(Proved::Equations(Box::new(Derivation::new(equations(source)?.clone(), watch)?))),
         }
@@ -37,9 +40,26 @@ impl Proved {
     /// As [`certificate::prove`], [`lift::certificate::prove`] and [`DerivedLimbs::prove`].
     pub fn again(source: &Source, text: &str) -> Result<Self> {
         match (source.chain_by_steps(), &source.limbs) {
+            (Some(chain), _) if DerivedSixAxes::is_certificate(text) => {
+                Ok(Proved::SixAxes(Box::new(DerivedSixAxes::prove(chain, text)?)))
+            }
             (Some(chain), _) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
             (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::prove(limbs, text)?))),
             (None, None) => Ok(Proved::Equations(Box::new(certificate::prove(equations(source)?, text)?))),
+        }
+    }
+
+    /// The derivation of `chain` by steps; where it has none, by one eigenvalue problem, if that is for it.
+    fn of_chain(source: &Source, chain: &Chain, watch: &Watch) -> Result<Self> {
+        let by_steps = Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch));
+        match by_steps {
+            Err(refusal) if refusal.kind() == ErrorKind::Unsupported && fits(chain).is_ok() => {
+                match DerivedSixAxes::of_chain(chain, watch) {
+                    Err(error) if error.kind() == ErrorKind::Unsupported => Err(refusal),
+                    together => together.map(|derived| Proved::SixAxes(Box::new(derived))),
+                }
+            }
+            other => other,
         }
     }
 
@@ -57,6 +77,7 @@ impl Proved {
         match self {
             Proved::Equations(derivation) => &derivation.program,
             Proved::Chain(derived) => &derived.program,
+            Proved::SixAxes(derived) => &derived.program,
             Proved::Limbs(derived) => &derived.program,
         }
     }
@@ -69,6 +90,7 @@ impl Proved {
         match self {
             Proved::Equations(derivation) => derivation.stage_files(),
             Proved::Chain(derived) => derived.stage_files(),
+            Proved::SixAxes(derived) => Ok(derived.stage_files()),
             Proved::Limbs(derived) => derived.stage_files(),
         }
     }
@@ -79,6 +101,7 @@ impl Proved {
         let program = match &mut self {
             Proved::Equations(derivation) => &mut derivation.program,
             Proved::Chain(derived) => &mut derived.program,
+            Proved::SixAxes(derived) => &mut derived.program,
             Proved::Limbs(derived) => &mut derived.program,
         };
         program.about = Some(about(source, program));

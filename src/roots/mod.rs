@@ -5,6 +5,7 @@
 //! exact root, [`sign_at_root`] tells the sign of another polynomial there.
 
 mod descartes;
+mod eigen;
 mod isolate;
 mod numeric;
 mod polish;
@@ -12,6 +13,7 @@ mod refine;
 mod square_free;
 
 pub use descartes::{RealRoot, isolate_square_free, real_roots_of};
+pub use eigen::{Eigenvalue, Hessenberg};
 pub use isolate::{Interval, Sturm, isolate, rounded_roots};
 pub use numeric::{MAX_DEGREE, Roots, TANGENT, real_roots, square_roots};
 pub use polish::polish;

@@ -215,6 +215,9 @@ impl Places {
                 polynomials: polynomials.iter().map(|list| self.operands(list)).collect(),
                 typical: typical.map(|typical| self.operand(typical)),
             },
+            Step::SixAxes(six) => {
+                Step::SixAxes(Box::new(six.renamed(|joint| self.value(joint), |operand| self.operand(operand))))
+            }
             Step::Sample { joint, values } => Step::Sample { joint: self.value(*joint), values: values.clone() },
         })
     }

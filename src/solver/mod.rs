@@ -15,6 +15,7 @@ mod instruction;
 mod program;
 mod prune;
 mod refine;
+pub mod template;
 mod validate;
 mod walk;
 

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::about::About;
 use super::instruction::{Instruction, Operand};
+use super::template::{ROOM, SixAxes};
 use crate::{Error, ErrorKind, Result};
 
 /// The unit of an input or joint.
@@ -150,6 +151,8 @@ pub enum Step {
         /// The values.
         values: Vec<f64>,
     },
+    /// The angles of six revolute joints are each solution in turn; the steps behind run once for each.
+    SixAxes(Box<SixAxes>),
 }
 
 /// A chart's claim to be the best conditioned of its group.
@@ -352,6 +355,7 @@ impl Step {
             Step::Roots { polynomials, .. } => {
                 polynomials.iter().map(|coefficients| coefficients.len().saturating_sub(1)).max().unwrap_or(0)
             }
+            Step::SixAxes(_) => ROOM,
             _ => 1,
         }
     }

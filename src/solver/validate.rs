@@ -196,6 +196,11 @@ impl Context<'_> {
                 typical.map_or(Ok(()), |typical| self.operand(typical, place))?;
                 self.set(*unknown, place)
             }
+            Step::SixAxes(six) => {
+                six.parts().target.iter().try_for_each(|&operand| self.operand(operand, place))?;
+                let unknowns = six.parts().joints.iter().flat_map(|joint| joint.unknowns());
+                unknowns.into_iter().try_for_each(|unknown| self.set(unknown, place))
+            }
             Step::Sample { joint, values } => {
                 let finite = !values.is_empty() && values.iter().all(|value| value.is_finite());
                 ensure(finite, &format!("{place}: finite values are allowed in a sample"))?;

@@ -4,6 +4,7 @@ use super::answers::Answers;
 use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Block, Chart, JointValue, Program, Step, square};
+use super::template::SixAxes;
 use super::{MAX_JOINTS, NEAR, PIVOT};
 use crate::{Error, ErrorKind, Result, roots};
 
@@ -123,6 +124,10 @@ impl<'a> Walk<'a> {
                     }
                     return Ok(());
                 }
+                Step::SixAxes(six) => {
+                    path.choice *= step.slots();
+                    return self.six_axes(block, six, &steps[index + 1..], path);
+                }
                 Step::Sample { joint, values } => {
                     for value in values {
                         self.put(*joint, *value);
@@ -134,6 +139,18 @@ impl<'a> Walk<'a> {
         }
         path.branch += path.choice;
         self.block(block + 1, path)
+    }
+
+    /// Runs the steps behind one that finds six angles together, once for each of their solutions.
+    fn six_axes(&mut self, block: usize, six: &SixAxes, behind: &[Step], path: Path) -> Result<()> {
+        let target = six.parts().target.map(|operand| self.frame.value(operand));
+        for (choice, angles) in six.solve(&target).into_iter().enumerate() {
+            for (joint, angle) in six.parts().joints.iter().zip(angles) {
+                self.put(*joint, angle);
+            }
+            self.steps(block, behind, Path { choice: path.choice + choice, ..path })?;
+        }
+        Ok(())
     }
 
     fn put(&mut self, joint: JointValue, value: f64) {

@@ -147,6 +147,19 @@ pub struct Summary {
     pub worst_residual: f64,
 }
 
+impl Row {
+    /// Whether nothing is wrong but that answers are missing, at a target that is singular, next to such a one, or made from a right
+    /// angle.
+    pub fn is_special_loss(&self) -> bool {
+        let is_special =
+            matches!(self.kind, Kind::Boundary | Kind::Special | Kind::Singular | Kind::Near(_) | Kind::Edge(_));
+        let is_loss = |fault: &Fault| {
+            matches!(fault, Fault::Missing | Fault::Family | Fault::Count | Fault::Screw | Fault::Oracle)
+        };
+        is_special && matches!(&self.verdict, Verdict::Fail(faults) if faults.iter().all(is_loss))
+    }
+}
+
 impl Report {
     /// The rows that failed.
     pub fn failures(&self) -> impl Iterator<Item = &Row> {

@@ -1,6 +1,6 @@
 //! Real solutions of systems: numbers of real solutions from elsewhere, planted solutions, exact signs.
 
-mod sixteen;
+pub(crate) mod sixteen;
 
 use std::cmp::Ordering;
 use std::sync::Arc;

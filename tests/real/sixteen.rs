@@ -16,18 +16,18 @@ use num_traits::{Num, One, ToPrimitive, Zero};
 
 use super::{rational, system};
 
-type Frame<T> = [[T; 4]; 4];
+pub(crate) type Frame<T> = [[T; 4]; 4];
 
 /// A number, exact or not.
-trait Number: Num + Neg<Output = Self> + Clone {}
+pub(crate) trait Number: Num + Neg<Output = Self> + Clone {}
 impl<T: Num + Neg<Output = T> + Clone> Number for T {}
 
 /// A link in Denavit and Hartenberg's way: lengths in the unit of the table, cosine and sine of the twist.
 #[derive(Clone)]
-struct Link<T> {
-    length: T,
-    offset: T,
-    twist: [T; 2],
+pub(crate) struct Link<T> {
+    pub length: T,
+    pub offset: T,
+    pub twist: [T; 2],
 }
 
 /// Table I: lengths, offsets and twists in degrees of the six links.
@@ -35,7 +35,7 @@ const TABLE: [(&str, &str, f64); 6] =
     [("3/10", "0", 90.0), ("1", "0", 1.0), ("0", "1/5", 90.0), ("3/2", "0", 1.0), ("0", "0", 90.0), ("0", "0", 1.0)];
 
 /// Table III: the joint angles in degrees.
-const ANGLES: [[f64; 6]; 16] = [
+pub(crate) const ANGLES: [[f64; 6]; 16] = [
     [-96.28, -6.27, 179.96, 38.48, 52.55, -39.40],
     [-120.78, 172.33, -179.07, 31.33, -146.71, 142.82],
     [88.67, -176.72, -176.72, -63.24, 157.19, 140.43],
@@ -55,12 +55,12 @@ const ANGLES: [[f64; 6]; 16] = [
 ];
 
 /// Cosine and sine of the angle whose half has the tangent `n / d`.
-fn turn((n, d): (i64, i64)) -> [BigRational; 2] {
+pub(crate) fn turn((n, d): (i64, i64)) -> [BigRational; 2] {
     [rational(d * d - n * n, d * d + n * n), rational(2 * n * d, d * d + n * n)]
 }
 
 /// The six links, one degree to within 4e-6 degrees.
-fn links() -> [Link<BigRational>; 6] {
+pub(crate) fn links() -> [Link<BigRational>; 6] {
     let exact = |text: &str| text.parse().unwrap();
     let twist = |degrees: f64| turn(if degrees == 90.0 { (1, 1) } else { (17, 1948) });
     TABLE.map(|(length, offset, degrees)| Link { length: exact(length), offset: exact(offset), twist: twist(degrees) })
@@ -68,7 +68,7 @@ fn links() -> [Link<BigRational>; 6] {
 
 /// The pose, exactly orthogonal; its entries begin with the four decimals in print. The sign of the first coordinate is lost there: the
 /// matrix Q of the same page and Table III have it negative.
-fn pose() -> Frame<BigRational> {
+pub(crate) fn pose() -> Frame<BigRational> {
     let ([c, s], [k, m]) = (turn((69, 190)), turn((14, 209)));
     let (zero, one) = (BigRational::zero(), BigRational::one());
     [
@@ -91,12 +91,12 @@ fn link<T: Number>([c, s]: &[T; 2], link: &Link<T>) -> Frame<T> {
     ]
 }
 
-fn product<T: Number>(a: &Frame<T>, b: &Frame<T>) -> Frame<T> {
+pub(crate) fn product<T: Number>(a: &Frame<T>, b: &Frame<T>) -> Frame<T> {
     let entry = |i: usize, j: usize| (0..4).fold(T::zero(), |sum, k| sum + a[i][k].clone() * b[k][j].clone());
     std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
 }
 
-fn inverse<T: Number>(a: &Frame<T>) -> Frame<T> {
+pub(crate) fn inverse<T: Number>(a: &Frame<T>) -> Frame<T> {
     let moved = |i: usize| (0..3).fold(T::zero(), |sum, k| sum - a[k][i].clone() * a[k][3].clone());
     std::array::from_fn(|i| {
         std::array::from_fn(|j| match (i, j) {
@@ -107,7 +107,7 @@ fn inverse<T: Number>(a: &Frame<T>) -> Frame<T> {
     })
 }
 
-fn chain<T: Number>(turns: &[[T; 2]], links: &[Link<T>]) -> Frame<T> {
+pub(crate) fn chain<T: Number>(turns: &[[T; 2]], links: &[Link<T>]) -> Frame<T> {
     let mut frames = turns.iter().zip(links).map(|(turn, row)| link(turn, row));
     let first = frames.next().expect("a link");
     frames.fold(first, |frame, next| product(&frame, &next))
@@ -173,9 +173,9 @@ const EIGHT: usize = 8;
 
 /// First the eight products of joints 1 and 2, then relations of joints 3, 4 and 5 alone: each row has the coefficients of the eight
 /// products and of what they are equal to, in 1, c, s of joints 3, 4 and 5.
-fn eliminate() -> Vec<Vec<BigRational>> {
-    let (links, zero) = (links(), turn((0, 1)));
-    let without_last = product(&pose(), &inverse(&link(&zero, &links[5])));
+pub(crate) fn eliminate(links: &[Link<BigRational>; 6], pose: &Frame<BigRational>) -> Vec<Vec<BigRational>> {
+    let zero = turn((0, 1));
+    let without_last = product(pose, &inverse(&link(&zero, &links[5])));
     let left = expand(3, |turns| invariants(&chain(turns, &links[2..5])));
     let right = expand(2, |turns| invariants(&product(&inverse(&chain(turns, &links[..2])), &without_last)));
     let mut rows: Vec<Vec<BigRational>> = left
@@ -205,6 +205,13 @@ fn relations(rows: &[Vec<BigRational>]) -> Vec<String> {
     };
     let circles = (3..6).map(|joint| format!("c{joint}^2 + s{joint}^2 - 1"));
     rows[EIGHT..].iter().map(relation).chain(circles).collect()
+}
+
+/// The real turns of joints 3, 4 and 5.
+pub(crate) fn solutions(rows: &[Vec<BigRational>]) -> Vec<RealSolution> {
+    let names = ["c3", "s3", "c4", "s4", "c5", "s5"].map(str::to_owned);
+    let (ring, generators) = system(&names, &relations(rows));
+    solve(&ring, &generators, &Options::default(), &Watch::none()).unwrap()
 }
 
 /// The six joint angles \[rad\] that go with the cosines and sines of joints 3, 4 and 5.
@@ -270,10 +277,8 @@ fn the_printed_angles_reach_the_printed_pose() {
 
 #[test]
 fn sixteen_real_solutions_at_one_pose() {
-    let rows = eliminate();
-    let names = ["c3", "s3", "c4", "s4", "c5", "s5"].map(str::to_owned);
-    let (ring, generators) = system(&names, &relations(&rows));
-    let solutions = solve(&ring, &generators, &Options::default(), &Watch::none()).unwrap();
+    let rows = eliminate(&links(), &pose());
+    let solutions = solutions(&rows);
     let complex = solutions[0].representation().polynomial.degree();
     assert_eq!((solutions.len(), complex), (16, Some(16)));
     assert!(solutions.iter().all(|solution| solution.multiplicity == 1));

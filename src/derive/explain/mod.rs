@@ -28,6 +28,7 @@ pub fn explain(proved: &Proved) -> Result<Document> {
     match proved {
         Proved::Equations(derivation) => system::document(derivation),
         Proved::Chain(derived) => chain::document(derived),
+        Proved::SixAxes(derived) => Ok(derived.document()),
         Proved::Limbs(derived) => limbs::document(derived),
     }
 }

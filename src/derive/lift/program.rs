@@ -95,7 +95,7 @@ pub(super) fn reach(chain: &Chain) -> f64 {
     if reach > 0.0 { reach } else { 1.0 }
 }
 
-fn joints(chain: &Chain, layout: &Layout) -> Vec<Joint> {
+pub(super) fn joints(chain: &Chain, layout: &Layout) -> Vec<Joint> {
     let unit = |value: &JointValue| match (value, chain.length_unit()) {
         (JointValue::Angle { .. }, _) => Unit::Radian,
         (JointValue::Plain(_), LengthUnit::Metre) => Unit::Metre,

@@ -16,13 +16,13 @@ mod sights;
 mod specimen;
 mod types;
 
+pub(super) use specimen::Random;
 pub use types::{Evidence, Plan, PlanStep, Way};
 
 use crate::derive::closure::{Mechanism, Relation, prove};
 use crate::{Error, ErrorKind, Result, Watch};
 use search::{Reach, Search};
 use sights::Sights;
-use specimen::Random;
 
 /// Where joints are eliminated: the first that leads to the right number of solutions is taken.
 const REACHES: [Reach; 4] = [Reach::OneJoint, Reach::WhereStuck(2), Reach::Everywhere(2), Reach::WhereStuck(3)];
@@ -52,6 +52,14 @@ pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
         prove(mechanism, relation)?;
     }
     Ok(Plan { given: mechanism.given().to_vec(), dimension, evidence, steps })
+}
+
+/// What random reachable targets modulo three primes show; `None` when they have infinitely many solutions.
+///
+/// # Errors
+/// What `watch` stops with.
+pub(super) fn evidence(mechanism: &Mechanism, watch: &Watch) -> Result<Option<Vec<Evidence>>> {
+    evidence::gather(mechanism, &mechanism.relations(), watch)
 }
 
 /// The steps of the best plan, if it is good enough.

@@ -1,0 +1,135 @@
+//! The derivation of six axes ([`DerivedSixAxes`]), and its proof from the text of a certificate.
+
+use serde::{Deserialize, Serialize};
+
+use super::program::program;
+use super::{Determinant, Regular, fits, formulations, lines, survey, typical_length};
+use crate::derive::certificate::{check_head, refused, unread, written};
+use crate::derive::closure::Mechanism;
+use crate::derive::planner::{self, Evidence};
+use crate::kinematics::Chain;
+use crate::solver::Program;
+use crate::solver::template::{Formulation, SIZE};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The version of the format; those of systems, chains and limbs have numbers 1 to 3.
+const FORMAT: u32 = 4;
+
+/// The solver of a chain of six revolute joints with axes in any place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DerivedSixAxes {
+    /// The chain.
+    pub chain: Chain,
+    /// How many complex solutions random targets modulo primes had.
+    pub evidence: Vec<Evidence>,
+    /// The eigenvalue problems in the order in which they are tried, each proved regular.
+    pub formulations: Vec<Regular>,
+    /// The solver.
+    pub program: Program,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    format: u32,
+    groebot: String,
+    name: String,
+    evidence: Vec<Evidence>,
+    formulations: Vec<Entry>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    formulation: Formulation,
+    determinants: Vec<Determinant>,
+}
+
+impl DerivedSixAxes {
+    /// Counts the solutions, finds the regular formulations and ranks them.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`]), with infinitely many solutions, or
+    /// without a formulation that is regular and accurate; what `watch` stops with.
+    pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
+        fits(chain)?;
+        let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
+        let evidence = planner::evidence(&Mechanism::new(chain)?, watch)?;
+        let evidence = evidence.ok_or_else(|| unsupported("joints are free at every target"))?;
+        let regular = formulations(chain)?;
+        let lines = lines(chain).ok_or_else(|| unsupported("six revolute joints are needed"))?;
+        let known: Vec<Formulation> = regular.iter().map(|regular| regular.formulation).collect();
+        let best = survey(&lines, typical_length(&lines), &known);
+        let proof =
+            |formulation: &Formulation| regular.iter().find(|regular| regular.formulation == *formulation).cloned();
+        let formulations: Vec<Regular> = best.iter().filter_map(proof).collect();
+        if formulations.is_empty() {
+            return Err(unsupported("no formulation of the eigenvalue problem is regular and accurate for this chain"));
+        }
+        DerivedSixAxes::assemble(chain, evidence, formulations)
+    }
+
+    /// Proves the derivation of `chain` anew from the text of its certificate: every determinant is evaluated again.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] for a claim that does not hold.
+    pub fn prove(chain: &Chain, text: &str) -> Result<Self> {
+        let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
+        check_head((record.format, &record.name), (FORMAT, chain.name()))?;
+        fits(chain)?;
+        let formulations: Result<Vec<Regular>> = record.formulations.iter().map(|entry| entry.prove(chain)).collect();
+        let formulations = formulations?;
+        let claimed = record.evidence.iter().map(|evidence| evidence.dimension).max().unwrap_or(0);
+        if formulations.is_empty() || claimed == 0 || claimed > SIZE {
+            return Err(refused(format!("{} formulations, {claimed} solutions", formulations.len())));
+        }
+        DerivedSixAxes::assemble(chain, record.evidence, formulations)
+    }
+
+    /// Whether `text` is the certificate of six axes.
+    pub fn is_certificate(text: &str) -> bool {
+        serde_json::from_str::<Record>(text).is_ok_and(|record| record.format == FORMAT)
+    }
+
+    /// The text of `certificate.json`.
+    pub fn certificate(&self) -> String {
+        let entry =
+            |regular: &Regular| Entry { formulation: regular.formulation, determinants: regular.determinants.clone() };
+        written(&Record {
+            format: FORMAT,
+            groebot: env!("CARGO_PKG_VERSION").to_owned(),
+            name: self.chain.name().to_owned(),
+            evidence: self.evidence.clone(),
+            formulations: self.formulations.iter().map(entry).collect(),
+        })
+    }
+
+    /// The number of complex solutions of a generic reachable target.
+    pub fn dimension(&self) -> usize {
+        self.evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(SIZE)
+    }
+
+    fn assemble(chain: &Chain, evidence: Vec<Evidence>, formulations: Vec<Regular>) -> Result<Self> {
+        let order = formulations.iter().map(|regular| regular.formulation).collect();
+        let dimension = evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(SIZE);
+        let program = program(chain, order, dimension)?;
+        Ok(DerivedSixAxes { chain: chain.clone(), evidence, formulations, program })
+    }
+}
+
+impl Entry {
+    fn prove(&self, chain: &Chain) -> Result<Regular> {
+        let formulation = self.formulation;
+        let name = format!("the formulation that hides joint {}", formulation.hidden + 1);
+        if formulation.hidden >= 6 || self.determinants.iter().all(|determinant| determinant.value == 0) {
+            return Err(refused(format!("{name} is not shown to be regular")));
+        }
+        for determinant in &self.determinants {
+            let again = Determinant::evaluate(chain, formulation, determinant.prime, determinant.seed)?;
+            if again != *determinant {
+                return Err(refused(format!("{name}: the determinant modulo {} is another", determinant.prime)));
+            }
+        }
+        Ok(Regular { formulation, determinants: self.determinants.clone() })
+    }
+}

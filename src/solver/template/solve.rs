@@ -1,0 +1,243 @@
+//! The solver: formulations in turn until one can be trusted ([`Template`]).
+
+use std::f64::consts::{PI, TAU};
+
+use super::candidates::Candidates;
+use super::formulation::{Equations, Formulation};
+use super::polish::{Links, Rigid};
+use super::profile::Frame;
+use super::scalar::{Vector, cross, dot, scale};
+use super::screw::{Axis, Line};
+
+/// The most answers that are kept while formulations are united.
+pub const ROOM: usize = 32;
+/// Answers whose joints all differ by no more than this (rad) are one.
+const MERGE: f64 = 1e-7;
+/// The largest residual of an answer, as a share of the length scale or in radians.
+const ACCEPT: f64 = 1e-12;
+/// The share of a pivot below which another formulation is asked too.
+const SOUND: f64 = 1e-11;
+
+/// The share of a pivot at which a target without real eigenvalues is out of reach.
+const CLEAR: f64 = 1e-6;
+/// A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate.
+const ACCURATE: f64 = 1e-6;
+/// What stands in for the accuracy of the eigenvalues when it is better than that.
+const UNKNOWN: f64 = 1e-11;
+/// The square of a complex eigenvalue's depth as a multiple of the eigenvalues' accuracy: below it, it may be a double root.
+const OFF: f64 = 1e3;
+/// Below it, it is tried.
+const FAR_OFF: f64 = 1e7;
+/// Formulations, or origins of one, that are run at most.
+const MOST_RUNS: usize = 6;
+/// How far aside the target is put for each of them: where solutions share a hidden angle, or a family of solutions stands at the same
+/// target, the eigenvectors of isolated ones are only found next to it.
+const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-3];
+/// The axis of these small turns.
+const DIRECTION: [f64; 3] = [0.48, 0.6, 0.64];
+
+/// A joint vector that reaches the target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// The joint angles, in (-pi, pi] \[rad\].
+    pub q: [f64; 6],
+    /// The largest coordinate of what is missed: a share of the length scale, or radians.
+    pub residual: f64,
+}
+
+/// The answers at one target.
+#[derive(Clone, Debug)]
+pub struct Answers {
+    list: [Answer; ROOM],
+    count: usize,
+    /// How many formulations were run.
+    pub runs: usize,
+    /// Whether the last of them could be trusted.
+    pub is_trusted: bool,
+    /// The largest residual of a candidate before it was polished.
+    pub start: f64,
+}
+
+/// The solver of one chain of six revolute joints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Template {
+    axes: [Axis<f64>; 6],
+    frames: [Frame<f64>; 6],
+    links: Links,
+    last: Rigid,
+    scale: f64,
+    formulations: Vec<Formulation>,
+}
+
+impl Answers {
+    fn none() -> Self {
+        let none = Answer { q: [0.0; 6], residual: 0.0 };
+        Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false, start: 0.0 }
+    }
+
+    /// The answers.
+    pub fn as_slice(&self) -> &[Answer] {
+        &self.list[..self.count]
+    }
+
+    fn keep(&mut self, answer: Answer) {
+        for known in &mut self.list[..self.count] {
+            if distance(&known.q, &answer.q) <= MERGE {
+                if answer.residual < known.residual {
+                    *known = answer;
+                }
+                return;
+            }
+        }
+        if self.count < ROOM {
+            self.list[self.count] = answer;
+            self.count += 1;
+        }
+    }
+}
+
+/// The largest difference of two joint vectors, by the shorter way round.
+fn distance(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    let way = |(x, y): (&f64, &f64)| (x - y - TAU * ((x - y) / TAU).round()).abs();
+    a.iter().zip(b).map(way).fold(0.0, f64::max)
+}
+
+/// The angle in (-pi, pi].
+fn wrapped(angle: f64) -> f64 {
+    let turned = angle - TAU * (angle / TAU).round();
+    if turned <= -PI { turned + TAU } else { turned }
+}
+
+impl Template {
+    /// The solver of the chain with these axes (directions of length one) at zero, and a typical length of it; the formulations are
+    /// taken in this order.
+    ///
+    /// # Panics
+    /// Without a formulation.
+    pub fn new(lines: [Line<f64>; 6], scale_of_lengths: f64, formulations: Vec<Formulation>) -> Self {
+        assert!(!formulations.is_empty(), "a solver has a formulation at least");
+        let axes = lines.map(|line| Axis::along(Line { point: scale(&line.point, 1.0 / scale_of_lengths), ..line }));
+        let frames = axes.map(|axis| frame(&axis.line));
+        let poses = frames.map(|frame| pose(&frame));
+        let step = |joint: usize| match joint {
+            0 => poses[0],
+            _ => poses[joint - 1].inverse().after(&poses[joint]),
+        };
+        let links = Links { steps: std::array::from_fn(step) };
+        Template { axes, frames, links, last: poses[5], scale: scale_of_lengths, formulations }
+    }
+
+    /// The displacement `E1 ... E6` for joint angles `q` \[rad\], in the unit of length that the lines were given in.
+    pub fn forward(&self, q: &[f64; 6]) -> Rigid {
+        let end = self.links.end(q).after(&self.last.inverse());
+        Rigid { translation: scale(&end.translation, self.scale), ..end }
+    }
+
+    /// The formulations, in the order in which they are taken.
+    pub fn formulations(&self) -> &[Formulation] {
+        &self.formulations
+    }
+
+    /// All real solutions of `E1 ... E6 = displacement`, which takes the chain's tip from its place at zero to the target.
+    pub fn solve(&self, displacement: &Rigid) -> Answers {
+        self.attempts(displacement, MOST_RUNS)
+    }
+
+    /// What the first formulation alone finds.
+    pub fn attempt(&self, displacement: &Rigid) -> Answers {
+        self.attempts(displacement, 1)
+    }
+
+    fn attempts(&self, displacement: &Rigid, most: usize) -> Answers {
+        let translation = scale(&displacement.translation, 1.0 / self.scale);
+        let displacement = Rigid { translation, ..*displacement };
+        let target = displacement.after(&self.last);
+        let mut answers = Answers::none();
+        for (attempt, size) in DISTURBANCES.into_iter().enumerate().take(most) {
+            let aside = aside(size, attempt).after(&displacement);
+            answers.runs += 1;
+            if self.run(attempt, &aside, &target, &mut answers) {
+                answers.is_trusted = true;
+                break;
+            }
+        }
+        answers
+    }
+
+    /// Adds the answers of one formulation, solved for a displacement that may be a little aside from the target and then led to it;
+    /// whether it can be trusted to have found all.
+    fn run(&self, attempt: usize, displacement: &Rigid, target: &Rigid, answers: &mut Answers) -> bool {
+        let formulation = self.formulations[attempt % self.formulations.len()];
+        let back = displacement.inverse();
+        let carried = |motion: &Rigid| self.axes.map(|axis| carried(motion, &axis.line));
+        let frame = &self.frames[formulation.hidden];
+        let equations = Equations::new(formulation, frame, &self.axes, &carried(displacement), &carried(&back));
+        let Some(candidates) = Candidates::new(&equations, formulation, attempt) else { return false };
+        let (near, mut lost, mut worst) = (displacement.after(&self.last), 0, 0.0_f64);
+        let (known, mut own) = (answers.count, Answers::none());
+        for candidate in &candidates.list[..candidates.count] {
+            if candidate.depth * candidate.depth > FAR_OFF * worst.max(UNKNOWN) {
+                continue;
+            }
+            let mut q = candidate.q;
+            let missing = formulation.joint(3);
+            q[missing] = self.links.closing(&q, missing, &near);
+            let (start, mut residual) = self.links.polish(&mut q, &near);
+            if DISTURBANCES[attempt] > 0.0 {
+                residual = self.links.polish(&mut q, target).1;
+            }
+            if residual <= ACCEPT {
+                worst = if candidate.depth == 0.0 { worst.max(start) } else { worst };
+                let answer = Answer { q: q.map(wrapped), residual };
+                answers.keep(answer);
+                own.keep(answer);
+            } else if candidate.depth * candidate.depth <= OFF * worst.max(UNKNOWN) {
+                lost += 1;
+            }
+        }
+        answers.start = answers.start.max(worst);
+        let is_unreachable = candidates.count == 0 && candidates.conditioning >= CLEAR;
+        let is_clear = lost == 0 && answers.count.is_multiple_of(2) && !candidates.is_crowded;
+        let is_clear = is_clear && (answers.count > 0 || is_unreachable);
+        let is_confirmed = attempt > 0 && known == answers.count && own.count == answers.count;
+        is_clear && (is_confirmed || worst <= ACCURATE && candidates.conditioning >= SOUND)
+    }
+}
+
+/// A small motion by `size` (rad, and shares of the length scale), another for each attempt.
+fn aside(size: f64, attempt: usize) -> Rigid {
+    let sign = if attempt.is_multiple_of(2) { size } else { -size };
+    let (s, c) = sign.sin_cos();
+    let about = |v: [f64; 3]| {
+        let (w, along) = (DIRECTION, dot(&DIRECTION, &v) * (1.0 - c));
+        let third = cross(&w, &v);
+        std::array::from_fn(|k| c * v[k] + s * third[k] + along * w[k])
+    };
+    let columns: [[f64; 3]; 3] = [about([1.0, 0.0, 0.0]), about([0.0, 1.0, 0.0]), about([0.0, 0.0, 1.0])];
+    let rotation = std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]));
+    Rigid { rotation, translation: [-0.7 * sign, 0.5 * sign, 0.3 * sign] }
+}
+
+fn carried(motion: &Rigid, line: &Line<f64>) -> Line<f64> {
+    Line { direction: motion.turned(&line.direction), point: motion.moved(&line.point) }
+}
+
+/// A frame on the line.
+fn frame(line: &Line<f64>) -> Frame<f64> {
+    let w = line.direction;
+    let mut least = 0;
+    for k in 1..3 {
+        least = if w[k].abs() < w[least].abs() { k } else { least };
+    }
+    let mut unit: Vector<f64> = [0.0; 3];
+    unit[least] = 1.0;
+    let across = cross(&w, &unit);
+    let e = scale(&across, 1.0 / dot(&across, &across).sqrt());
+    Frame { origin: line.point, axis: w, across: [e, cross(&w, &e)] }
+}
+
+/// The frame as a motion of the base frame.
+fn pose(frame: &Frame<f64>) -> Rigid {
+    let [x, y, z] = [frame.across[0], frame.across[1], frame.axis];
+    Rigid { rotation: [0, 1, 2].map(|k| [x[k], y[k], z[k]]), translation: frame.origin }
+}

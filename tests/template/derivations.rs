@@ -1,0 +1,59 @@
+//! The folders in `derivations/` whose joints are found together.
+
+use std::path::{Path, PathBuf};
+
+use groebot::Watch;
+use groebot::codegen::is_printable;
+use groebot::derive::{Proved, Source};
+
+/// Their names, and how many complex solutions they have.
+const FOLDERS: [(&str, usize); 6] = [
+    ("booster_leg_like", 16),
+    ("crx_like", 16),
+    ("general_6r", 16),
+    ("jaco_like", 16),
+    ("ur5_calibrated", 16),
+    ("xarm6_like", 16),
+];
+
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(name)
+}
+
+/// A chain that has no order of joints takes this way by itself, and every committed stage follows.
+#[test]
+fn committed_files_are_what_a_derivation_writes() {
+    for (name, dimension) in FOLDERS {
+        let source = Source::read(&folder(name)).unwrap();
+        let proved = Proved::of(&source, &Watch::none()).unwrap().about(&source);
+        let Proved::SixAxes(derived) = &proved else { panic!("{name} takes another way") };
+        assert_eq!(derived.dimension(), dimension, "{name}");
+        assert!(!is_printable(&derived.program));
+        for (file, bytes) in proved.stage_files().unwrap() {
+            let stored = std::fs::read(folder(name).join(&file)).unwrap();
+            let own = if file == "README.md" { &stored[..bytes.len().min(stored.len())] } else { &stored };
+            assert!(own == bytes, "{name}/{file} is out of date: derive it again");
+        }
+    }
+}
+
+#[test]
+fn stored_certificates_prove_the_same_solvers() {
+    for (name, _) in FOLDERS {
+        let source = Source::read(&folder(name)).unwrap();
+        let text = std::fs::read_to_string(folder(name).join("certificate.json")).unwrap();
+        let again = Proved::again(&source, &text).unwrap().about(&source);
+        let stored = std::fs::read_to_string(folder(name).join("5_program.json")).unwrap();
+        assert!(again.program().to_json() == stored, "{name}");
+    }
+}
+
+#[test]
+fn a_chain_that_nothing_solves_is_still_refused() {
+    let mut source = Source::read(&folder("general_6r")).unwrap();
+    let mut parts = source.chain.clone().unwrap().parts().clone();
+    parts.joints.pop();
+    parts.task = groebot::kinematics::Task::Position;
+    source.chain = Some(groebot::kinematics::Chain::new(parts).unwrap());
+    assert!(Proved::of(&source, &Watch::none()).is_err());
+}
