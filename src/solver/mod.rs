@@ -20,8 +20,8 @@ mod validate;
 mod walk;
 
 pub use about::About;
-pub use batch::Batch;
 pub(crate) use angle::{EIGHTH, REST, SERIES};
+pub use batch::Batch;
 pub use evaluate::{Nearest, Solution};
 pub use forward::{Forward, Reached};
 pub use instruction::{Instruction, Operand, Operation};

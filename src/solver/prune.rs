@@ -51,6 +51,7 @@ impl Live {
                 Step::Roots { polynomials, typical, .. } => {
                     polynomials.iter().flatten().chain(typical).for_each(|operand| self.read(*operand));
                 }
+                Step::SixAxes(six) => six.parts().target.iter().for_each(|operand| self.read(*operand)),
                 Step::Sample { .. } => {}
             }
         }
@@ -108,6 +109,13 @@ impl Numbers {
                 Step::Set { value, .. } => self.operand(value),
                 Step::Roots { polynomials, typical, .. } => {
                     polynomials.iter_mut().flatten().chain(typical).for_each(|operand| self.operand(operand));
+                }
+                Step::SixAxes(six) => {
+                    let renumbered = |mut operand: Operand| {
+                        self.operand(&mut operand);
+                        operand
+                    };
+                    **six = six.renamed(|joint| joint, renumbered);
                 }
                 Step::Sample { .. } => {}
             }
