@@ -103,8 +103,10 @@ static const double BLUR = 0.05;
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
 static const int POLISH_STEPS = 32;
-/* So many steps in a row that do not halve the miss are the last. */
+/* So many steps in a row that do not halve a miss by more than rounding are the last. */
 static const int PATIENCE = 3;
+/* A step that raises the miss by no more than this may have led beyond one of two roots next to each other. */
+static const double OVERSHOT = 100.0;
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 static const double APART = 0.7;
 static const double SPLIT = 0.001;
@@ -609,6 +611,28 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
     return false;
 }
 
+/* Newton steps on from start until the equations are missed by less than they are at q, which is where it ends then: from between two roots
+ * next to each other the first step leads beyond one of them, and from there on each quarters the miss. */
+static bool returned(const Parameters *p, const double *start, double *q, Fit *fit, const bool *held)
+{
+    double at[JOINTS], step[JOINTS], next[JOINTS];
+    copy(start, at);
+    for (int i = 0; i < RETURNS; i++) {
+        if (!newton_step(p, at, 0.0, held, step)) {
+            return false;
+        }
+        stepped(at, step, next);
+        copy(next, at);
+        const Fit next_fit = measure(p, at);
+        if (next_fit.relative < fit->relative) {
+            copy(at, q);
+            *fit = next_fit;
+            return true;
+        }
+    }
+    return false;
+}
+
 /* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
@@ -627,6 +651,10 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (next_fit.relative < enough) {
             copy(next, q);
             *fit = next_fit;
+            return true;
+        }
+        if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
+            && returned(p, next, q, fit, held)) {
             return true;
         }
         if (next_fit.relative < fit->relative && !has_fallen) {
@@ -655,7 +683,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
+        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
     }
 }
 

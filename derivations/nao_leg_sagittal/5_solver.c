@@ -116,8 +116,10 @@ int nao_leg_sagittal_nearest(const nao_leg_sagittal_solution *list, int count, c
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
 #define POLISH_STEPS 32
-/* So many steps in a row that do not halve the miss are the last. */
+/* So many steps in a row that do not halve a miss by more than rounding are the last. */
 #define PATIENCE 3
+/* A step that raises the miss by no more than this may have led beyond one of two roots next to each other. */
+#define OVERSHOT 100.0
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 #define APART 0.7
 #define SPLIT 0.001
@@ -568,6 +570,28 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough)
     return false;
 }
 
+/* Newton steps on from start until the equations are missed by less than they are at q, which is where it ends then: from between two roots
+ * next to each other the first step leads beyond one of them, and from there on each quarters the miss. */
+static bool returned(const Parameters *p, const double *start, double *q, Fit *fit)
+{
+    double at[JOINTS], step[JOINTS], next[JOINTS];
+    copy(start, at);
+    for (int i = 0; i < RETURNS; i++) {
+        if (!newton_step(p, at, 0.0, step)) {
+            return false;
+        }
+        stepped(at, step, next);
+        copy(next, at);
+        const Fit next_fit = measure(p, at);
+        if (next_fit.relative < fit->relative) {
+            copy(at, q);
+            *fit = next_fit;
+            return true;
+        }
+    }
+    return false;
+}
+
 /* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
 static bool improve(const Parameters *p, double *q, Fit *fit)
 {
@@ -586,6 +610,10 @@ static bool improve(const Parameters *p, double *q, Fit *fit)
         if (next_fit.relative < enough) {
             copy(next, q);
             *fit = next_fit;
+            return true;
+        }
+        if (leaps && d == 0 && next_fit.relative <= OVERSHOT * fit->relative
+            && returned(p, next, q, fit)) {
             return true;
         }
         if (next_fit.relative < fit->relative && !has_fallen) {
@@ -614,7 +642,7 @@ static void polish(const Parameters *p, double *q, Fit *fit)
         if (!improve(p, q, fit)) {
             return;
         }
-        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
+        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
     }
 }
 

@@ -300,8 +300,10 @@ const BLUR: f64 = 0.05;
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
 const POLISH_STEPS: usize = 32;
-/// So many steps in a row that do not halve the miss are the last.
+/// So many steps in a row that do not halve a miss by more than rounding are the last.
 const PATIENCE: usize = 3;
+/// A step that raises the miss by no more than this may have led beyond one of two roots next to each other.
+const OVERSHOT: f64 = 100.0;
 /// Shares of the squared Jacobian's size that are added where a plain step fails.
 const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 0.001];
 /// A candidate that misses the equations by this share of their size at most may be a double root.
@@ -1391,7 +1393,7 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
             return end;
         }
         let Some(next) = improved(p, &end, held) else { return end };
-        slow = if next.1.relative <= 0.5 * end.1.relative { 0 } else { slow + 1 };
+        slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
         end = next;
     }
     end
@@ -1409,12 +1411,32 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         if next.1.relative < enough {
             return Some(next);
         }
+        if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
+            let end = returned(p, next.0, fit.relative, held);
+            if end.is_some() {
+                return end;
+            }
+        }
         if next.1.relative < fit.relative && fallen.is_none() {
             fallen = Some(next);
         }
     }
     let leap = if leaps { leap(p, q, enough, held) } else { None };
     leap.or(fallen)
+}
+
+/// Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads
+/// beyond one of them, and from there on each quarters the miss.
+fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
+    for _ in 0..RETURNS {
+        let step = newton_step(p, &q, 0.0, held)?;
+        q = stepped(&q, &step);
+        let fit = measure(p, &q);
+        if fit.relative < relative {
+            return Some((q, fit));
+        }
+    }
+    None
 }
 
 /// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss

@@ -12,8 +12,8 @@ use super::printer::{Language, number};
 use super::samples::Table;
 use crate::solver::{
     ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, EIGHTH, JointValue, LEAPS,
-    LEVER, MERGE, NEAR, Operand, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, Program, REST, RETURNS, ROUNDING, SERIES,
-    STAGES, STIFF, Step, TINY, Unit, square,
+    LEVER, MERGE, NEAR, OVERSHOT, Operand, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, Program, REST, RETURNS, ROUNDING,
+    SERIES, STAGES, STIFF, Step, TINY, Unit, square,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -104,6 +104,7 @@ struct Tolerances {
     polish_steps: usize,
     polished: String,
     patience: usize,
+    overshot: String,
     adrift: String,
     alone: String,
     aside: String,
@@ -265,6 +266,7 @@ impl Tolerances {
             polish_steps: POLISH_STEPS,
             polished: number(POLISHED),
             patience: PATIENCE,
+            overshot: number(OVERSHOT),
             adrift: number(ADRIFT),
             alone: number(ALONE),
             aside: number(ASIDE),

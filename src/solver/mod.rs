@@ -53,11 +53,13 @@ pub const POLISH_STEPS: usize = 32;
 pub const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 1e-3];
 /// Where no step halves the miss, the joints leap: by at most these ways (rad, or relative to the length scale), the first that helps.
 pub const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
-/// The most damped steps back behind a leap.
+/// A Newton step that raises the residual by no more than this may have led beyond one of two roots next to each other.
+pub const OVERSHOT: f64 = 100.0;
+/// The most steps back behind a leap or an overshot.
 pub const RETURNS: usize = 4;
 /// The share of the squared Jacobian's size by which steps back are damped: a direction in which the equations hardly change stays.
 pub const STIFF: f64 = 1e-6;
-/// So many Newton steps in a row that do not halve the residual are the last.
+/// So many Newton steps in a row that do not halve a residual beyond [`ROUNDING`] are the last.
 pub const PATIENCE: usize = 3;
 /// An answer whose relative residual is this or less is not polished.
 pub const POLISHED: f64 = 1e-15;

@@ -3,7 +3,9 @@
 use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Checks, JointValue, Program};
-use super::{ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, STIFF};
+use super::{
+    ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, STIFF,
+};
 
 /// Joint values; places behind the program's joints are zero.
 pub(super) type Joints = [f64; MAX_JOINTS];
@@ -82,7 +84,7 @@ pub(super) fn polish(
             return;
         }
         let Some(better) = improved(program, q, fit, held, frame) else { return };
-        slow = if better.1.relative <= 0.5 * fit.relative { 0 } else { slow + 1 };
+        slow = if better.1.relative <= f64::max(0.5 * fit.relative, ROUNDING) { 0 } else { slow + 1 };
         (*q, *fit) = better;
     }
 }
@@ -108,6 +110,14 @@ fn improved(
         if next.relative < enough {
             return Some((candidate, next));
         }
+        if leaps
+            && index == 0
+            && *held == NONE_FREE
+            && next.relative <= OVERSHOT * fit.relative
+            && let Some(end) = returned(program, candidate, fit.relative, held, frame)
+        {
+            return Some(end);
+        }
         if next.relative < fit.relative && fallen.is_none() {
             fallen = Some(candidate);
         }
@@ -119,6 +129,26 @@ fn improved(
     // The frame must hold what is returned.
     let next = measure(program, &candidate, frame);
     Some((candidate, next))
+}
+
+/// Newton steps from the joints that were measured last, on until they miss by less than `relative`: from between two roots next to each
+/// other the first step leads beyond one of them, and from there on each quarters the miss.
+fn returned(
+    program: &Program,
+    mut q: Joints,
+    relative: f64,
+    held: &[bool; MAX_JOINTS],
+    frame: &mut Frame<'_>,
+) -> Option<(Joints, Fit)> {
+    for _ in 0..RETURNS {
+        let step = newton_step(program, 0.0, held, frame)?;
+        q = moved(program, &q, &step);
+        let fit = measure(program, &q, frame);
+        if fit.relative < relative {
+            return Some((q, fit));
+        }
+    }
+    None
 }
 
 /// A Newton step, or a part of it, and behind it damped steps back to where the equations nearly hold, until they hold within `enough`.

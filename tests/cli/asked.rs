@@ -137,9 +137,12 @@ fn axes_that_almost_meet_do_so_within_the_tolerance() {
     let (head, elbow) = exact.split_at(exact.find("name=\"elbow\"").unwrap());
     let file = folder.path().join("rounded.urdf");
     fs::write(&file, head.to_owned() + &elbow.replacen("xyz=\"0 0 1\"", "xyz=\"0 0.00001 1\"", 1)).unwrap();
+    // Without a tolerance, or with one that is too small, the robot is solved as it is described: six axes in any place.
     for more in [&[][..], &["--snap", "1e-9"]] {
-        let error = refused(&[&["derive", text(&file), "--out", text(folder.path())], more].concat());
-        assert!(error.contains("16 complex solutions") && error.contains("joints 1-2-3, 2-3-4"), "{error}");
+        let out = tempdir().unwrap();
+        succeed(&[&["derive", text(&file), "--quiet", "--out", text(out.path())], more].concat());
+        let plan = fs::read_to_string(out.path().join("2_plan.txt")).unwrap();
+        assert!(plan.contains("16"), "{plan}");
     }
     let page = succeed(&["info", text(&file), "--snap", "5e-5"]);
     assert!(
