@@ -23,12 +23,12 @@ fn the_head_names_mechanism_inputs_joints_capacity_version_and_tolerances() {
 #[test]
 fn a_file_holds_only_what_its_program_needs() {
     for text in [rust::emit(&leg::program()), c99::emit(&leg::program())] {
-        for absent in ["root_between", "derivative(", "leads", "is_near", "tolerance *", "sort"] {
+        for absent in ["root_between", "derivative(", "leads(", "is_near", "tolerance *", "sort"] {
             assert!(!text.contains(absent), "{absent}\n{text}");
         }
     }
     for text in [rust::emit(&quartic::program()), c99::emit(&quartic::program())] {
-        for present in ["root_between", "derivative(", "leads", "tolerance *"] {
+        for present in ["root_between", "derivative(", "leads(", "tolerance *"] {
             assert!(text.contains(present), "{present}\n{text}");
         }
         for absent in ["is_away", "wrap(", "TAU", "mark_choice"] {

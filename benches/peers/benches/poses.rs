@@ -1,4 +1,4 @@
-//! Nanoseconds per pose, all solutions, on the same poses: our screw solver beside its peers.
+//! Nanoseconds per pose, all solutions, on the same poses: our printed solvers and our screw solver beside their peers.
 //!
 //!     cd benches/peers && cargo bench --bench poses
 
@@ -9,6 +9,7 @@ use groebot::kinematics::screw::{ScrewSolver, Target};
 use groebot::robots::{self, Robot};
 use groebot_peers::by_ik_geo::IkGeo;
 use groebot_peers::by_opw::Opw;
+use groebot_peers::by_print;
 use groebot_peers::inputs::poses;
 use groebot_peers::rounds::{Contender, measure};
 
@@ -20,6 +21,13 @@ fn contest(robot: &Robot) -> Result<()> {
     let chain = robot.chain();
     let poses: Vec<_> = poses(&chain).into_iter().map(|(_, pose)| pose).collect();
     let mut contenders = Vec::new();
+    if let Some(solve) = by_print::solver(robot.name()) {
+        let targets: Vec<_> = poses.iter().map(by_print::target).collect();
+        assert!(solve(&targets) >= targets.len(), "{}: every pose has an answer", robot.name());
+        contenders.push(Contender::new("groebot-printed", move || {
+            black_box(solve(black_box(&targets)));
+        }));
+    }
     if let Ok(ours) = ScrewSolver::new(&chain) {
         let targets: Vec<_> = poses.iter().map(|pose| Target::Pose(*pose)).collect();
         contenders.push(Contender::new("groebot", move || {

@@ -5,6 +5,7 @@
 
 pub mod by_ik_geo;
 pub mod by_opw;
+pub mod by_print;
 pub mod inputs;
 pub mod rounds;
 

@@ -1,0 +1,53 @@
+//! groebot's printed solvers, the files `5_solver.rs` of `derivations/`.
+
+use groebot::spatial::Pose;
+
+/// The twelve numbers of a target: a position, and a rotation by rows.
+pub type Target = [f64; 12];
+
+/// Declares the printed solvers and the choice among them by name.
+macro_rules! printed {
+    ($($name:ident: $file:literal),* $(,)?) => {
+        $(
+            #[allow(dead_code, missing_docs)]
+            #[path = $file]
+            mod $name;
+        )*
+
+        /// The printed solver of the robot with this name: a function that solves all targets and returns the number of all answers.
+        pub fn solver(name: &str) -> Option<fn(&[Target]) -> usize> {
+            match name {
+                $(
+                    stringify!($name) => Some(|targets| {
+                        let mut out = [$name::Solution::EMPTY; $name::CAPACITY];
+                        let mut count = 0;
+                        for target in targets {
+                            count += $name::solve(std::hint::black_box(target), &mut out).unwrap_or(0);
+                            std::hint::black_box(&out);
+                        }
+                        count
+                    }),
+                )*
+                _ => None,
+            }
+        }
+    };
+}
+
+printed! {
+    irb120: "../../../derivations/irb120/5_solver.rs",
+    nao_left_leg: "../../../derivations/nao_left_leg/5_solver.rs",
+    nao_right_leg: "../../../derivations/nao_right_leg/5_solver.rs",
+    puma: "../../../derivations/puma/5_solver.rs",
+    rh0_left_leg: "../../../derivations/rh0_left_leg/5_solver.rs",
+    rh0_right_leg: "../../../derivations/rh0_right_leg/5_solver.rs",
+    stanford: "../../../derivations/stanford/5_solver.rs",
+    teo_leg: "../../../derivations/teo_leg/5_solver.rs",
+    ur5: "../../../derivations/ur5/5_solver.rs",
+}
+
+/// `pose` as a printed solver takes it.
+pub fn target(pose: &Pose) -> Target {
+    let (position, rotation) = (pose.translation.vector, pose.rotation.to_rotation_matrix());
+    std::array::from_fn(|i| if i < 3 { position[i] } else { rotation[((i - 3) / 3, i % 3)] })
+}
