@@ -1,4 +1,4 @@
-//! Printing a [`Program`](crate::solver::Program) as a stand-alone solver: [`rust::emit`], [`c99::emit`] and [`ikfast::emit`].
+//! Printing a [`Program`] as a stand-alone solver: [`rust::emit`], [`c99::emit`] and [`ikfast::emit`].
 //!
 //! The printed solver is the algorithm of [`Program::solve`](crate::solver::Program::solve) step by step, without
 //! allocation, and holds only what its program needs. A language is an expression printer (`printer::Language`) plus

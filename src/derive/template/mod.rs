@@ -1,5 +1,5 @@
 //! The solver of any six revolute joints, offline: which formulations of the eigenvalue problem hold for a chain, proved modulo primes,
-//! and which of them are accurate ([`formulations`], [`SixAxes`]).
+//! and which of them are accurate ([`formulations`], [`crate::solver::template::SixAxes`]).
 
 mod derived;
 mod program;
