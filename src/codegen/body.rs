@@ -1,10 +1,11 @@
-//! Bodies of the printed functions: charts, parameters, and the equations with their derivatives.
+//! Bodies of the printed functions: charts, parameters, and the equations with their derivatives. Main type: [`Scene`].
 
 use super::demand::{Demand, ParameterDemand};
 use super::names::Names;
-use super::printer::{Finish, INDENT, Language, Printer, State, number};
+use super::printer::{Language, Printer, number};
 use super::samples::Table;
-use crate::solver::{Block, Chart, Guard, JointValue, Operand, Program, Rule, Step, square};
+use super::steps::Walk;
+use crate::solver::{Block, Chart, Guard, JointValue, Operand, Program, Rule, Step};
 
 /// What all bodies of one file share.
 pub(super) struct Scene<'a> {
@@ -118,7 +119,7 @@ impl Scene<'_> {
     }
 
     /// The value of the joint with this index behind the last block.
-    fn joint_value(&self, index: usize) -> String {
+    pub fn joint_value(&self, index: usize) -> String {
         match self.program.joints[index].value {
             JointValue::Angle { .. } if self.finder(index) + 1 < self.program.blocks.len() => {
                 self.language.known(&format!("q{index}"))
@@ -145,7 +146,7 @@ impl Scene<'_> {
     }
 
     /// The angles that the block with this index finds: their names, and their values as expressions.
-    fn angles(&self, block: usize, printer: &Printer<'_>) -> Vec<(String, String)> {
+    pub fn angles(&self, block: usize, printer: &Printer<'_>) -> Vec<(String, String)> {
         let found = (0..self.program.joints.len()).filter(|&joint| self.finder(joint) == block);
         let angle = |joint: usize| match self.program.joints[joint].value {
             JointValue::Angle { cosine, sine } => {
@@ -243,10 +244,7 @@ impl Scene<'_> {
             let condition = self.condition(&chart.guards, &mut printer);
             lines.extend(self.language.leave_unless(&condition));
         }
-        let mut walk =
-            Walk { scene: self, block: index, chart, lines, depth: 0, finds_roots: Vec::new(), branch: Vec::new() };
-        walk.steps(&mut printer);
-        walk.lines
+        Walk::new(self, index, chart, lines).steps(&mut printer)
     }
 
     /// The code before the condition of an open chart or one with a pivot, the condition, and the pivot.
@@ -272,174 +270,6 @@ impl Scene<'_> {
     }
 }
 
-/// The steps of a chart on their way to text.
-struct Walk<'a> {
-    scene: &'a Scene<'a>,
-    block: usize,
-    chart: &'a Chart,
-    lines: Vec<String>,
-    depth: usize,
-    /// By loop that is open: whether it goes over roots.
-    finds_roots: Vec<bool>,
-    /// Terms of the branch number.
-    branch: Vec<String>,
-}
-
-impl Walk<'_> {
-    fn push(&mut self, lines: Vec<String>) {
-        let indent = INDENT.repeat(self.depth);
-        self.lines.extend(lines.into_iter().map(|line| format!("{indent}{line}")));
-    }
-
-    fn steps(&mut self, printer: &mut Printer<'_>) {
-        if self.chart.first_branch > 0 {
-            self.branch.push(self.chart.first_branch.to_string());
-        }
-        for (index, step) in self.chart.steps.iter().enumerate() {
-            match step {
-                Step::Compute(code) => {
-                    let lines = printer.code(code);
-                    self.push(lines);
-                }
-                Step::Set { unknown, value } if printer.demand().wants_unknown(*unknown) => {
-                    let value = printer.operand(*value);
-                    self.push(vec![printer.language().declare(&printer.names().unknowns[*unknown], &value)]);
-                }
-                // No language prints it: see `codegen::is_printable`.
-                Step::Set { .. } | Step::SixAxes(_) => {}
-                Step::Roots { unknown, polynomials, typical } => {
-                    self.roots(*unknown, polynomials, *typical, printer);
-                    let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
-                    self.branch.push(multiple(stride, &format!("i{}", self.depth)));
-                    self.finds_roots.push(true);
-                    self.depth += 1;
-                }
-                Step::Sample { joint, values } => {
-                    self.samples(*joint, values, printer);
-                    self.finds_roots.push(false);
-                    self.depth += 1;
-                }
-            }
-        }
-        if self.block + 1 < self.scene.program.blocks.len() {
-            self.go_on(printer)
-        } else {
-            self.finish(printer)
-        }
-        for depth in (0..self.depth).rev() {
-            self.lines.push(format!("{}}}", INDENT.repeat(depth)));
-        }
-    }
-
-    fn roots(
-        &mut self,
-        unknown: usize,
-        polynomials: &[Vec<Operand>],
-        typical: Option<Operand>,
-        printer: &mut Printer<'_>,
-    ) {
-        let language = printer.language();
-        let usual = if self.scene.program.is_plain(unknown) { Operand::Magnitude } else { Operand::Constant(1.0) };
-        let finds = match square(polynomials) {
-            Some(constant) => {
-                let (constant, typical) = (printer.operand(constant), printer.operand(typical.unwrap_or(usual)));
-                language.find_square_roots(self.depth, &constant, &typical)
-            }
-            None => {
-                let list = |list: &Vec<Operand>| list.iter().map(|&c| printer.operand(c)).collect();
-                let lists: Vec<Vec<String>> = polynomials.iter().map(list).collect();
-                let typical = printer.operand(typical.unwrap_or(usual));
-                language.find_roots(self.depth, &lists, &typical)
-            }
-        };
-        let lines = printer.settle();
-        self.push(lines);
-        self.push(finds);
-        let name = printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str());
-        self.push(language.open_loop(self.depth, name));
-    }
-
-    fn samples(&mut self, joint: JointValue, values: &[f64], printer: &mut Printer<'_>) {
-        let lines = printer.settle();
-        self.push(lines);
-        let name = |unknown: usize| {
-            printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str())
-        };
-        let names: Vec<Option<&str>> = joint.unknowns().into_iter().map(name).collect();
-        let table = Table::new(joint, values);
-        let place = self.scene.tables.iter().position(|other| *other == table);
-        let number = 1 + place.expect("the tables are those of all steps");
-        self.push(printer.language().open_samples(self.depth, &names, number, table.len()));
-    }
-
-    /// The branch number so far and the end of the numbers of the first block's chart.
-    fn numbers(&self, language: &dyn Language) -> [String; 2] {
-        if self.block == 0 {
-            let branch = if self.branch.is_empty() { "0".to_owned() } else { self.branch.join(" + ") };
-            return [branch, (self.chart.first_branch + Program::branches(self.chart)).to_string()];
-        }
-        let radix = self.scene.program.blocks[self.block].branches();
-        let before = multiple(radix, &language.known("branch"));
-        let branch = [before].into_iter().chain(self.branch.iter().cloned()).collect::<Vec<_>>().join(" + ");
-        [branch, multiple(radix, &language.known("last"))]
-    }
-
-    /// Whether roots on the way are close to one another, as an expression.
-    fn close(&self, language: &dyn Language) -> String {
-        let before = (self.block > 0).then(|| language.known("close"));
-        let own = (0..self.depth).filter(|depth| self.finds_roots[*depth]).map(|depth| format!("roots{depth}.close"));
-        let all: Vec<String> = before.into_iter().chain(own).collect();
-        if all.is_empty() { "false".to_owned() } else { all.join(" || ") }
-    }
-
-    /// By joint whether it is free; empty when the chart adds none.
-    fn free(&self, language: &dyn Language) -> Vec<String> {
-        let usual = |joint: usize| match self.block {
-            0 => "false".to_owned(),
-            _ => language.known(&format!("free[{joint}]")),
-        };
-        let is_free = |joint| if self.chart.free.contains(&joint) { "true".to_owned() } else { usual(joint) };
-        let joints = if self.chart.free.is_empty() { 0 } else { self.scene.program.joints.len() };
-        (0..joints).map(is_free).collect()
-    }
-
-    fn go_on(&mut self, printer: &Printer<'_>) {
-        let language = printer.language();
-        let names = &printer.names().unknowns;
-        let mut found: Vec<String> = self.scene.wanted_of(self.block).into_iter().map(|u| names[u].clone()).collect();
-        let angles = self.scene.angles(self.block, printer);
-        self.push(angles.iter().map(|(name, value)| language.declare(name, value)).collect());
-        found.extend(angles.into_iter().map(|(name, _)| name));
-        let state = State {
-            next: self.block + 2,
-            goes_on: self.block > 0,
-            branch: self.numbers(language),
-            free: &self.free(language),
-            found: &found,
-            close: self.close(language),
-            is_rare: self.chart.is_rare(),
-        };
-        self.push(language.go_on(&state));
-    }
-
-    fn finish(&mut self, printer: &Printer<'_>) {
-        let (scene, language) = (self.scene, printer.language());
-        let q: Vec<String> = (0..scene.program.joints.len()).map(|joint| scene.joint_value(joint)).collect();
-        let at: Vec<String> = scene.places().into_iter().map(|unknown| printer.unknown(unknown)).collect();
-        let passed = self.block > 0 && scene.has_families();
-        let answer = Finish {
-            branch: self.numbers(language),
-            at: &at,
-            close: self.close(language),
-            q: &q,
-            free: &self.free(language),
-            usual: if passed { language.known("free") } else { "NONE_FREE".to_owned() },
-            extra: &scene.extra.iter().map(|&unknown| printer.unknown(unknown)).collect::<Vec<_>>(),
-        };
-        self.push(language.finish(&answer));
-    }
-}
-
 /// The unknowns that a step finds.
 fn found(step: &Step) -> Vec<usize> {
     match step {
@@ -455,8 +285,4 @@ fn unknowns(joint: JointValue) -> Vec<usize> {
         JointValue::Angle { cosine, sine } => vec![cosine, sine],
         JointValue::Plain(unknown) => vec![unknown],
     }
-}
-
-fn multiple(factor: usize, value: &str) -> String {
-    if factor == 1 { value.to_owned() } else { format!("{factor} * {value}") }
 }

@@ -18,6 +18,8 @@ mod outline;
 mod printer;
 mod samples;
 mod single;
+mod steps;
+mod tolerances;
 
 pub use names::is_word;
 

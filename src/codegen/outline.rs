@@ -10,14 +10,8 @@ use super::forward::{ForwardText, equations, printed_forward};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use super::samples::Table;
-use crate::solver::{
-    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, Condition, DAMPINGS, EIGHTH, JointValue, LEAPS,
-    LEVER, MERGE, NEAR, OVERSHOT, Operand, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, Program, REST, RETURNS, ROUNDING,
-    SERIES, STAGES, STIFF, Step, TINY, Unit, square,
-};
-
-/// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
-const TANGENT: f64 = 1e-10;
+use super::tolerances::{Arc, Tolerances};
+use crate::solver::{Condition, DAMPINGS, JointValue, LEAPS, Operand, Program, Step, Unit, square};
 
 /// Shares of the squared Jacobian's size that are added where a plain Newton step fails, in single precision.
 const SINGLE_DAMPINGS: [f64; 4] = [0.0, 1e-5, 1e-4, 1e-3];
@@ -77,50 +71,6 @@ struct Quantity {
     quoted: String,
     unit: &'static str,
     is_angle: bool,
-}
-
-#[derive(Serialize)]
-struct Arc {
-    eighth: String,
-    rest: String,
-    series: Vec<String>,
-}
-
-impl Arc {
-    fn new() -> Self {
-        Arc { eighth: number(EIGHTH), rest: number(REST), series: SERIES.iter().map(|&c| number(c)).collect() }
-    }
-}
-
-#[derive(Serialize)]
-struct Tolerances {
-    accept: String,
-    merge: String,
-    blur: String,
-    resolution: String,
-    near: String,
-    tiny: String,
-    pivot: String,
-    polish_steps: usize,
-    polished: String,
-    patience: usize,
-    overshot: String,
-    adrift: String,
-    alone: String,
-    aside: String,
-    apart: String,
-    arrived: String,
-    lever: String,
-    returns: usize,
-    stiff: String,
-    stages: usize,
-    consistent: String,
-    /// A leading coefficient below this share of the largest coefficient counts as zero.
-    negligible: String,
-    /// A critical point where a polynomial misses zero by this share of its size counts as a root.
-    tangent: String,
-    /// How far a joint may be beyond a limit.
-    slack: String,
 }
 
 #[derive(Serialize)]
@@ -250,58 +200,6 @@ impl Outline {
 impl Quantity {
     fn new(language: &dyn Language, name: &str, unit: Unit, is_angle: bool) -> Self {
         Quantity { name: remark(name), quoted: language.quote(name), unit: unit_text(unit), is_angle }
-    }
-}
-
-impl Tolerances {
-    fn new() -> Self {
-        Tolerances {
-            accept: number(ACCEPT),
-            merge: number(MERGE),
-            blur: number(BLUR),
-            resolution: number(ROUNDING),
-            near: number(NEAR),
-            tiny: number(TINY),
-            pivot: number(PIVOT),
-            polish_steps: POLISH_STEPS,
-            polished: number(POLISHED),
-            patience: PATIENCE,
-            overshot: number(OVERSHOT),
-            adrift: number(ADRIFT),
-            alone: number(ALONE),
-            aside: number(ASIDE),
-            apart: number(APART),
-            arrived: number(ARRIVED),
-            lever: number(LEVER),
-            returns: RETURNS,
-            stiff: number(STIFF),
-            stages: STAGES,
-            consistent: number(CONSISTENT),
-            negligible: number(1e-290),
-            tangent: number(TANGENT),
-            slack: number(1e-9),
-        }
-    }
-
-    /// Those of single precision: what is a share of rounding in double precision is about that share of rounding here, and what is near
-    /// the square root of rounding, as merging is, is so here.
-    fn single() -> Self {
-        Tolerances {
-            accept: number(3e-5),
-            merge: number(2e-3),
-            blur: number(3e-2),
-            resolution: number(5e-6),
-            near: number(1e-2),
-            tiny: number(1e-14),
-            pivot: number(1e-4),
-            polished: number(2e-7),
-            adrift: number(1e-3),
-            consistent: number(1e-4),
-            negligible: number(1e-30),
-            tangent: number(1e-4),
-            slack: number(1e-5),
-            ..Tolerances::new()
-        }
     }
 }
 

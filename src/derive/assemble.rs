@@ -141,14 +141,14 @@ impl Assembler {
     }
 
     /// Whether `a` is written so that it cannot be negative: a sum of squares, say.
-    pub fn is_positive(&self, a: Operand) -> bool {
+    pub fn is_non_negative(&self, a: Operand) -> bool {
         match a {
             Operand::Constant(x) => x > 0.0,
             Operand::Magnitude => true,
             Operand::Register(index) => match self.operations[index] {
                 Operation::Abs(_) | Operation::Sqrt(_) => true,
-                Operation::Mul(a, b) => a == b || (self.is_positive(a) && self.is_positive(b)),
-                Operation::Add(a, b) | Operation::Div(a, b) => self.is_positive(a) && self.is_positive(b),
+                Operation::Mul(a, b) => a == b || (self.is_non_negative(a) && self.is_non_negative(b)),
+                Operation::Add(a, b) | Operation::Div(a, b) => self.is_non_negative(a) && self.is_non_negative(b),
                 Operation::Sub(..) => false,
             },
             Operand::Parameter(_) | Operand::Unknown(_) => false,

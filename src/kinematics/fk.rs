@@ -13,13 +13,17 @@ use crate::{Error, ErrorKind, Result};
 pub struct Numeric {
     screws: Vec<Screw>,
     base_from_tip: Pose,
+    aim: Unit<Vector3<f64>>,
+    reach: f64,
 }
 
 impl Numeric {
     pub(super) fn of(parts: &ChainParts) -> Result<Self> {
         let screws = parts.joints.iter().map(Joint::screw).collect::<Result<_>>()?;
         let translation = Translation3::from(point(&parts.tip.point).coords);
-        Ok(Numeric { screws, base_from_tip: Pose::from_parts(translation, rotation(&parts.tip.rotation)) })
+        let base_from_tip = Pose::from_parts(translation, rotation(&parts.tip.rotation));
+        let points = parts.joints.iter().map(Joint::location).chain([Point3::from(translation.vector)]);
+        Ok(Numeric { screws, base_from_tip, aim: normalized(&parts.direction), reach: length(points) })
     }
 }
 
@@ -45,7 +49,7 @@ impl Joint {
 impl Chain {
     /// The unit vector, in the tip frame, of the direction that the tasks `ray` and `direction` aim.
     pub fn aim(&self) -> Unit<Vector3<f64>> {
-        normalized(self.direction())
+        self.numeric.aim
     }
 
     /// The joints' screws from base to tip, in the base frame at the zero configuration and the chain's length unit.
@@ -81,10 +85,14 @@ impl Chain {
     /// The length of the zigzag from the first joint's point over the other joints' points to the tip, in the chain's
     /// length unit. While prismatic joints stand at zero, the tip is never further from the first joint's point.
     pub fn reach(&self) -> f64 {
-        let tip = Point3::from(self.base_from_tip().translation.vector);
-        let points: Vec<Point3<f64>> = self.joints().iter().map(Joint::location).chain([tip]).collect();
-        points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+        self.numeric.reach
     }
+}
+
+/// The length of a zigzag over these points.
+fn length(points: impl Iterator<Item = Point3<f64>>) -> f64 {
+    let points: Vec<Point3<f64>> = points.collect();
+    points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
 /// The unit vector along a vector that is not zero.

@@ -248,9 +248,6 @@ impl<'a> Answers<'a> {
     fn is_one(&mut self, other: usize, answer: &Answer) -> bool {
         let (a, b) = (&self.list[other], answer);
         let are_isolated = (a.is_isolated(), b.is_isolated());
-        if are_isolated == (true, true) && !self.close(&a.solution, &b.solution, BLUR) {
-            return false;
-        }
         if self.close(&a.solution, &b.solution, MERGE) {
             return true;
         }
@@ -266,16 +263,29 @@ impl<'a> Answers<'a> {
     }
 
     /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are a little elsewhere and the others
-    /// follow, and back again: an isolated answer may be led to a family next to it, but not back.
+    /// follow, and back again: an isolated answer may be led to a family next to it, but not back. One way there may be a branching.
     fn lies_on_family(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
-        let mut moved = [0.0; MAX_JOINTS];
-        moved[..q.len()].copy_from_slice(q);
-        free.iter().for_each(|&joint| moved[joint] = self.displaced(q[joint], joint, ASIDE));
-        if self.follow(&mut moved, free).relative > bound.max(ROUNDING) {
-            return false;
+        [ASIDE, -ASIDE].into_iter().any(|way| self.leads_back(q, free, way, bound.max(ROUNDING)))
+    }
+
+    /// Whether the joints come back from where those in `free` are `way` aside, by halves.
+    fn leads_back(&mut self, q: &[f64], free: &[usize], way: f64, bound: f64) -> bool {
+        let (mut at, mut before) = ([0.0; MAX_JOINTS], [0.0; MAX_JOINTS]);
+        at[..q.len()].copy_from_slice(q);
+        for stage in 0..STAGES {
+            before = at;
+            let share = 0.5_f64.powi(stage as i32);
+            free.iter().for_each(|&joint| at[joint] = self.displaced(q[joint], joint, share * way));
+            if self.follow(&mut at, free).relative > bound {
+                return false;
+            }
         }
-        free.iter().for_each(|&joint| moved[joint] = q[joint]);
-        self.follow(&mut moved, free).accepted && (0..q.len()).all(|joint| self.is_near(joint, &moved, q, BLUR))
+        // On along the line through the last two.
+        for joint in 0..q.len() {
+            at[joint] += difference(self.program, joint, &at, &before);
+        }
+        free.iter().for_each(|&joint| at[joint] = q[joint]);
+        self.follow(&mut at, free).accepted && self.are_joined(&at, q, bound, &held(free))
     }
 
     /// Whether the family of the answer with this index has `member`, another with the same free joints: as these move there in
@@ -291,14 +301,12 @@ impl<'a> Answers<'a> {
             }
             accepted = self.follow(&mut q, &member.free).accepted;
         }
-        accepted && (0..count).all(|joint| self.is_near(joint, &q, &member.q, ARRIVED))
+        accepted && self.are_near(&q, &member.q, ARRIVED)
     }
 
     /// Polishes joints of which `free` ones stay where they are.
     fn follow(&mut self, q: &mut Joints, free: &[usize]) -> Fit {
-        let mut held = NONE_FREE;
-        free.iter().for_each(|&joint| held[joint] = true);
-        refine::polished(self.program, q, &held, &mut self.frame)
+        refine::polished(self.program, q, &held(free), &mut self.frame)
     }
 
     /// The value of a joint moved by `way`: an angle by that, a length by that share of its size.
@@ -310,18 +318,28 @@ impl<'a> Answers<'a> {
         }
     }
 
-    /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open
-    /// beyond [`MERGE`]: half-way between them, on a way that may be bent, the equations hold as well as at the worse of the two, or
-    /// within rounding.
+    /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond
+    /// [`MERGE`]: they hold half-way too, as well as at the worse of the two.
     fn blurred(&mut self, other: usize, answer: &Answer) -> bool {
-        let (other, program) = (&self.list[other], self.program);
-        let (a, b) = (&other.solution, &answer.solution);
-        let mut middle = [0.0; MAX_JOINTS];
-        for (joint, slot) in middle.iter_mut().enumerate().take(program.joints.len()) {
-            *slot = b.q[joint] + 0.5 * difference(program, joint, &a.q, &b.q);
+        let bound = self.list[other].relative.max(answer.relative);
+        let q = self.list[other].solution.q.clone();
+        self.are_joined(&q, &answer.solution.q, bound, &NONE_FREE)
+    }
+
+    /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound` or rounding.
+    fn are_joined(&mut self, a: &[f64], b: &[f64], bound: f64, held: &[bool; MAX_JOINTS]) -> bool {
+        if self.way(a, b) > BLUR {
+            return false;
         }
-        let bound = ROUNDING.max(other.relative).max(answer.relative);
-        refine::nearly_holds(program, &middle, bound, &mut self.frame)
+        let mut middle = [0.0; MAX_JOINTS];
+        for (joint, slot) in middle.iter_mut().enumerate().take(b.len()) {
+            *slot = b[joint] + 0.5 * difference(self.program, joint, a, b);
+        }
+        refine::nearly_holds(self.program, &middle, bound.max(ROUNDING), held, &mut self.frame)
+    }
+
+    fn are_near(&self, a: &[f64], b: &[f64], tolerance: f64) -> bool {
+        (0..self.program.joints.len()).all(|joint| self.is_near(joint, a, b, tolerance))
     }
 
     fn close(&self, a: &Solution, b: &Solution, tolerance: f64) -> bool {
@@ -352,6 +370,13 @@ impl Answer {
             _ => self.relative <= other.relative,
         }
     }
+}
+
+/// By joint whether it is among `joints`.
+fn held(joints: &[usize]) -> [bool; MAX_JOINTS] {
+    let mut held = NONE_FREE;
+    joints.iter().for_each(|&joint| held[joint] = true);
+    held
 }
 
 /// `a - b` for one joint, for an angle by the shorter way round.

@@ -78,7 +78,7 @@ pub const ALONE: f64 = 1e-13;
 pub const LEVER: f64 = 0.1;
 /// A family that is followed to where another's member has its free joints is that other family when the joints come this near.
 pub const ARRIVED: f64 = 1e-3;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a family is followed from one member to another, and back to where it began.
 pub const STAGES: usize = 4;
 /// A target's rotation or unit vector may be this far from one.
 pub const CONSISTENT: f64 = 1e-9;

@@ -185,14 +185,20 @@ fn leap(
 
 /// Whether the equations hold within `bound` at `q`, or where a few damped steps lead from there, which leave alone in what direction the
 /// equations hardly change.
-pub(super) fn nearly_holds(program: &Program, q: &Joints, bound: f64, frame: &mut Frame<'_>) -> bool {
+pub(super) fn nearly_holds(
+    program: &Program,
+    q: &Joints,
+    bound: f64,
+    held: &[bool; MAX_JOINTS],
+    frame: &mut Frame<'_>,
+) -> bool {
     let mut at = *q;
     let mut fit = measure(program, &at, frame);
     for _ in 0..RETURNS {
         if fit.relative <= bound {
             return true;
         }
-        let Some(back) = newton_step(program, STIFF, &NONE_FREE, frame) else { return false };
+        let Some(back) = newton_step(program, STIFF, held, frame) else { return false };
         at = moved(program, &at, &back);
         fit = measure(program, &at, frame);
     }

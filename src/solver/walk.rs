@@ -1,5 +1,7 @@
 //! The walk through a program's blocks: every chart that applies, every root, every sample.
 
+use smallvec::SmallVec;
+
 use super::answers::Answers;
 use super::frame::Frame;
 use super::instruction::Operand;
@@ -7,6 +9,9 @@ use super::program::{Block, Chart, JointValue, Program, Step, square};
 use super::template::SixAxes;
 use super::{MAX_JOINTS, NEAR, PIVOT};
 use crate::{Error, ErrorKind, Result, roots};
+
+/// The coefficients of a polynomial, constant term first.
+type Coefficients = SmallVec<[f64; roots::MAX_DEGREE + 1]>;
 
 /// The choices made on the way to a candidate.
 #[derive(Clone, Copy, Default)]
@@ -177,25 +182,21 @@ impl<'a> Walk<'a> {
             let roots = roots::square_roots(frame.value(constant), typical);
             return (roots, roots.as_slice().last().is_some_and(|root| *root <= NEAR * typical));
         }
-        let values = |coefficients: &[Operand]| {
-            let mut line = [0.0; roots::MAX_DEGREE + 1];
-            for (slot, operand) in line.iter_mut().zip(coefficients) {
-                *slot = frame.value(*operand);
-            }
-            line
-        };
+        let coefficients = self.leading(polynomials);
+        let roots = roots::real_roots(coefficients.as_slice(), typical);
+        let close = are_close(roots.as_slice(), coefficients.len(), typical);
+        (roots, close)
+    }
+
+    /// The coefficients of the first polynomial whose leading one is not negligible, or of the last.
+    fn leading(&self, polynomials: &[Vec<Operand>]) -> Coefficients {
+        let values = |list: &Vec<Operand>| list.iter().map(|&operand| self.frame.value(operand)).collect();
         let (last, earlier) = polynomials.split_last().expect("a valid program has a polynomial for each root step");
-        for coefficients in earlier {
-            let line = values(coefficients);
-            let line = &line[..coefficients.len()];
+        let leads = |line: &Coefficients| {
             let largest = line.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-            if line.last().is_some_and(|lead| lead.abs() > PIVOT * largest) {
-                let roots = roots::real_roots(line, typical);
-                return (roots, are_close(roots.as_slice(), coefficients.len(), typical));
-            }
-        }
-        let roots = roots::real_roots(&values(last)[..last.len()], typical);
-        (roots, are_close(roots.as_slice(), last.len(), typical))
+            line.last().is_some_and(|lead| lead.abs() > PIVOT * largest)
+        };
+        earlier.iter().map(values).find(leads).unwrap_or_else(|| values(last))
     }
 }
 

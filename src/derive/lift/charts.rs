@@ -2,6 +2,7 @@
 
 use num_traits::Signed;
 
+use super::circle::{Quotient, on_circle};
 use super::half_angle::{HalfAngle, HalfAngles};
 use super::slack::Slack;
 use super::template::{Form, Template};
@@ -117,24 +118,6 @@ pub(super) fn quartic(half_angles: &HalfAngles, place: &Place, assembler: &Assem
     }
     list.push(free.free("A = B = C = D = E = 0"));
     Ok(list)
-}
-
-/// A value of an unknown.
-#[derive(Clone, Copy)]
-struct Quotient {
-    top: Operand,
-    bottom: Operand,
-    value: Operand,
-}
-
-impl Quotient {
-    fn new(top: Operand, bottom: Operand, assembler: &mut Assembler) -> Self {
-        Quotient { top, bottom, value: assembler.div(top, bottom) }
-    }
-
-    fn whole(value: Operand) -> Self {
-        Quotient { top: value, bottom: Operand::Constant(1.0), value }
-    }
 }
 
 struct Builder<'a> {
@@ -373,7 +356,7 @@ impl<'a> Builder<'a> {
         let put: Vec<(usize, Operand)> = match self.place.value {
             JointValue::Angle { cosine, sine } => {
                 let (c, s) = quotient(cosine).zip(quotient(sine)).ok_or_else(missing)?;
-                let [c, s] = self.on_circle([c, s]);
+                let [c, s] = on_circle([c, s], &mut self.assembler);
                 vec![(cosine, c), (sine, s)]
             }
             JointValue::Plain(_) if self.form == Form::Lengths && values.is_empty() => Vec::new(),
@@ -387,21 +370,5 @@ impl<'a> Builder<'a> {
         }
         steps.extend(put.into_iter().map(|(unknown, value)| Step::Set { unknown, value }));
         Ok(())
-    }
-
-    /// A cosine and a sine divided by their length. Where they have one denominator they are not divided by it before: its sign counts
-    /// alone.
-    fn on_circle(&mut self, values: [Quotient; 2]) -> [Operand; 2] {
-        let bottom = values[0].bottom;
-        let sides = match values {
-            [c, s] if c.bottom != s.bottom => [c.value, s.value],
-            [c, s] if self.assembler.is_positive(bottom) => [c.top, s.top],
-            [c, s] => [self.assembler.mul(c.top, bottom), self.assembler.mul(s.top, bottom)],
-        };
-        let squares = sides.map(|side| self.assembler.mul(side, side));
-        let sum = self.assembler.add(squares[0], squares[1]);
-        let length = self.assembler.sqrt(sum);
-        let unit = self.assembler.div(Operand::Constant(1.0), length);
-        sides.map(|side| self.assembler.mul(side, unit))
     }
 }

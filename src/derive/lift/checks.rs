@@ -58,7 +58,7 @@ impl<'a> Forward<'a> {
     fn pass(&mut self, index: usize, joint: &ScrewJoint) {
         let unit = 1.0 / joint.square.to_f64().unwrap_or(1.0).sqrt();
         let along = self.turned(&joint.axis);
-        let axis = along.clone().map(|entry| self.emitter.times(unit, &entry));
+        let axis = along.clone().map(|entry| entry.times(unit));
         match self.layout.joints[index] {
             JointValue::Plain(unknown) => {
                 let shift = Emitted::code(Operand::Unknown(unknown));
@@ -80,7 +80,7 @@ impl<'a> Forward<'a> {
     /// The rotation behind a joint: the columns of `R (c + s' [w] + (1 - c) w w^T / n)`.
     fn turn(&mut self, joint: &ScrewJoint, cosine: Operand, sine: Operand, unit: f64) -> [Vector; 3] {
         let cosine = Emitted::code(cosine);
-        let sine = self.emitter.times(unit, &Emitted::code(sine));
+        let sine = Emitted::code(sine).times(unit);
         let versine = self.emitter.sub(&Emitted::integer(1), &cosine);
         let w = &joint.axis;
         let columns: [Vector; 3] = std::array::from_fn(|column| {
@@ -188,7 +188,7 @@ impl<'a> Forward<'a> {
     fn aimed(&mut self, mechanism: &Mechanism, first: usize) {
         let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
         let unit = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
-        let aim = self.turned(mechanism.aim()).map(|entry| self.emitter.times(unit, &entry));
+        let aim = self.turned(mechanism.aim()).map(|entry| entry.times(unit));
         let rates = self.rates(&aim);
         for k in 0..3 {
             let row = rates.iter().map(|rate| self.emitter.operand(&rate[k])).collect();

@@ -40,6 +40,11 @@ impl Emitted {
         self.terms.is_empty()
     }
 
+    /// This times a double.
+    pub fn times(&self, factor: f64) -> Self {
+        self.scaled(&exact(factor))
+    }
+
     /// This times a number.
     pub fn scaled(&self, factor: &BigRational) -> Self {
         if factor.is_zero() {
@@ -103,11 +108,6 @@ fn exact(number: f64) -> BigRational {
 pub(super) struct Emitter<'a>(pub &'a mut Assembler);
 
 impl Emitter<'_> {
-    /// A value times a double.
-    pub fn times(&self, factor: f64, value: &Emitted) -> Emitted {
-        value.scaled(&exact(factor))
-    }
-
     /// What instructions read.
     pub fn operand(&mut self, value: &Emitted) -> Operand {
         value.operand(self.0)

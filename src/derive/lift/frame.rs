@@ -9,7 +9,12 @@ use crate::solver::Program;
 
 /// A program of `chain` with everything but blocks: the target, the joints, the checks.
 pub(in crate::derive) fn frame_of(chain: &Chain, mechanism: &Mechanism) -> Program {
-    let (layout, reach) = (Layout::new(mechanism, chain.length_unit()), reach(chain));
+    framed(chain, mechanism, Layout::new(mechanism, chain.length_unit()))
+}
+
+/// The same with the unknowns that blocks have laid out.
+pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Program {
+    let reach = reach(chain);
     Program {
         name: chain.name().to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -134,22 +134,22 @@ impl Layout {
                 let factor =
                     if mechanism.task() == Task::Direction { square.to_f64().unwrap_or(1.0).sqrt() } else { 1.0 };
                 let parameter = |index| Operand::Parameter(self.first + index);
-                let value = |index| emitter.times(factor, &Emitted::code(parameter(index)));
+                let value = |index| Emitted::code(parameter(index)).times(factor);
                 (0..mechanism.parameters().len()).map(value).collect()
             }
         };
         let target = Target::new(mechanism, &parameters, emitter)?;
         let joints = (0..self.joints.len()).map(|joint| {
-            if known.contains(&joint) { self.known(mechanism, joint, emitter) } else { closure::JointValue::Unknown }
+            if known.contains(&joint) { self.known(mechanism, joint) } else { closure::JointValue::Unknown }
         });
         Ok(Assignment { joints: joints.collect(), target })
     }
 
     /// The values that a joint has in relations: c and s / sqrt n, or d / sqrt n.
-    fn known(&self, mechanism: &Mechanism, joint: usize, emitter: &mut Emitter<'_>) -> closure::JointValue<Emitted> {
+    fn known(&self, mechanism: &Mechanism, joint: usize) -> closure::JointValue<Emitted> {
         let square = &mechanism.joints()[joint].square;
         let factor = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
-        let scaled = |unknown: usize| emitter.times(factor, &Emitted::code(Operand::Unknown(unknown)));
+        let scaled = |unknown: usize| Emitted::code(Operand::Unknown(unknown)).times(factor);
         match self.joints[joint] {
             JointValue::Angle { cosine, sine } => {
                 closure::JointValue::Angle { cosine: Emitted::code(Operand::Unknown(cosine)), sine: scaled(sine) }

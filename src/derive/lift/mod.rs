@@ -4,6 +4,7 @@
 pub mod certificate;
 mod charts;
 mod checks;
+mod circle;
 mod coupled;
 mod determinant;
 mod eliminate;

@@ -6,6 +6,7 @@ use super::charts::{Place, Sized, charts, quartic, tell_spread};
 use super::checks::checks;
 use super::eliminate::{Elimination, SymbolPlace};
 use super::emit::{Emitted, Emitter, Sizes};
+use super::frame::framed;
 use super::half_angle::HalfAngles;
 use super::layout::Layout;
 use super::ray;
@@ -57,22 +58,12 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
         known.push(step.joint);
     }
     let program = Program {
-        name: chain.name().to_owned(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        about: None,
-        checks: checks(mechanism, &layout, reach),
-        joints: joints(chain, &layout),
-        inputs: layout.inputs,
-        conditions: layout.conditions,
-        parameters: layout.parameters,
-        unknowns: layout.unknowns,
-        scale: reach,
         capacity: (2 * parts.plan.dimension + blocks.len()).min(4096),
         // Where the task asks for more than the joints can do, special targets might have more, and so might a chain that is not ideal.
         isolated: (mechanism.seen().freedoms() <= mechanism.unknown().len() && slack == Slack::NONE)
             .then_some(parts.plan.dimension),
         blocks,
-        preference: None,
+        ..framed(chain, mechanism, layout)
     }
     .pruned();
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;
@@ -285,7 +276,7 @@ impl Context<'_> {
         let mut take = |equation: usize, factors: &[Factor], factor: f64| match equations[equation].coefficient(factors)
         {
             None => Operand::Constant(0.0),
-            Some(value) => Emitter(assembler).times(factor, value).operand(assembler),
+            Some(value) => value.times(factor).operand(assembler),
         };
         let (c, s, d, dd) =
             ([Factor::Cosine(joint)], [Factor::Sine(joint)], [Factor::Length(joint)], [Factor::LengthSquared(joint)]);

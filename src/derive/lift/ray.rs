@@ -58,7 +58,7 @@ pub(super) fn turned(mechanism: &Mechanism, across: [[usize; 3]; 2], emitter: &m
     for entry in 0..9 {
         let terms = before.iter().zip(&behind).map(|(from, to)| (from[entry % 3], to[entry / 3]));
         let sum = terms.fold(Emitted::integer(0), |sum, (factor, value)| {
-            let term = emitter.times(factor, &Emitted::code(value));
+            let term = Emitted::code(value).times(factor);
             emitter.add(&sum, &term)
         });
         values.push(sum);

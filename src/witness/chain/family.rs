@@ -11,8 +11,8 @@ const SINGULAR: f64 = 1e-12;
 const PROBE: f64 = 0.05;
 /// The residual of a member of a family, after correction.
 const MEMBER: f64 = 1e-12;
-/// Steps \[rad, or reaches\] of a path.
-const STEP: f64 = 0.2;
+/// Steps \[rad, or reaches\] of a path: shorter ones where longer ones do not arrive.
+pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
 /// Corrections of one member at most.
 const CORRECTIONS: usize = 20;
 /// Singular values below this share of the largest are taken as zero.
@@ -51,8 +51,8 @@ pub(super) trait Families: Configuration {
     }
 
     /// Whether the free joints of `answer` can be led from their values in `q` to those in `answer`, either way round, while the
-    /// others keep the tip at the target and end at the answer.
-    fn leads_to(&self, target: &[f64], q: &[f64], answer: &[f64], free: &[usize]) -> bool {
+    /// others keep the tip at the target and end at the answer; in such steps.
+    fn leads_to(&self, target: &[f64], q: &[f64], answer: &[f64], free: &[usize], step: f64) -> bool {
         let short: Vec<f64> = free.iter().map(|&joint| self.difference(joint, answer[joint], q[joint])).collect();
         let round = |(way, &joint): (&f64, &usize)| {
             if self.turns(joint) { way - std::f64::consts::TAU.copysign(*way) } else { *way }
@@ -60,15 +60,15 @@ pub(super) trait Families: Configuration {
         let long: Vec<f64> = short.iter().zip(free).map(round).collect();
         [short, long]
             .iter()
-            .any(|way| self.led(target, q, free, way).is_some_and(|end| self.distance(&end, answer) <= ARRIVED))
+            .any(|way| self.led(target, q, free, way, step).is_some_and(|end| self.distance(&end, answer) <= ARRIVED))
     }
 
-    /// The end of the path on which the free joints go `way`.
-    fn led(&self, target: &[f64], q: &[f64], free: &[usize], way: &[f64]) -> Option<Vec<f64>> {
+    /// The end of the path on which the free joints go `way` in such steps.
+    fn led(&self, target: &[f64], q: &[f64], free: &[usize], way: &[f64], step: f64) -> Option<Vec<f64>> {
         let others: Vec<usize> = self.unknown().iter().copied().filter(|joint| !free.contains(joint)).collect();
         let units = free.iter().map(|&joint| self.unit(joint));
         let longest = way.iter().zip(units).map(|(way, unit)| way.abs() / unit).fold(0.0, f64::max);
-        let steps = (longest / STEP).ceil().max(1.0);
+        let steps = (longest / step).ceil().max(1.0);
         let none = |_: &[f64]| DMatrix::zeros(0, others.len());
         (1..=steps as usize).try_fold(q.to_vec(), |mut at, step| {
             for (&joint, way) in free.iter().zip(way) {

@@ -21,7 +21,7 @@ use crate::kinematics::Chain;
 use crate::solver::{Program, Solution};
 use crate::{ErrorKind, Result, Watch};
 use count::Counter;
-use family::Families;
+use family::{Families, STEPS};
 use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL};
 use rational::Rationals;
 use targets::{Target, Targets};
@@ -189,25 +189,25 @@ impl<'a> Check<'a> {
     /// Whether the joint values that made the target are among the answers, and told as a family where they are of one.
     fn known(&self, row: &mut Row, answers: &[Solution]) -> Option<Fault> {
         let (q, target) = (row.joints.as_ref()?, &row.target);
-        let standing: Vec<&Solution> = answers.iter().filter(|answer| self.stands_for(target, answer, q)).collect();
         let gap = |answer: &Solution| self.model.distance(q, &answer.q);
         let single = answers.iter().filter(|answer| answer.free.is_empty()).map(gap).reduce(f64::min);
-        if standing.iter().any(|answer| !answer.free.is_empty()) {
+        if self.is_member(target, answers, q) {
             return None;
         }
         row.nearest = single;
         if self.model.is_in_family(target, q) {
             return Some(Fault::Family);
         }
-        standing.is_empty().then_some(Fault::Missing)
+        let matches = |answer: &Solution| self.model.matches(target, q, &answer.q);
+        (!answers.iter().any(matches)).then_some(Fault::Missing)
     }
 
-    /// Whether `q` is `answer`, or of the family that it stands for.
-    fn stands_for(&self, target: &[f64], answer: &Solution, q: &[f64]) -> bool {
-        if self.model.matches(target, q, &answer.q) {
-            return true;
-        }
-        !answer.free.is_empty() && self.model.leads_to(target, q, &answer.q, &answer.free)
+    /// Whether `q` is of a family that one of the answers stands for.
+    fn is_member(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> bool {
+        let families = || answers.iter().filter(|answer| !answer.free.is_empty());
+        let leads = |answer: &Solution, step: f64| self.model.leads_to(target, q, &answer.q, &answer.free, step);
+        families().any(|answer| self.model.matches(target, q, &answer.q))
+            || STEPS.into_iter().any(|step| families().any(|answer| leads(answer, step)))
     }
 
     /// Whether the number of answers hangs on rounding.
@@ -222,7 +222,8 @@ impl<'a> Check<'a> {
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
             let sure = self.model.residual(target, &answer.q) <= EXACT;
-            !sure || some.iter().any(|other| self.stands_for(target, other, &answer.q))
+            let matches = |other: &Solution| self.model.matches(target, &answer.q, &other.q);
+            !sure || some.iter().any(matches) || self.is_member(target, some, &answer.q)
         };
         let ours = |answer: &Solution| self.model.sigma(&answer.q) <= ORDINARY || covers(others, answer);
         answers.iter().all(ours) && others.iter().all(|other| covers(answers, other))

@@ -1,0 +1,110 @@
+//! Numbers that the skeletons compare with, and those of the arc tangent.
+
+use serde::Serialize;
+
+use super::printer::number;
+use crate::solver::{
+    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, EIGHTH, LEVER, MERGE, NEAR, OVERSHOT, PATIENCE,
+    PIVOT, POLISH_STEPS, POLISHED, REST, RETURNS, ROUNDING, SERIES, STAGES, STIFF, TINY,
+};
+
+/// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
+const TANGENT: f64 = 1e-10;
+
+/// The arc tangent of `solver::angle`.
+#[derive(Serialize)]
+pub(super) struct Arc {
+    eighth: String,
+    rest: String,
+    series: Vec<String>,
+}
+
+impl Arc {
+    pub fn new() -> Self {
+        Arc { eighth: number(EIGHTH), rest: number(REST), series: SERIES.iter().map(|&c| number(c)).collect() }
+    }
+}
+
+/// What is near, merged, polished: the names of the skeletons for the library's constants.
+#[derive(Serialize)]
+pub(super) struct Tolerances {
+    accept: String,
+    merge: String,
+    blur: String,
+    resolution: String,
+    near: String,
+    tiny: String,
+    pivot: String,
+    polish_steps: usize,
+    polished: String,
+    patience: usize,
+    overshot: String,
+    adrift: String,
+    alone: String,
+    aside: String,
+    apart: String,
+    arrived: String,
+    lever: String,
+    returns: usize,
+    stiff: String,
+    stages: usize,
+    consistent: String,
+    /// A leading coefficient below this share of the largest coefficient counts as zero.
+    negligible: String,
+    /// A critical point where a polynomial misses zero by this share of its size counts as a root.
+    tangent: String,
+    /// How far a joint may be beyond a limit.
+    slack: String,
+}
+
+impl Tolerances {
+    pub fn new() -> Self {
+        Tolerances {
+            accept: number(ACCEPT),
+            merge: number(MERGE),
+            blur: number(BLUR),
+            resolution: number(ROUNDING),
+            near: number(NEAR),
+            tiny: number(TINY),
+            pivot: number(PIVOT),
+            polish_steps: POLISH_STEPS,
+            polished: number(POLISHED),
+            patience: PATIENCE,
+            overshot: number(OVERSHOT),
+            adrift: number(ADRIFT),
+            alone: number(ALONE),
+            aside: number(ASIDE),
+            apart: number(APART),
+            arrived: number(ARRIVED),
+            lever: number(LEVER),
+            returns: RETURNS,
+            stiff: number(STIFF),
+            stages: STAGES,
+            consistent: number(CONSISTENT),
+            negligible: number(1e-290),
+            tangent: number(TANGENT),
+            slack: number(1e-9),
+        }
+    }
+
+    /// Those of single precision: what is a share of rounding in double precision is about that share of rounding here, and what is near
+    /// the square root of rounding, as merging is, is so here.
+    pub fn single() -> Self {
+        Tolerances {
+            accept: number(3e-5),
+            merge: number(2e-3),
+            blur: number(3e-2),
+            resolution: number(5e-6),
+            near: number(1e-2),
+            tiny: number(1e-14),
+            pivot: number(1e-4),
+            polished: number(2e-7),
+            adrift: number(1e-3),
+            consistent: number(1e-4),
+            negligible: number(1e-30),
+            tangent: number(1e-4),
+            slack: number(1e-5),
+            ..Tolerances::new()
+        }
+    }
+}

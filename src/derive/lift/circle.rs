@@ -1,0 +1,38 @@
+//! Values of unknowns as quotients, and cosines and sines put on the circle: [`on_circle`].
+
+use crate::derive::assemble::Assembler;
+use crate::solver::Operand;
+
+/// A value of an unknown.
+#[derive(Clone, Copy)]
+pub(super) struct Quotient {
+    pub top: Operand,
+    pub bottom: Operand,
+    pub value: Operand,
+}
+
+impl Quotient {
+    pub fn new(top: Operand, bottom: Operand, assembler: &mut Assembler) -> Self {
+        Quotient { top, bottom, value: assembler.div(top, bottom) }
+    }
+
+    pub fn whole(value: Operand) -> Self {
+        Quotient { top: value, bottom: Operand::Constant(1.0), value }
+    }
+}
+
+/// A cosine and a sine divided by their length. Where they have one denominator they are not divided by it before: its sign counts
+/// alone.
+pub(super) fn on_circle(values: [Quotient; 2], assembler: &mut Assembler) -> [Operand; 2] {
+    let bottom = values[0].bottom;
+    let sides = match values {
+        [c, s] if c.bottom != s.bottom => [c.value, s.value],
+        [c, s] if assembler.is_non_negative(bottom) => [c.top, s.top],
+        [c, s] => [assembler.mul(c.top, bottom), assembler.mul(s.top, bottom)],
+    };
+    let squares = sides.map(|side| assembler.mul(side, side));
+    let sum = assembler.add(squares[0], squares[1]);
+    let length = assembler.sqrt(sum);
+    let unit = assembler.div(Operand::Constant(1.0), length);
+    sides.map(|side| assembler.mul(side, unit))
+}
