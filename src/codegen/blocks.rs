@@ -11,6 +11,9 @@ use crate::solver::{Chart, Condition};
 #[derive(Serialize)]
 pub(super) struct ConditionText {
     function: &'static str,
+    /// What is wrong where it does not hold, in Rust and in C.
+    error: &'static str,
+    code: &'static str,
     first: usize,
     end: usize,
 }
@@ -64,12 +67,12 @@ struct Function {
 
 impl ConditionText {
     pub fn new(condition: &Condition) -> Self {
-        let function = match condition {
-            Condition::Rotation(_) => "make_rotation",
-            Condition::Unit(_) => "make_unit",
+        let [function, error, code] = match condition {
+            Condition::Rotation(_) => ["make_rotation", "NotRotation", "NOT_ROTATION"],
+            Condition::Unit(_) => ["make_unit", "NotUnit", "NOT_UNIT"],
         };
         let (first, count) = condition.inputs();
-        ConditionText { function, first, end: first + count }
+        ConditionText { function, error, code, first, end: first + count }
     }
 }
 

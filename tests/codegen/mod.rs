@@ -4,6 +4,7 @@ pub mod builder;
 mod derivations;
 mod forward;
 mod frames;
+mod freestanding;
 pub mod harness;
 mod ikfast;
 mod limbs;

@@ -1,0 +1,58 @@
+//! Printed C where there is neither an operating system nor a C library: the compiler's own headers and `freestanding/math.h`.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use groebot::codegen::c99;
+
+use super::harness::build;
+use super::stored::all;
+
+const STRICT: &str = "-std=c99 -O2 -Wall -Wextra -Werror -pedantic -Wconversion -ffreestanding -nostdinc -c";
+
+/// What makes the compiler for Arm build for a Cortex-M4, whose floating-point unit is for single precision, or an M7, whose is for both.
+const CORTEX: [&str; 2] = [
+    "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16",
+    "-mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16",
+];
+
+/// Compiles a file with the headers of the compiler alone; `None` when there is no such compiler.
+fn compile(compiler: &str, target: &str, file: &Path) -> Option<()> {
+    let own = Command::new(compiler).arg("-print-file-name=include").output().ok()?;
+    let own = String::from_utf8(own.stdout).unwrap();
+    let ours = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/freestanding");
+    let mut command = Command::new(compiler);
+    command.args(STRICT.split(' ')).args(target.split_whitespace());
+    command.arg("-isystem").arg(own.trim()).arg("-isystem").arg(ours);
+    build(command.arg(file).arg("-o").arg(file.with_extension("o")))
+}
+
+#[test]
+fn every_file_compiles_without_a_system() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("5_solver.c");
+    for stored in all() {
+        fs::write(&file, c99::emit(&stored.program)).unwrap();
+        if compile("cc", "", &file).is_none() {
+            return;
+        }
+    }
+}
+
+#[test]
+fn single_and_double_precision_compile_for_a_cortex_m() {
+    if Command::new("arm-none-eabi-gcc").arg("--version").output().is_err() {
+        println!("skipped: there is no arm-none-eabi-gcc (Debian: gcc-arm-none-eabi)");
+        assert!(std::env::var("GROEBOT_REQUIRE_TOOLS").is_err(), "CI installs arm-none-eabi-gcc");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("5_solver.c");
+    for stored in super::stored::named(&["puma", "nao_left_leg", "ur5", "rh0_arm", "spherical_wrist"]) {
+        for (target, text) in CORTEX.iter().zip([c99::emit_single(&stored.program), c99::emit(&stored.program)]) {
+            fs::write(&file, text).unwrap();
+            compile("arm-none-eabi-gcc", target, &file);
+        }
+    }
+}
