@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::linear::solve;
-use super::scalar::{Vector, add, cross, dot, sub};
+use super::candidates::turn;
+use super::scalar::{Vector, add, cross, dot, scale, sub};
 
 /// A rigid motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,19 +44,25 @@ impl Rigid {
         self.rotation.map(|row| row[index])
     }
 
-    /// Then a turn about the moved z axis.
-    fn then_turn(&self, angle: f64) -> Rigid {
-        let (s, c) = angle.sin_cos();
+    /// Then a turn about the moved z axis, or a slide along it.
+    fn then(&self, slides: bool, value: f64) -> Rigid {
+        if slides {
+            let translation = add(&self.translation, &scale(&self.column(2), value));
+            return Rigid { translation, ..*self };
+        }
+        let (s, c) = (value.sin(), value.cos());
         let rotation = self.rotation.map(|[x, y, z]| [c * x + s * y, c * y - s * x, z]);
         Rigid { rotation, ..*self }
     }
 }
 
-/// The chain as frames of its joints, whose z axes are the joints' axes.
+/// The chain as frames of its joints, which turn about their z axes or slide along them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Links {
     /// Each joint's frame in that of the joint before, the first in the base, at zero.
     pub steps: [Rigid; 6],
+    /// By joint: whether it slides.
+    pub slides: [bool; 6],
 }
 
 /// What a joint vector reaches.
@@ -73,7 +80,7 @@ const EXACT: f64 = 2e-15;
 const ROUNDING: f64 = 1e-13;
 /// How often a step may be shortened, over all steps.
 const SHORTENED: usize = 12;
-/// A step that turns a joint by more than this is shortened.
+/// A step that moves a joint by more than this is shortened.
 const LONGEST: f64 = 0.5;
 
 impl Links {
@@ -83,28 +90,29 @@ impl Links {
         for joint in 0..6 {
             frame = if joint == 0 { frame } else { frame.after(&self.steps[joint]) };
             (axes[joint], origins[joint]) = (frame.column(2), frame.translation);
-            frame = frame.then_turn(q[joint]);
+            frame = frame.then(self.slides[joint], q[joint]);
         }
         Reach { axes, origins, end: frame }
     }
 
-    /// The frame of the last joint at `q`, turned with it.
+    /// The frame of the last joint at `q`, moved with it.
     pub fn end(&self, q: &[f64; 6]) -> Rigid {
         self.reach(q).end
     }
 
-    /// The angle of `joint` that brings the end nearest to `target`, the frame of the last joint, given all others.
+    /// The value of `joint` that brings the end nearest to `target`, the frame of the last joint, given all others.
     pub fn closing(&self, q: &[f64; 6], joint: usize, target: &Rigid) -> f64 {
         let mut before = self.steps[0];
-        for (angle, step) in q[..joint].iter().zip(&self.steps[1..]) {
-            before = before.then_turn(*angle).after(step);
+        for (k, step) in self.steps[1..].iter().enumerate().take(joint) {
+            before = before.then(self.slides[k], q[k]).after(step);
         }
         let mut behind = Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] };
-        for (angle, step) in q.iter().zip(&self.steps).skip(joint + 1) {
-            behind = behind.after(step).then_turn(*angle);
+        for (k, step) in self.steps.iter().enumerate().skip(joint + 1) {
+            behind = behind.after(step).then(self.slides[k], q[k]);
         }
-        let turn = before.inverse().after(target).after(&behind.inverse()).rotation;
-        (turn[1][0] - turn[0][1]).atan2(turn[0][0] + turn[1][1])
+        let motion = before.inverse().after(target).after(&behind.inverse());
+        let r = motion.rotation;
+        if self.slides[joint] { motion.translation[2] } else { turn(r[0][0] + r[1][1], r[1][0] - r[0][1]) }
     }
 
     /// How far the end is from `target`: the way, in the unit of lengths, and the turn (rad).
@@ -126,7 +134,7 @@ impl Links {
             if known <= EXACT || !known.is_finite() {
                 break;
             }
-            let Some(step) = newton(&reach, &miss) else { break };
+            let Some(step) = self.newton(&reach, &miss) else { break };
             let mut share = 1.0;
             let (next, next_reach, next_miss) = loop {
                 let next: [f64; 6] = std::array::from_fn(|joint| q[joint] + share * step[joint]);
@@ -148,24 +156,29 @@ impl Links {
         }
         (start, size(&miss))
     }
+
+    /// A step that makes the miss vanish to first order, no longer than [`LONGEST`].
+    fn newton(&self, reach: &Reach, miss: &[f64; 6]) -> Option<[f64; 6]> {
+        let mut left = [[0.0; 6]; 6];
+        for (joint, (axis, origin)) in reach.axes.iter().zip(&reach.origins).enumerate() {
+            let (way, turn) = if self.slides[joint] {
+                (*axis, [0.0; 3])
+            } else {
+                (cross(axis, &sub(&reach.end.translation, origin)), *axis)
+            };
+            left.iter_mut().zip(way.iter().chain(&turn)).for_each(|(row, entry)| row[joint] = *entry);
+        }
+        let mut right = miss.map(|entry| [entry]);
+        if solve(&mut left, &mut right) <= 0.0 {
+            return None;
+        }
+        let step = right.map(|[entry]| entry);
+        let longest = size(&step);
+        let share = if longest > LONGEST { LONGEST / longest } else { 1.0 };
+        longest.is_finite().then(|| step.map(|entry| share * entry))
+    }
 }
 
 fn size(miss: &[f64; 6]) -> f64 {
     miss.iter().fold(0.0, |most, entry| if entry.abs() > most || entry.is_nan() { entry.abs() } else { most })
-}
-
-fn newton(reach: &Reach, miss: &[f64; 6]) -> Option<[f64; 6]> {
-    let mut left = [[0.0; 6]; 6];
-    for (joint, (axis, origin)) in reach.axes.iter().zip(&reach.origins).enumerate() {
-        let way = cross(axis, &sub(&reach.end.translation, origin));
-        left.iter_mut().zip(way.iter().chain(axis)).for_each(|(row, entry)| row[joint] = *entry);
-    }
-    let mut right = miss.map(|entry| [entry]);
-    if solve(&mut left, &mut right) <= 0.0 {
-        return None;
-    }
-    let step = right.map(|[entry]| entry);
-    let longest = size(&step);
-    let share = if longest > LONGEST { LONGEST / longest } else { 1.0 };
-    longest.is_finite().then(|| step.map(|entry| share * entry))
 }
