@@ -11,13 +11,13 @@ use super::rows::{COLUMNS, Doubled, FAR, Rows};
 use crate::solver::angle::angle;
 
 /// Half angles (arc tangents of half a way) from which the hidden one is counted: the first whose matrix can be inverted well is taken.
-const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
+pub(super) const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
 /// The smallest share of a pivot in the largest entry of its matrix at which an origin is taken at once.
-const SOUND: f64 = 1e-9;
+pub(super) const SOUND: f64 = 1e-9;
 /// A complex pair with a smaller imaginary part, as a share of `1 + |x|^2`, may be a double root that rounding has parted.
-const BLURRED: f64 = 1e-2;
+pub(super) const BLURRED: f64 = 1e-2;
 /// Two real eigenvalues closer than this share of `1 + |x|^2` have eigenvectors that rounding mixes.
-const CROWDED: f64 = 1e-8;
+pub(super) const CROWDED: f64 = 1e-8;
 
 /// Five joint values; the one whose line was used is still missing.
 pub(super) type Values = [f64; 6];

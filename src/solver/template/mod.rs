@@ -6,6 +6,7 @@
 //! it is linear in `x`, so that the eigenvalue problem has exactly as many rows as the chain has solutions.
 
 mod candidates;
+mod constants;
 mod formulation;
 mod linear;
 mod pencil;
@@ -18,6 +19,7 @@ mod screw;
 mod six_axes;
 mod solve;
 
+pub(crate) use constants::Constants;
 pub use formulation::{Equations, Formulation};
 pub use pencil::SIZE;
 pub use polish::{Links, Rigid};

@@ -73,15 +73,19 @@ struct Reach {
 }
 
 /// Newton steps at most: at a singular pose each only halves the miss.
-const STEPS: usize = 40;
+pub(super) const STEPS: usize = 40;
 /// A miss below which no further step is tried.
-const EXACT: f64 = 2e-15;
+pub(super) const EXACT: f64 = 2e-15;
 /// A miss below which a single step that does not halve it is the last.
-const ROUNDING: f64 = 1e-13;
+pub(super) const ROUNDING: f64 = 1e-13;
 /// How often a step may be shortened, over all steps.
-const SHORTENED: usize = 12;
+pub(super) const SHORTENED: usize = 12;
+/// A pivot of the Jacobian below this share of the greatest one is none.
+pub(super) const SINGULAR: f64 = 1e-6;
+/// How much greater a pivot is than one that stands before it.
+pub(super) const CLEARLY: f64 = 1.0 + 1e-6;
 /// A step that moves a joint by more than this is shortened.
-const LONGEST: f64 = 0.5;
+pub(super) const LONGEST: f64 = 0.5;
 
 impl Links {
     fn reach(&self, q: &[f64; 6]) -> Reach {
@@ -157,19 +161,45 @@ impl Links {
         (start, size(&miss))
     }
 
-    /// A step that makes the miss vanish to first order, no longer than [`LONGEST`].
-    fn newton(&self, reach: &Reach, miss: &[f64; 6]) -> Option<[f64; 6]> {
-        let mut left = [[0.0; 6]; 6];
+    /// Joints that others make up for, to first order: those that are left where the Jacobian has no pivot any more.
+    pub fn free(&self, q: &[f64; 6]) -> [bool; 6] {
+        let mut matrix = self.jacobian(&self.reach(q));
+        let (mut free, mut greatest) = ([true; 6], 0.0_f64);
+        for k in 0..6 {
+            let (size, row, column) = greatest_entry(&matrix[k..], &free);
+            greatest = greatest.max(size);
+            if size <= SINGULAR * greatest {
+                return free;
+            }
+            matrix.swap(k, k + row);
+            free[column] = false;
+            let pivot = matrix[k];
+            for row in &mut matrix[k + 1..] {
+                let factor = row[column] / pivot[column];
+                row.iter_mut().zip(&pivot).for_each(|(entry, over)| *entry -= factor * over);
+            }
+        }
+        free
+    }
+
+    /// The derivatives of the end's place and turn by the joints, in columns.
+    fn jacobian(&self, reach: &Reach) -> [[f64; 6]; 6] {
+        let mut matrix = [[0.0; 6]; 6];
         for (joint, (axis, origin)) in reach.axes.iter().zip(&reach.origins).enumerate() {
             let (way, turn) = if self.slides[joint] {
                 (*axis, [0.0; 3])
             } else {
                 (cross(axis, &sub(&reach.end.translation, origin)), *axis)
             };
-            left.iter_mut().zip(way.iter().chain(&turn)).for_each(|(row, entry)| row[joint] = *entry);
+            matrix.iter_mut().zip(way.iter().chain(&turn)).for_each(|(row, entry)| row[joint] = *entry);
         }
+        matrix
+    }
+
+    /// A step that makes the miss vanish to first order, no longer than [`LONGEST`].
+    fn newton(&self, reach: &Reach, miss: &[f64; 6]) -> Option<[f64; 6]> {
         let mut right = miss.map(|entry| [entry]);
-        if solve(&mut left, &mut right) <= 0.0 {
+        if solve(&mut self.jacobian(reach), &mut right) <= 0.0 {
             return None;
         }
         let step = right.map(|[entry]| entry);
@@ -177,6 +207,19 @@ impl Links {
         let share = if longest > LONGEST { LONGEST / longest } else { 1.0 };
         longest.is_finite().then(|| step.map(|entry| share * entry))
     }
+}
+
+/// The greatest entry in columns that are left, with its row and column: of columns that are about equal the first.
+fn greatest_entry(rows: &[[f64; 6]], left: &[bool; 6]) -> (f64, usize, usize) {
+    let mut found = (0.0, 0, 0);
+    for joint in (0..6).filter(|joint| left[*joint]) {
+        for (index, row) in rows.iter().enumerate() {
+            if row[joint].abs() > found.0 * CLEARLY {
+                found = (row[joint].abs(), index, joint);
+            }
+        }
+    }
+    found
 }
 
 fn size(miss: &[f64; 6]) -> f64 {

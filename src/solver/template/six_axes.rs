@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::formulation::Formulation;
 use super::polish::Rigid;
 use super::screw::Line;
-use super::solve::{Layout, Template};
+use super::solve::{Answer, Layout, Template};
 use crate::solver::{JointValue, Operand};
 use crate::{Error, ErrorKind, Result};
 
@@ -65,16 +65,19 @@ impl SixAxes {
         &self.parts
     }
 
-    /// The joint values at a target: its position, then its rotation matrix by rows. In ascending order.
-    pub(crate) fn solve(&self, target: &[f64; 12]) -> Vec<[f64; 6]> {
+    /// The answers at a target, which is its position, then its rotation matrix by rows. In ascending order of their joints.
+    pub(crate) fn solve(&self, target: &[f64; 12]) -> Vec<Answer> {
         let rotation = std::array::from_fn(|i| std::array::from_fn(|j| target[3 + 3 * i + j]));
         let pose = Rigid { rotation, translation: [target[0], target[1], target[2]] };
         let answers = self.solver.solve(&pose.after(&self.back));
-        let mut found: Vec<[f64; 6]> = answers.as_slice().iter().map(|answer| answer.q).collect();
-        found.sort_by(|a, b| {
-            a.iter().zip(b).map(|(x, y)| x.total_cmp(y)).fold(std::cmp::Ordering::Equal, |o, n| o.then(n))
-        });
+        let mut found = answers.as_slice().to_vec();
+        found.sort_by(|a, b| a.q.partial_cmp(&b.q).unwrap_or(std::cmp::Ordering::Equal));
         found
+    }
+
+    /// What is computed once, and the base seen from the tip at zero.
+    pub(crate) fn tables(&self) -> (&Template, &Rigid) {
+        (&self.solver, &self.back)
     }
 
     /// The step with other names of its unknowns and operands.

@@ -13,29 +13,29 @@ use crate::solver::refine::wrap;
 /// The most answers that are kept while formulations are united.
 pub const ROOM: usize = 32;
 /// Answers whose joints all differ by no more than this (rad) are one.
-const MERGE: f64 = 1e-7;
+pub(super) const MERGE: f64 = 1e-7;
 /// The largest residual of an answer, as a share of the length scale or in radians.
-const ACCEPT: f64 = 1e-12;
+pub(super) const ACCEPT: f64 = 1e-12;
 /// The share of a pivot below which another formulation is asked too.
-const SOUND: f64 = 1e-11;
+pub(super) const SOUND: f64 = 1e-11;
 
 /// The share of a pivot at which a target without real eigenvalues is out of reach.
-const CLEAR: f64 = 1e-6;
+pub(super) const CLEAR: f64 = 1e-6;
 /// A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate.
-const ACCURATE: f64 = 1e-6;
+pub(super) const ACCURATE: f64 = 1e-6;
 /// What stands in for the accuracy of the eigenvalues when it is better than that.
-const UNKNOWN: f64 = 1e-11;
+pub(super) const UNKNOWN: f64 = 1e-11;
 /// The square of a complex eigenvalue's depth as a multiple of the eigenvalues' accuracy: below it, it may be a double root.
-const OFF: f64 = 1e3;
+pub(super) const OFF: f64 = 1e3;
 /// Below it, it is tried.
-const FAR_OFF: f64 = 1e7;
+pub(super) const FAR_OFF: f64 = 1e7;
 /// Formulations, or origins of one, that are run at most.
 const MOST_RUNS: usize = 6;
 /// How far aside the target is put for each of them: where solutions share a hidden angle, or a family of solutions stands at the same
 /// target, the eigenvectors of isolated ones are only found next to it.
-const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-3];
+pub(super) const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-3];
 /// The axis of these small turns.
-const DIRECTION: [f64; 3] = [0.48, 0.6, 0.64];
+pub(super) const DIRECTION: [f64; 3] = [0.48, 0.6, 0.64];
 
 /// The axes of six joints at zero, from base to tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +53,8 @@ pub struct Layout {
 pub struct Answer {
     /// The joint angles, in (-pi, pi] \[rad\]; ways in the unit of lengths.
     pub q: [f64; 6],
+    /// By joint: whether others make up for it, to first order. They may be free here: one member of a family of solutions.
+    pub free: [bool; 6],
     /// The largest coordinate of what is missed: a share of the length scale, or radians.
     pub residual: f64,
 }
@@ -73,18 +75,18 @@ pub struct Answers {
 /// The solver of one chain of six joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template {
-    axes: [Axis<f64>; 6],
+    pub(crate) axes: [Axis<f64>; 6],
     figures: [Figure<f64>; 6],
-    frames: [Frame<f64>; 6],
-    links: Links,
-    last: Rigid,
-    scale: f64,
+    pub(crate) frames: [Frame<f64>; 6],
+    pub(crate) links: Links,
+    pub(crate) last: Rigid,
+    pub(crate) scale: f64,
     formulations: Vec<Formulation>,
 }
 
 impl Answers {
     fn none() -> Self {
-        let none = Answer { q: [0.0; 6], residual: 0.0 };
+        let none = Answer { q: [0.0; 6], free: [false; 6], residual: 0.0 };
         Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false, start: 0.0 }
     }
 
@@ -181,6 +183,7 @@ impl Template {
             }
         }
         for answer in &mut answers.list[..answers.count] {
+            answer.free = self.links.free(&answer.q);
             answer.q = self.scaled(&answer.q, self.scale);
         }
         answers
@@ -212,7 +215,7 @@ impl Template {
             if residual <= ACCEPT {
                 worst = if candidate.depth == 0.0 { worst.max(start) } else { worst };
                 let q = std::array::from_fn(|joint| if slides[joint] { q[joint] } else { wrap(q[joint]) });
-                let answer = Answer { q, residual };
+                let answer = Answer { q, free: [false; 6], residual };
                 answers.keep(answer, slides);
                 own.keep(answer, slides);
             } else if candidate.depth * candidate.depth <= OFF * worst.max(UNKNOWN) {
