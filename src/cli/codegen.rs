@@ -8,7 +8,7 @@ use clap::ValueEnum;
 
 use super::solve::read_program;
 use super::{Outcome, console, explain};
-use crate::codegen::{c99, ikfast, is_printable, is_word, rust};
+use crate::codegen::{c99, ikfast, is_word, rust};
 use crate::files::write_atomically;
 use crate::solver::Program;
 use crate::{Error, ErrorKind, Result};
@@ -114,11 +114,6 @@ impl Arguments {
     /// The program, under the name that was asked for.
     fn program(&self) -> Result<Program> {
         let program = read_program(&self.derivation)?;
-        if !is_printable(&program) {
-            let text =
-                "its joints are found by an eigenvalue problem, which no language has yet; `groebot solve` runs it";
-            return Err(Error::new(ErrorKind::Unsupported, text).in_file(&self.derivation));
-        }
         match &self.prefix {
             None => Ok(program),
             Some(prefix) if is_word(prefix) => Ok(Program { name: prefix.clone(), ..program }),

@@ -13,6 +13,8 @@ use crate::{Error, ErrorKind, Result};
 
 /// The longest file for IKFast that a folder gets, in bytes: the others are the same solver.
 const IKFAST_LIMIT: usize = 80_000;
+/// The same for one that solves an eigenvalue problem.
+const SIX_AXES_LIMIT: usize = 125_000;
 
 /// The file of the numeric checks.
 pub const CHECKS: &str = "6_check.csv";
@@ -100,13 +102,10 @@ pub fn is_ours(folder: &Path, name: &str) -> bool {
 
 /// The program as source code, one file a language; IKFast's only where it has a type for the task and the file is not too long.
 pub fn printed_solvers(program: &Program) -> Vec<(String, Vec<u8>)> {
-    if !codegen::is_printable(program) {
-        return Vec::new();
-    }
     let ikfast = codegen::ikfast::emit(program, &codegen::ikfast::Options::default());
     let ikfast = ikfast
         .ok()
-        .filter(|text| text.len() <= IKFAST_LIMIT)
+        .filter(|text| text.len() <= if codegen::has_six_axes(program) { SIX_AXES_LIMIT } else { IKFAST_LIMIT })
         .map(|text| ("5_ikfast.cpp".to_owned(), text.into_bytes()));
     let own = [
         ("5_solver.c".to_owned(), codegen::c99::emit(program).into_bytes()),

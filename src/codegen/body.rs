@@ -2,6 +2,7 @@
 
 use super::demand::{Demand, ParameterDemand};
 use super::names::Names;
+use super::outline::has_families;
 use super::printer::{Language, Printer, number};
 use super::samples::Table;
 use super::steps::Walk;
@@ -25,7 +26,7 @@ impl Scene<'_> {
 
     /// Whether answers can be members of families.
     pub fn has_families(&self) -> bool {
-        self.program.charts().any(|chart| !chart.free.is_empty())
+        has_families(self.program)
     }
 
     /// By unknown: whether a block before the one with this index finds it.

@@ -175,6 +175,29 @@ impl Language for C99 {
         lines
     }
 
+    fn six_axes(&self) -> &'static str {
+        include_str!("skeleton/six_axes.c.txt")
+    }
+
+    fn open_six_axes(&self, depth: usize, chain: usize, target: &[String]) -> Vec<String> {
+        let mut lines = spread(&format!("const double target{depth}[12] = {{"), target, "};");
+        lines.extend([
+            format!("SixAnswers found{depth};"),
+            format!("six_solve(&CHAIN_{chain}, target{depth}, &found{depth});"),
+            format!("for (size_t i{depth} = 0; i{depth} < found{depth}.count; i{depth}++) {{"),
+            format!("{INDENT}const SixAnswer *six{depth} = &found{depth}.list[i{depth}];"),
+        ]);
+        lines
+    }
+
+    fn six_axes_joint(&self, depth: usize, joint: usize) -> String {
+        format!("six{depth}->q[{joint}]")
+    }
+
+    fn six_axes_free(&self, depth: usize, joint: usize) -> String {
+        format!("six{depth}->free[{joint}]")
+    }
+
     fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
         let mut lines = spread("const double at[PLACES] = {", answer.at, "};");
         lines.extend(spread("const double q[JOINTS] = {", answer.q, "};"));
@@ -203,8 +226,9 @@ impl Language for C99 {
             format!("next.last = {last};"),
             format!("next.close = {};", state.close),
         ];
-        let free = state.free.iter().enumerate().filter(|(_, free)| *free == "true");
-        lines.extend(free.map(|(joint, _)| format!("next.free[{joint}] = true;")));
+        let is_usual = |free: &str| free == "false" || free.starts_with("known->") && !free.contains(' ');
+        let free = state.free.iter().enumerate().filter(|(_, free)| !is_usual(free));
+        lines.extend(free.map(|(joint, free)| format!("next.free[{joint}] = {free};")));
         lines.extend(state.found.iter().map(|name| format!("next.{name} = {name};")));
         lines.push(format!("{}_{}(p, &next, answers);", if state.is_rare { "again" } else { "block" }, state.next));
         lines

@@ -18,6 +18,7 @@ mod outline;
 mod printer;
 mod samples;
 mod single;
+mod six_axes;
 mod steps;
 mod tolerances;
 
@@ -25,11 +26,11 @@ pub use names::is_word;
 
 use serde::Serialize;
 
-use crate::solver::{Program, Step};
+use crate::solver::Program;
 
-/// Whether the languages have every step of `program`: they have no eigenvalue problems.
-pub fn is_printable(program: &Program) -> bool {
-    !program.charts().flat_map(|chart| &chart.steps).any(|step| matches!(step, Step::SixAxes(_)))
+/// Whether a step of `program` finds six joints together, by an eigenvalue problem.
+pub fn has_six_axes(program: &Program) -> bool {
+    !six_axes::steps(program).is_empty()
 }
 
 /// The skeleton with the outline's values; both come with the crate and fit one another.

@@ -10,6 +10,7 @@ use super::forward::{ForwardText, equations, printed_forward};
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use super::samples::Table;
+use super::six_axes;
 use super::tolerances::{Arc, Tolerances};
 use crate::solver::{Condition, DAMPINGS, JointValue, LEAPS, Operand, Program, Step, Unit, square};
 
@@ -48,6 +49,8 @@ pub(super) struct Outline {
     blocks: Vec<BlockText>,
     /// Values at which charts put free joints.
     samples: Vec<Table>,
+    /// What finds six joints together, if a step does.
+    six_axes: String,
     /// Forward kinematics, if the program has them.
     forward: Option<ForwardText>,
     checks: Code,
@@ -129,7 +132,13 @@ impl Outline {
     pub fn single(program: &Program, language: &dyn Language) -> Self {
         let dampings = SINGLE_DAMPINGS.iter().map(|&damping| number(damping)).collect();
         let outline = Outline::new(program, language);
-        Outline { tolerances: Tolerances::single(), dampings, about: outline.about.and("Single precision"), ..outline }
+        Outline {
+            tolerances: Tolerances::single(),
+            dampings,
+            six_axes: six_axes::text(program, language, true),
+            about: outline.about.and("Single precision"),
+            ..outline
+        }
     }
 
     /// The outline of a valid program.
@@ -182,6 +191,7 @@ impl Outline {
                 .collect(),
             last_first: scene.last_first(),
             samples: scene.tables.clone(),
+            six_axes: six_axes::text(program, language, false),
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
             forward: forward.map(|forward| ForwardText::new(&scene, &forward)),
             size_of: sizes.iter().map(|size| place(&unique, size)).collect(),
@@ -258,7 +268,7 @@ impl Needs {
         let angles = program.joints.iter().filter(|joint| is_angle(joint.value)).count();
         Needs {
             answers: program.charts().any(|chart| !chart.open),
-            families: program.charts().any(|chart| !chart.free.is_empty()),
+            families: has_families(program),
             open: program.charts().any(|chart| chart.open),
             groups: program.charts().any(|chart| chart.pivot.is_some()),
             rotation: program.conditions.iter().any(|condition| matches!(condition, Condition::Rotation(_))),
@@ -274,6 +284,11 @@ impl Needs {
             frames: program.conditions.as_slice() == [Condition::Rotation(3)],
         }
     }
+}
+
+/// Whether answers can be members of families.
+pub(super) fn has_families(program: &Program) -> bool {
+    program.charts().any(|chart| !chart.free.is_empty()) || !six_axes::steps(program).is_empty()
 }
 
 /// The root steps that are printed, each with its polynomials.

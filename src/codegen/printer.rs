@@ -52,6 +52,14 @@ pub(super) trait Language {
     fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String>;
     /// Leaving a chart unless a condition holds.
     fn leave_unless(&self, condition: &str) -> Vec<String>;
+    /// The skeleton of what finds six joints together.
+    fn six_axes(&self) -> &'static str;
+    /// Lines that open the loop with index `i{depth}` over the answers of the chain with a number at a target.
+    fn open_six_axes(&self, depth: usize, chain: usize, target: &[String]) -> Vec<String>;
+    /// The value of the joint with this index in that loop; typed.
+    fn six_axes_joint(&self, depth: usize, joint: usize) -> String;
+    /// Whether that joint is free.
+    fn six_axes_free(&self, depth: usize, joint: usize) -> String;
     /// Handing over an answer.
     fn finish(&self, answer: &Finish<'_>) -> Vec<String>;
     /// Going on to a block with what is known now.

@@ -106,6 +106,24 @@ impl Language for Rust {
         vec![format!("for [{}] in SAMPLES_{table} {{", names.join(", "))]
     }
 
+    fn six_axes(&self) -> &'static str {
+        include_str!("skeleton/six_axes.rs.txt")
+    }
+
+    fn open_six_axes(&self, depth: usize, chain: usize, target: &[String]) -> Vec<String> {
+        let mut lines = spread(&format!("let found{depth} = CHAIN_{chain}.solve(&["), target, "]);");
+        lines.push(format!("for (i{depth}, six{depth}) in found{depth}.as_slice().iter().enumerate() {{"));
+        lines
+    }
+
+    fn six_axes_joint(&self, depth: usize, joint: usize) -> String {
+        format!("six{depth}.q[{joint}]")
+    }
+
+    fn six_axes_free(&self, depth: usize, joint: usize) -> String {
+        format!("six{depth}.free[{joint}]")
+    }
+
     fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
         let mut lines = spread("let at = [", answer.at, "];");
         lines.extend(spread("let q = [", answer.q, "];"));

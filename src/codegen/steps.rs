@@ -3,6 +3,8 @@
 use super::body::Scene;
 use super::printer::{Finish, INDENT, Language, Printer, State};
 use super::samples::Table;
+use super::six_axes;
+use crate::solver::template::SixAxes;
 use crate::solver::{Chart, JointValue, Operand, Program, Step, square};
 
 /// The steps of a chart on their way to text.
@@ -16,12 +18,15 @@ pub(super) struct Walk<'a> {
     finds_roots: Vec<bool>,
     /// Terms of the branch number.
     branch: Vec<String>,
+    /// Joints that may be free at an answer, and the expression that tells.
+    loose: Vec<(usize, String)>,
 }
 
 impl<'a> Walk<'a> {
     /// At the chart's first step, behind `lines`, in the block with this index.
     pub fn new(scene: &'a Scene<'a>, block: usize, chart: &'a Chart, lines: Vec<String>) -> Self {
-        Walk { scene, block, chart, lines, depth: 0, finds_roots: Vec::new(), branch: Vec::new() }
+        let (finds_roots, branch, loose) = (Vec::new(), Vec::new(), Vec::new());
+        Walk { scene, block, chart, lines, depth: 0, finds_roots, branch, loose }
     }
 
     fn push(&mut self, lines: Vec<String>) {
@@ -44,8 +49,14 @@ impl<'a> Walk<'a> {
                     let value = printer.operand(*value);
                     self.push(vec![printer.language().declare(&printer.names().unknowns[*unknown], &value)]);
                 }
-                // No language prints it: see `codegen::is_printable`.
-                Step::Set { .. } | Step::SixAxes(_) => {}
+                Step::Set { .. } => {}
+                Step::SixAxes(six) => {
+                    self.six_axes(six, printer);
+                    let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
+                    self.branch.push(multiple(stride, &format!("i{}", self.depth)));
+                    self.finds_roots.push(false);
+                    self.depth += 1;
+                }
                 Step::Roots { unknown, polynomials, typical } => {
                     self.roots(*unknown, polynomials, *typical, printer);
                     let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
@@ -112,6 +123,31 @@ impl<'a> Walk<'a> {
         self.push(printer.language().open_samples(self.depth, &names, number, table.len()));
     }
 
+    fn six_axes(&mut self, six: &SixAxes, printer: &mut Printer<'_>) {
+        let (language, depth) = (printer.language(), self.depth);
+        let target: Vec<String> = six.parts().target.iter().map(|&operand| printer.operand(operand)).collect();
+        let lines = printer.settle();
+        self.push(lines);
+        let place = six_axes::steps(self.scene.program).iter().position(|other| std::ptr::eq(*other, six));
+        let number = 1 + place.expect("the step is one of the program's");
+        self.push(language.open_six_axes(depth, number, &target));
+        for (place, joint) in six.parts().joints.iter().enumerate() {
+            let value = language.six_axes_joint(depth, place);
+            let values = match joint {
+                JointValue::Angle { cosine, sine } => {
+                    vec![(*cosine, language.call("cos", &value)), (*sine, language.call("sin", &value))]
+                }
+                JointValue::Plain(unknown) => vec![(*unknown, value)],
+            };
+            let wanted = values.into_iter().filter(|(unknown, _)| printer.demand().wants_unknown(*unknown));
+            let lines = wanted.map(|(unknown, value)| language.declare(&printer.names().unknowns[unknown], &value));
+            let lines: Vec<String> = lines.map(|line| format!("{INDENT}{line}")).collect();
+            self.push(lines);
+            let index = self.scene.program.joints.iter().position(|other| other.value == *joint);
+            self.loose.extend(index.map(|index| (index, language.six_axes_free(depth, place))));
+        }
+    }
+
     /// The branch number so far and the end of the numbers of the first block's chart.
     fn numbers(&self, language: &dyn Language) -> [String; 2] {
         if self.block == 0 {
@@ -138,8 +174,15 @@ impl<'a> Walk<'a> {
             0 => "false".to_owned(),
             _ => language.known(&format!("free[{joint}]")),
         };
-        let is_free = |joint| if self.chart.free.contains(&joint) { "true".to_owned() } else { usual(joint) };
-        let joints = if self.chart.free.is_empty() { 0 } else { self.scene.program.joints.len() };
+        let told = |joint: usize| self.loose.iter().find(|(index, _)| *index == joint).map(|(_, told)| told.clone());
+        let is_free = |joint| match told(joint) {
+            _ if self.chart.free.contains(&joint) => "true".to_owned(),
+            Some(told) if self.block == 0 => told,
+            Some(told) => format!("{} || {told}", usual(joint)),
+            None => usual(joint),
+        };
+        let is_usual = self.chart.free.is_empty() && self.loose.is_empty();
+        let joints = if is_usual { 0 } else { self.scene.program.joints.len() };
         (0..joints).map(is_free).collect()
     }
 

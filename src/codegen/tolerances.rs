@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::printer::number;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, EIGHTH, LEVER, MERGE, NEAR, OVERSHOT, PATIENCE,
-    PIVOT, POLISH_STEPS, POLISHED, REST, RETURNS, ROUNDING, SERIES, STAGES, STIFF, TINY,
+    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, EIGHTH, LEVER, MERGE, NEAR, NUDGED, OVERSHOT,
+    PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REST, RETURNS, ROUNDING, SERIES, STAGES, STIFF, TINY,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -42,6 +42,7 @@ pub(super) struct Tolerances {
     adrift: String,
     alone: String,
     aside: String,
+    nudged: String,
     apart: String,
     arrived: String,
     lever: String,
@@ -74,6 +75,7 @@ impl Tolerances {
             adrift: number(ADRIFT),
             alone: number(ALONE),
             aside: number(ASIDE),
+            nudged: number(NUDGED),
             apart: number(APART),
             arrived: number(ARRIVED),
             lever: number(LEVER),

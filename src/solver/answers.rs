@@ -8,7 +8,7 @@ use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
+use super::{ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, NUDGED, ROUNDING, STAGES};
 
 /// A solution with the largest share of an equation's value in its scale.
 struct Answer {
@@ -263,9 +263,9 @@ impl<'a> Answers<'a> {
     }
 
     /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are a little elsewhere and the others
-    /// follow, and back again: an isolated answer may be led to a family next to it, but not back. One way there may be a branching.
+    /// follow, and back again: an isolated answer may be led to a family next to it, but not back. Next to a branching the way is short.
     fn lies_on_family(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
-        [ASIDE, -ASIDE].into_iter().any(|way| self.leads_back(q, free, way, bound.max(ROUNDING)))
+        self.leads_back(q, free, ASIDE, bound.max(ROUNDING)) || self.leads_back(q, free, NUDGED, ROUNDING)
     }
 
     /// Whether the joints come back from where those in `free` are `way` aside, by halves.

@@ -68,6 +68,8 @@ pub const POLISHED: f64 = 1e-15;
 pub const ADRIFT: f64 = 1e-7;
 /// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a family.
 pub const ASIDE: f64 = 0.1;
+/// The same where that leads nowhere, past a branching of the family, say.
+pub const NUDGED: f64 = 1e-3;
 /// Half of the farthest (rad) that an angle is moved in search of the two roots of a double one, where it hardly matters to the
 /// equations.
 pub const APART: f64 = 0.7;

@@ -149,11 +149,14 @@ impl<'a> Walk<'a> {
     /// Runs the steps behind one that finds six angles together, once for each of their solutions.
     fn six_axes(&mut self, block: usize, six: &SixAxes, behind: &[Step], path: Path) -> Result<()> {
         let target = six.parts().target.map(|operand| self.frame.value(operand));
-        for (choice, angles) in six.solve(&target).into_iter().enumerate() {
-            for (joint, angle) in six.parts().joints.iter().zip(angles) {
-                self.put(*joint, angle);
+        for (choice, answer) in six.solve(&target).into_iter().enumerate() {
+            let mut path = Path { choice: path.choice + choice, ..path };
+            for (place, joint) in six.parts().joints.iter().enumerate() {
+                self.put(*joint, answer.q[place]);
+                let index = self.program.joints.iter().position(|other| other.value == *joint);
+                index.into_iter().for_each(|index| path.free[index] |= answer.free[place]);
             }
-            self.steps(block, behind, Path { choice: path.choice + choice, ..path })?;
+            self.steps(block, behind, path)?;
         }
         Ok(())
     }

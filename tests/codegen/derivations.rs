@@ -114,7 +114,7 @@ fn every_stored_solver_compiles() {
 }
 
 /// Targets that a chain reaches, singular ones among them, and some out of reach or no target.
-fn targets_of(program: &Program, count: usize) -> Vec<Vec<f64>> {
+pub fn targets_of(program: &Program, count: usize) -> Vec<Vec<f64>> {
     let mut targets: Vec<Vec<f64>> =
         joint_values(program, count, random()).iter().filter_map(|q| program.reached(q)).collect();
     for k in 0..targets.len() / 10 {

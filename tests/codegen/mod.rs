@@ -11,6 +11,7 @@ mod limbs;
 mod names;
 pub mod samples;
 mod single;
+mod six_axes;
 mod stored;
 mod text;
 mod turns;

@@ -13,15 +13,15 @@ use super::stored::{joint_values, named};
 
 /// What a comparison saw.
 #[derive(Debug, Default)]
-struct Seen {
+pub struct Seen {
     /// Answers of the program that have an answer in single precision near them.
-    found: usize,
+    pub found: usize,
     /// Answers of the program.
-    expected: usize,
+    pub expected: usize,
     /// Answers in single precision.
-    answers: usize,
+    pub answers: usize,
     /// The farthest that an answer's target is from what was asked, as a share of the scale.
-    farthest: f64,
+    pub farthest: f64,
 }
 
 fn build(program: &Program, folder: &Path) -> Option<()> {
@@ -32,7 +32,7 @@ fn build(program: &Program, folder: &Path) -> Option<()> {
     compile_c(folder, &["main.c", "solver.o", "-lm", "-o", "single"])
 }
 
-fn compare(program: &Program, count: usize) -> Option<Seen> {
+pub fn compare(program: &Program, count: usize) -> Option<Seen> {
     let folder = tempfile::tempdir().unwrap();
     build(program, folder.path())?;
     let joints = joint_values(program, count, random());

@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use groebot::codegen::is_printable;
 use groebot::derive::InputFile;
 use groebot::kinematics::{Chain, Task};
 use groebot::solver::{JointValue, Program};
@@ -16,16 +15,13 @@ pub struct Stored {
     pub chain: Option<Chain>,
 }
 
-/// All of them that a language can print, by name.
+/// All of them, by name.
 pub fn all() -> Vec<Stored> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations");
     let mut folders: Vec<PathBuf> = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).collect();
     folders.sort();
     let stored = |folder: PathBuf| {
         let program = Program::from_json(&fs::read_to_string(folder.join("5_program.json")).ok()?).unwrap();
-        if !is_printable(&program) {
-            return None;
-        }
         let chain = InputFile::read(&folder).unwrap().chain(&Default::default()).unwrap();
         Some(Stored { name: folder.file_name().unwrap().to_str().unwrap().to_owned(), program, chain })
     };

@@ -3,7 +3,7 @@
 use groebot::derive::template::all;
 use groebot::derive::template::survey;
 use groebot::number::BigRational;
-use groebot::solver::template::Template;
+use groebot::solver::template::{Layout, Template};
 use num_traits::ToPrimitive;
 
 use super::solver::{displacement, in_doubles, lines_of};
@@ -30,8 +30,8 @@ fn compare(count: usize, seed: u64) -> [usize; 17] {
         let complex = exact[0].representation().polynomial.degree();
         assert_eq!(complex, Some(16), "chain {index} is special");
         let doubles = in_doubles(&links);
-        let lines = lines_of(&doubles);
-        let solver = Template::new(lines, 2.0, survey(&lines, 2.0, &all().collect::<Vec<_>>()));
+        let layout = Layout { lines: lines_of(&doubles), slides: [false; 6], length: 2.0 };
+        let solver = Template::new(&layout, survey(&layout, &all().collect::<Vec<_>>()));
         let pose = pose.map(|row| row.map(|entry| entry.to_f64().unwrap()));
         let answers = solver.solve(&displacement(&doubles, &pose));
         assert_eq!(answers.as_slice().len(), exact.len(), "chain {index}");

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use groebot::Watch;
-use groebot::codegen::is_printable;
 use groebot::derive::{Proved, Source};
 
 /// Their names, and how many complex solutions they have.
@@ -28,7 +27,6 @@ fn committed_files_are_what_a_derivation_writes() {
         let proved = Proved::of(&source, &Watch::none()).unwrap().about(&source);
         let Proved::SixAxes(derived) = &proved else { panic!("{name} takes another way") };
         assert_eq!(derived.dimension(), dimension, "{name}");
-        assert!(!is_printable(&derived.program));
         for (file, bytes) in proved.stage_files().unwrap() {
             let stored = std::fs::read(folder(name).join(&file)).unwrap();
             let own = if file == "README.md" { &stored[..bytes.len().min(stored.len())] } else { &stored };

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use groebot::derive::template;
-use groebot::solver::template::{Formulation, Line, Rigid, Template};
+use groebot::solver::template::{Formulation, Layout, Line, Rigid, Template};
 use num_traits::ToPrimitive;
 
 use super::{Random, distance, nearest, random_chain};
@@ -125,7 +125,8 @@ fn the_published_manipulator_has_its_sixteen_solutions() {
     let links = in_doubles(&sixteen::links());
     let pose = sixteen::pose().map(|row| row.map(|entry| entry.to_f64().unwrap()));
     let formulations = [2, 3, 5].map(|hidden| Formulation { hidden, second: false });
-    let solver = Template::new(lines_of(&links), 1.5, formulations.to_vec());
+    let layout = Layout { lines: lines_of(&links), slides: [false; 6], length: 1.5 };
+    let solver = Template::new(&layout, formulations.to_vec());
     let answers = solver.solve(&displacement(&links, &pose));
     assert_eq!(answers.as_slice().len(), 16);
     for row in &sixteen::ANGLES {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::program::program;
-use super::{Determinant, Regular, fits, formulations, lines, survey, typical_length};
+use super::{Determinant, Regular, fits, ranked, slides};
 use crate::derive::certificate::{check_head, refused, unread, written};
 use crate::derive::closure::Mechanism;
 use crate::derive::planner::{self, Evidence};
@@ -15,7 +15,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 /// The version of the format; those of systems, chains and limbs have numbers 1 to 3.
 const FORMAT: u32 = 4;
 
-/// The solver of a chain of six revolute joints with axes in any place.
+/// The solver of a chain of six joints with axes in any place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DerivedSixAxes {
     /// The chain.
@@ -56,17 +56,7 @@ impl DerivedSixAxes {
         let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
         let evidence = planner::evidence(&Mechanism::new(chain)?, watch)?;
         let evidence = evidence.ok_or_else(|| unsupported("joints are free at every target"))?;
-        let regular = formulations(chain)?;
-        let lines = lines(chain).ok_or_else(|| unsupported("six revolute joints are needed"))?;
-        let known: Vec<Formulation> = regular.iter().map(|regular| regular.formulation).collect();
-        let best = survey(&lines, typical_length(&lines), &known);
-        let proof =
-            |formulation: &Formulation| regular.iter().find(|regular| regular.formulation == *formulation).cloned();
-        let formulations: Vec<Regular> = best.iter().filter_map(proof).collect();
-        if formulations.is_empty() {
-            return Err(unsupported("no formulation of the eigenvalue problem is regular and accurate for this chain"));
-        }
-        DerivedSixAxes::assemble(chain, evidence, formulations)
+        DerivedSixAxes::assemble(chain, evidence, ranked(chain)?)
     }
 
     /// Proves the derivation of `chain` anew from the text of its certificate: every determinant is evaluated again.
@@ -106,22 +96,26 @@ impl DerivedSixAxes {
 
     /// The number of complex solutions of a generic reachable target.
     pub fn dimension(&self) -> usize {
-        self.evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(SIZE)
+        dimension(&self.evidence)
     }
 
     fn assemble(chain: &Chain, evidence: Vec<Evidence>, formulations: Vec<Regular>) -> Result<Self> {
         let order = formulations.iter().map(|regular| regular.formulation).collect();
-        let dimension = evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(SIZE);
-        let program = program(chain, order, dimension)?;
+        let program = program(chain, order, dimension(&evidence))?;
         Ok(DerivedSixAxes { chain: chain.clone(), evidence, formulations, program })
     }
+}
+
+/// The least number of complex solutions that was counted.
+fn dimension(evidence: &[Evidence]) -> usize {
+    evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(SIZE)
 }
 
 impl Entry {
     fn prove(&self, chain: &Chain) -> Result<Regular> {
         let formulation = self.formulation;
         let name = format!("the formulation that hides joint {}", formulation.hidden + 1);
-        if formulation.hidden >= 6 || self.determinants.iter().all(|determinant| determinant.value == 0) {
+        if !formulation.fits(&slides(chain)) || self.determinants.iter().all(|determinant| determinant.value == 0) {
             return Err(refused(format!("{name} is not shown to be regular")));
         }
         for determinant in &self.determinants {

@@ -1,4 +1,4 @@
-//! The solver of any six revolute joints, offline: which formulations of the eigenvalue problem hold for a chain, proved modulo primes,
+//! The solver of any six joints, offline: which formulations of the eigenvalue problem hold for a chain, proved modulo primes,
 //! and which of them are accurate ([`formulations`], [`crate::solver::template::SixAxes`]).
 
 mod derived;
@@ -13,9 +13,11 @@ pub use rank::Determinant;
 pub use residue::Residue;
 pub use survey::survey;
 
+use num_traits::ToPrimitive;
+
 use crate::kinematics::{Chain, JointKind, Task};
 use crate::number::primes_below;
-use crate::solver::template::{Formulation, Line, Template};
+use crate::solver::template::{Formulation, Layout, Line, Template};
 use crate::spatial::Screw;
 use crate::{Error, ErrorKind, Result};
 
@@ -34,11 +36,11 @@ pub struct Regular {
 /// The regular formulations of `chain`.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a chain of anything but six revolute joints and a task other than a pose.
+/// [`ErrorKind::Unsupported`] for a chain of anything but six joints and a task other than a pose.
 pub fn formulations(chain: &Chain) -> Result<Vec<Regular>> {
     fits(chain)?;
     let mut regular = Vec::new();
-    for formulation in all() {
+    for formulation in all().filter(|formulation| formulation.fits(&slides(chain))) {
         let primes = primes_below(1 << 31).enumerate();
         let found = primes.map(|(seed, prime)| Determinant::evaluate(chain, formulation, prime, seed as u64));
         let determinants: Vec<Determinant> = found.filter_map(Result::ok).take(PRIMES).collect();
@@ -59,37 +61,55 @@ pub fn all() -> impl Iterator<Item = Formulation> {
 /// # Errors
 /// [`ErrorKind::Unsupported`] that says what it is for.
 pub fn fits(chain: &Chain) -> Result<()> {
-    let revolute = chain.joints().iter().all(|joint| joint.kind == JointKind::Revolute);
-    if revolute && chain.joints().len() == 6 && chain.task() == Task::Pose && chain.given().is_empty() {
+    if chain.joints().len() == 6 && chain.task() == Task::Pose && chain.given().is_empty() {
         return Ok(());
     }
-    Err(Error::new(ErrorKind::Unsupported, "the eigenvalue problem is for the pose of six revolute joints, none given"))
+    Err(Error::new(ErrorKind::Unsupported, "the eigenvalue problem is for the pose of six joints, none given"))
 }
 
-/// The lines of the joints' axes, directions of length one, in the chain's unit of length.
-pub fn lines(chain: &Chain) -> Option<[Line<f64>; 6]> {
-    let line = |screw: &Screw| match screw {
+/// By joint of a chain of six: whether it slides.
+fn slides(chain: &Chain) -> [bool; 6] {
+    std::array::from_fn(|joint| chain.joints()[joint].kind == JointKind::Prismatic)
+}
+
+/// The axes of the joints of a chain of six, directions of length one, in the chain's unit of length.
+pub fn layout(chain: &Chain) -> Layout {
+    let line = |joint: usize| match &chain.screws()[joint] {
         Screw::Revolute(axis) => {
-            Some(Line { direction: axis.direction().into_inner().into(), point: axis.point().coords.into() })
+            Line { direction: axis.direction().into_inner().into(), point: axis.point().coords.into() }
         }
-        Screw::Prismatic(_) => None,
+        Screw::Prismatic(direction) => {
+            let point = chain.joints()[joint].point.each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
+            Line { direction: direction.into_inner().into(), point }
+        }
     };
-    let lines: Option<Vec<_>> = chain.screws().iter().map(line).collect();
-    lines?.try_into().ok()
+    let lines = std::array::from_fn(line);
+    Layout { lines, slides: slides(chain), length: typical_length(&lines) }
 }
 
 /// The solver of `chain`, its best regular formulations in order.
 ///
 /// # Errors
-/// As [`formulations`]; [`ErrorKind::Unsupported`] when no formulation is regular and accurate.
+/// As [`ranked`].
 pub fn solver(chain: &Chain) -> Result<Template> {
-    let regular: Vec<Formulation> = formulations(chain)?.into_iter().map(|regular| regular.formulation).collect();
-    let none =
-        || Error::new(ErrorKind::Unsupported, "no formulation of the eigenvalue problem is regular for this chain");
-    let lines = lines(chain).ok_or_else(none)?;
-    let length = typical_length(&lines);
-    let best = survey(&lines, length, &regular);
-    if best.is_empty() { Err(none()) } else { Ok(Template::new(lines, length, best)) }
+    let best = ranked(chain)?.into_iter().map(|regular| regular.formulation).collect();
+    Ok(Template::new(&layout(chain), best))
+}
+
+/// The regular formulations that are accurate, the most accurate first; one at least.
+///
+/// # Errors
+/// As [`formulations`]; [`ErrorKind::Unsupported`] when no formulation is regular and accurate.
+fn ranked(chain: &Chain) -> Result<Vec<Regular>> {
+    let regular = formulations(chain)?;
+    let known: Vec<Formulation> = regular.iter().map(|regular| regular.formulation).collect();
+    let best = survey(&layout(chain), &known);
+    if best.is_empty() {
+        let text = "no formulation of the eigenvalue problem is regular and accurate for this chain";
+        return Err(Error::new(ErrorKind::Unsupported, text));
+    }
+    let proof = |formulation: &Formulation| regular.iter().find(|regular| regular.formulation == *formulation).cloned();
+    Ok(best.iter().filter_map(proof).collect())
 }
 
 /// The longest way from one axis' point to the next one's; one for a chain that is a point.

@@ -1,26 +1,27 @@
 //! The program of six axes: one block that finds all joints together.
 
-use super::{lines, typical_length};
+use super::layout;
 use crate::derive::closure::Mechanism;
 use crate::derive::lift::frame_of;
 use crate::kinematics::Chain;
-use crate::solver::template::{Formulation, ROOM, Rigid, SixAxes, SixAxesParts};
+use crate::solver::template::{Formulation, Layout, ROOM, Rigid, SixAxes, SixAxesParts};
 use crate::solver::{Block, Chart, Operand, Program, Step};
 use crate::{Error, ErrorKind, Result};
 
 /// The program of `chain` by these formulations.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a chain that is not of six revolute joints; as [`SixAxes::new`] and [`Mechanism::new`].
+/// [`ErrorKind::Unsupported`] for a chain that is not of six joints; as [`SixAxes::new`] and [`Mechanism::new`].
 pub(super) fn program(chain: &Chain, formulations: Vec<Formulation>, dimension: usize) -> Result<Program> {
     let mechanism = Mechanism::new(chain)?;
     let frame = frame_of(chain, &mechanism);
     let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
-    let lines = lines(chain).ok_or_else(|| unsupported("six revolute joints are needed"))?;
+    let Layout { lines, slides, length } = layout(chain);
     let joints: Vec<_> = frame.joints.iter().map(|joint| joint.value).collect();
     let step = SixAxes::new(SixAxesParts {
-        length: typical_length(&lines),
+        length,
         lines,
+        slides,
         tip: tip(chain),
         formulations,
         joints: joints.try_into().map_err(|_| unsupported("six joints are needed"))?,

@@ -8,9 +8,11 @@ use serde::{Deserialize, Serialize};
 
 use super::residue::Residue;
 use crate::derive::planner::Random;
-use crate::kinematics::Chain;
+use crate::kinematics::{Chain, JointKind};
 use crate::number::Zp;
-use crate::solver::template::{Axis, Equations, FAR, Formulation, Frame, Line, MOVING, Row, Rows, STILL, halved};
+use crate::solver::template::{
+    Axis, Doubled, Equations, FAR, Figure, Formulation, Frame, Line, MOVING, Row, Rows, STILL,
+};
 use crate::{Error, ErrorKind, Result};
 
 /// Rows and columns of a pencil before elimination.
@@ -30,7 +32,7 @@ pub struct Determinant {
 }
 
 impl Determinant {
-    /// Evaluates the determinant of `formulation` for `chain`, which has six revolute joints.
+    /// Evaluates the determinant of `formulation` for `chain`, which has six joints, for which it is one ([`Formulation::fits`]).
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] when the prime divides a denominator of the chain, or where a random number is zero.
@@ -50,13 +52,17 @@ fn determinant(chain: &Chain, formulation: Formulation, field: Zp, seed: u64) ->
     for (turn, axis) in turns.iter_mut().zip(&axes) {
         *turn = point_of_circle(axis, draw())?;
     }
-    let moved = axes.map(|axis| axes.iter().zip(&turns).rev().fold(axis.line, |line, (a, turn)| line.turned(a, *turn)));
-    let back = axes.map(|axis| axes.iter().zip(&turns).fold(axis.line, |line, (a, [c, s])| line.turned(a, [*c, -*s])));
     let zero = Residue::new(0, field);
+    let figures = axes.map(|axis| Figure::of(&axis, frame(&axis.line, zero).across[0]));
+    let moved =
+        figures.map(|figure| axes.iter().zip(&turns).rev().fold(figure, |figure, (a, by)| figure.moved(a, *by)));
+    let back =
+        figures.map(|figure| axes.iter().zip(&turns).fold(figure, |figure, (a, [c, s])| figure.moved(a, [*c, -*s])));
     let frame = frame(&axes[formulation.hidden].line, zero);
-    let rows = Rows::new(&Equations::new(formulation, &frame, &axes, &moved, &back));
-    let doubled = axes[formulation.joint(if formulation.second { 2 } else { 1 })].square;
-    Some(matrix_determinant(matrix(&rows, formulation.second, doubled, [zero, draw()]), field))
+    let rows = Rows::new(&Equations::new(formulation, &frame, &axes, [&figures, &moved, &back]));
+    let axis = &axes[formulation.doubled()];
+    let doubled = Doubled { second: formulation.second, slides: axis.slides, square: axis.square };
+    Some(matrix_determinant(matrix(&rows, &doubled, [zero, draw()]), field))
 }
 
 /// The axes of the chain modulo a prime.
@@ -68,6 +74,7 @@ fn axes(chain: &Chain, field: Zp) -> Option<[Axis<Residue>; 6]> {
         let square = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
         Some(Axis {
             line: Line { direction, point: Residue::vector(&joint.point, field)? },
+            slides: joint.kind == JointKind::Prismatic,
             square,
             inverse_square: square.inverse()?,
             sample: (one + square).inverse()?,
@@ -78,8 +85,11 @@ fn axes(chain: &Chain, field: Zp) -> Option<[Axis<Residue>; 6]> {
     axes?.try_into().ok()
 }
 
-/// `c` and `s'` of the turn about `axis` whose half angle has the tangent `t sqrt n`.
+/// `c` and `s'` of the turn about `axis` whose half angle has the tangent `t sqrt n`; or the way `t` and its square.
 fn point_of_circle(axis: &Axis<Residue>, t: Residue) -> Option<[Residue; 2]> {
+    if axis.slides {
+        return Some([t * t, t]);
+    }
     let (one, square) = (axis.units[1], axis.square * t * t);
     let inverse = (one + square).inverse()?;
     Some([(one - square) * inverse, (t + t) * inverse])
@@ -96,7 +106,7 @@ fn frame(line: &Line<Residue>, zero: Residue) -> Frame<Residue> {
 type Matrix = [[Residue; ALL]; ALL];
 
 /// All equations at the half angle `x`, given zero and `x`, each times the cosine and the sine of half the doubled angle.
-fn matrix(rows: &Rows<Residue>, second: bool, square: Residue, [zero, x]: [Residue; 2]) -> Matrix {
+fn matrix(rows: &Rows<Residue>, doubled: &Doubled<Residue>, [zero, x]: [Residue; 2]) -> Matrix {
     let mut matrix = [[zero; ALL]; ALL];
     let moving = rows
         .constant
@@ -104,7 +114,7 @@ fn matrix(rows: &Rows<Residue>, second: bool, square: Residue, [zero, x]: [Resid
         .zip(&rows.linear)
         .map(|(a, b)| -> Row<Residue> { std::array::from_fn(|column| a[column] - x * b[column]) });
     for (index, row) in rows.still.iter().copied().chain(moving).enumerate() {
-        let near = halved(&row, second, square);
+        let near = doubled.monomials(&row);
         for power in 0..2 {
             let target = &mut matrix[2 * index + power];
             for (degree, values) in near.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Which formulations of a chain are accurate ([`survey`]): tried at random targets.
 
 use crate::derive::planner::Random;
-use crate::solver::template::{Formulation, Line, Template};
+use crate::solver::template::{Formulation, Layout, Template};
 
 /// Random targets that each formulation is tried at.
 const TARGETS: usize = 100;
@@ -16,8 +16,8 @@ const DISTRUST: f64 = 4.0;
 
 /// Of these formulations the best ones, most accurate first: by the mean order of magnitude of what their candidates miss before they are
 /// polished. The best of each hidden joint come before all others.
-pub fn survey(lines: &[Line<f64>; 6], length: f64, formulations: &[Formulation]) -> Vec<Formulation> {
-    let mut ranked: Vec<(f64, Formulation)> = formulations.iter().filter_map(|f| rank(lines, length, *f)).collect();
+pub fn survey(layout: &Layout, formulations: &[Formulation]) -> Vec<Formulation> {
+    let mut ranked: Vec<(f64, Formulation)> = formulations.iter().filter_map(|f| rank(layout, *f)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_second = |index: usize| ranked[..index].iter().any(|(_, f)| f.hidden == ranked[index].1.hidden);
     let (second, first): (Vec<usize>, Vec<usize>) = (0..ranked.len()).partition(|&index| is_second(index));
@@ -25,12 +25,15 @@ pub fn survey(lines: &[Line<f64>; 6], length: f64, formulations: &[Formulation])
 }
 
 /// The mean order of magnitude; `None` for a formulation that can hardly ever be trusted.
-fn rank(lines: &[Line<f64>; 6], length: f64, formulation: Formulation) -> Option<(f64, Formulation)> {
-    let solver = Template::new(*lines, length, vec![formulation]);
+fn rank(layout: &Layout, formulation: Formulation) -> Option<(f64, Formulation)> {
+    let solver = Template::new(layout, vec![formulation]);
     let mut random = Random::new(SEED);
     let (mut sum, mut trusted) = (0.0, 0);
     for _ in 0..TARGETS {
-        let q = std::array::from_fn(|_| angle(&mut random));
+        let q = layout.slides.map(|slides| {
+            let value = number(&mut random);
+            value * if slides { layout.length } else { std::f64::consts::PI }
+        });
         let answers = solver.attempt(&solver.forward(&q));
         trusted += usize::from(answers.is_trusted);
         sum += if answers.is_trusted { answers.start.max(f64::EPSILON).log10() } else { DISTRUST };
@@ -39,8 +42,8 @@ fn rank(lines: &[Line<f64>; 6], length: f64, formulation: Formulation) -> Option
     (share >= LEAST).then_some((sum / TARGETS as f64, formulation))
 }
 
-/// A random angle in (-pi, pi).
-fn angle(random: &mut Random) -> f64 {
+/// A random number in [-1, 1).
+fn number(random: &mut Random) -> f64 {
     const FINE: u64 = 1 << 53;
-    (random.below(FINE) as f64 / FINE as f64 * 2.0 - 1.0) * std::f64::consts::PI
+    random.below(FINE) as f64 / FINE as f64 * 2.0 - 1.0
 }

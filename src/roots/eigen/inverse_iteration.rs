@@ -4,7 +4,7 @@ use super::Hessenberg;
 
 /// Solutions of `(H - x) y = b`, each from the one before. Their number is odd: next to a double eigenvalue with one eigenvector the
 /// inverse is like that of a Jordan block that rounding has disturbed, whose square is like the identity.
-const ROUNDS: usize = 3;
+pub(super) const ROUNDS: usize = 3;
 
 impl<const N: usize> Hessenberg<N> {
     /// An eigenvector of `A`, of length one, for the real eigenvalue `x`, by inverse iteration; not finite only when the matrix is not.

@@ -4,7 +4,7 @@
 use super::{Eigenvalue, Hessenberg};
 
 /// QR steps for one deflation; every tenth has an exceptional shift.
-const MAX_STEPS: usize = 60;
+pub(super) const MAX_STEPS: usize = 60;
 
 /// The block that is being reduced: rows and columns `low..=high`.
 struct Window<'a, const N: usize> {

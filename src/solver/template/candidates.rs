@@ -7,25 +7,26 @@ use super::linear::solve;
 use super::pencil::{ALL, Matrix, NEAR, Pencil, SIZE, Wide, monomials};
 use super::profile::PRODUCTS;
 use super::reduce::Reduced;
-use super::rows::{COLUMNS, FAR, Rows};
+use super::rows::{COLUMNS, Doubled, FAR, Rows};
+use crate::solver::angle::angle;
 
-/// Half angles from which the hidden one is counted: the first whose matrix can be inverted well is taken.
-const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
+/// Half angles (arc tangents of half a way) from which the hidden one is counted: the first whose matrix can be inverted well is taken.
+pub(super) const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
 /// The smallest share of a pivot in the largest entry of its matrix at which an origin is taken at once.
-const SOUND: f64 = 1e-9;
+pub(super) const SOUND: f64 = 1e-9;
 /// A complex pair with a smaller imaginary part, as a share of `1 + |x|^2`, may be a double root that rounding has parted.
-const BLURRED: f64 = 1e-2;
+pub(super) const BLURRED: f64 = 1e-2;
 /// Two real eigenvalues closer than this share of `1 + |x|^2` have eigenvectors that rounding mixes.
-const CROWDED: f64 = 1e-8;
+pub(super) const CROWDED: f64 = 1e-8;
 
-/// Five joint angles; the one whose line was used is still missing.
-pub(super) type Angles = [f64; 6];
+/// Five joint values; the one whose line was used is still missing.
+pub(super) type Values = [f64; 6];
 
 /// A candidate for a solution.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Candidate {
-    /// The angles.
-    pub q: Angles,
+    /// The values; a way may be infinite.
+    pub q: Values,
     /// The size of the eigenvalue's imaginary part as a share of `1 + |x|^2`: half the way off the real line of the hidden angle.
     pub depth: f64,
 }
@@ -33,7 +34,7 @@ pub(super) struct Candidate {
 /// Candidates for solutions of one formulation.
 #[derive(Clone, Debug)]
 pub(super) struct Candidates {
-    /// The angles, those of real eigenvalues first.
+    /// The values, those of real eigenvalues first.
     pub list: [Candidate; SIZE],
     /// How many there are.
     pub count: usize,
@@ -46,6 +47,8 @@ pub(super) struct Candidates {
 /// What an eigenvector means.
 struct Reader<'a> {
     formulation: Formulation,
+    /// By joint: whether it slides.
+    slides: &'a [bool; 6],
     reduced: &'a Reduced,
     pencil: &'a Pencil,
 }
@@ -53,21 +56,28 @@ struct Reader<'a> {
 impl Candidates {
     /// The candidates; each `attempt` begins with another origin of the half angle. `None` when the pencil is singular for this target,
     /// or not finite.
-    pub fn new(equations: &Equations<f64>, formulation: Formulation, attempt: usize) -> Option<Self> {
+    pub fn new(
+        equations: &Equations<f64>,
+        formulation: Formulation,
+        slides: &[bool; 6],
+        attempt: usize,
+    ) -> Option<Self> {
         let reduced = Reduced::new(&Rows::new(equations));
-        let pencil = Pencil::new(&reduced, formulation.second)?;
+        let doubled = Doubled { second: formulation.second, slides: slides[formulation.doubled()], square: 1.0 };
+        let pencil = Pencil::new(&reduced, doubled)?;
         let (origin, matrix, conditioning) = standard(&pencil, attempt)?;
         let form = Hessenberg::reduce(matrix);
         let values = form.eigenvalues()?;
-        let reader = Reader { formulation, reduced: &reduced, pencil: &pencil };
+        let reader = Reader { formulation, slides, reduced: &reduced, pencil: &pencil };
         let mut found = Candidates { list: [Candidate::default(); SIZE], count: 0, is_crowded: false, conditioning };
         found.is_crowded = is_crowded(&values);
         let depth = |value: &Eigenvalue| value.im.abs() / (1.0 + value.re * value.re + value.im * value.im);
         let (real, near) =
             (values.iter().filter(|value| value.im == 0.0), values.iter().filter(|value| value.im != 0.0));
         for value in real.chain(near.filter(|value| depth(value) <= BLURRED)) {
-            let hidden = 2.0 * (origin + (value.re + value.im).atan());
-            let q = reader.angles(hidden, &form.eigenvector(value.re));
+            let half = origin + angle(1.0, value.re + value.im);
+            let hidden = if slides[formulation.hidden] { 2.0 * (half.sin() / half.cos()) } else { 2.0 * half };
+            let q = reader.values(hidden, &form.eigenvector(value.re));
             found.list[found.count] = Candidate { q, depth: depth(value) };
             found.count += 1;
         }
@@ -87,7 +97,7 @@ fn standard(pencil: &Pencil, attempt: usize) -> Option<(f64, Matrix, f64)> {
     let mut best: Option<(f64, Matrix, f64)> = None;
     for index in 0..ORIGINS.len() {
         let origin = ORIGINS[(attempt + index) % ORIGINS.len()];
-        let (s, c) = origin.sin_cos();
+        let (s, c) = (origin.sin(), origin.cos());
         let mix = |a: f64, b: f64| -> Matrix {
             std::array::from_fn(|row| {
                 std::array::from_fn(|column| a * pencil.constant[row][column] + b * pencil.linear[row][column])
@@ -106,25 +116,42 @@ fn standard(pencil: &Pencil, attempt: usize) -> Option<(f64, Matrix, f64)> {
 }
 
 impl Reader<'_> {
-    /// The angles, given that of the hidden joint and its eigenvector.
-    fn angles(&self, hidden: f64, vector: &[f64; SIZE]) -> Angles {
+    /// The values, given that of the hidden joint and its eigenvector.
+    fn values(&self, hidden: f64, vector: &[f64; SIZE]) -> Values {
         let wide = self.pencil.widened(vector);
         let (half, head) = half_angle(&wide);
-        let other = (head[2] * head[0].signum()).atan2(head[1] * head[0].signum());
-        let (first, second) = if self.formulation.second { (other, 2.0 * half) } else { (2.0 * half, other) };
-        let far = self.far(&wide, half, head[0], &products(first, second));
-        let mut angles = [0.0; 6];
-        let values = [hidden, first, second, 0.0, -far[1].atan2(far[0]), -far[5].atan2(far[2])];
-        for (steps, value) in values.into_iter().enumerate() {
-            angles[self.formulation.joint(steps)] = value;
+        let (s, c) = (half.sin(), half.cos());
+        let [near, far] = if self.formulation.second { [2, 1] } else { [1, 2] };
+        let (is_way, sign) = (self.slides(far), 1.0_f64.copysign(head[0]));
+        let other = if is_way { head[2] / head[0] } else { turn(head[1] * sign, head[2] * sign) };
+        let doubled = if self.slides(near) { s / c } else { 2.0 * half };
+        let (first, second) = if self.formulation.second { (other, doubled) } else { (doubled, other) };
+        let near = products(self.factors(1, first), self.factors(2, second));
+        let far = self.far(&wide, [c, s], head[0], &near);
+        let fourth = if self.slides(4) { -far[1] } else { -turn(far[0], far[1]) };
+        let fifth = if self.slides(5) { -far[5] } else { -turn(far[2], far[5]) };
+        let mut ordered = [0.0; 6];
+        for (steps, value) in [hidden, first, second, 0.0, fourth, fifth].into_iter().enumerate() {
+            ordered[self.formulation.joint(steps)] = value;
         }
-        angles
+        ordered
+    }
+
+    /// Whether the joint `steps` behind the hidden one slides.
+    fn slides(&self, steps: usize) -> bool {
+        self.slides[self.formulation.joint(steps)]
+    }
+
+    /// 1, c, s of an angle, or 1, d^2, d of a way.
+    fn factors(&self, steps: usize, value: f64) -> [f64; 3] {
+        if self.slides(steps) { [1.0, value * value, value] } else { [1.0, value.cos(), value.sin()] }
     }
 
     /// The products of the far joints.
-    fn far(&self, wide: &Wide, half: f64, head: f64, near: &[f64; PRODUCTS]) -> [f64; FAR] {
-        let (s, c) = half.sin_cos();
+    fn far(&self, wide: &Wide, [c, s]: [f64; 2], head: f64, near: &[f64; PRODUCTS]) -> [f64; FAR] {
         let scale = if c.abs() >= s.abs() { head / (c * c * c) } else { head / (s * s * s) };
+        let doubled = self.slides[self.formulation.doubled()];
+        let scale = if doubled { scale * (c * c) } else { scale };
         let (solved, order) = (self.reduced.solved, &self.reduced.order);
         let left = FAR - solved;
         let mut values = [0.0; COLUMNS];
@@ -146,16 +173,19 @@ fn half_angle(wide: &Wide) -> (f64, [f64; 3]) {
     let product = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let [first, last] = [0, 3].map(|power| product(&powers[power], &powers[power]));
     if first >= last {
-        (product(&powers[1], &powers[0]).atan2(first), powers[0])
+        (turn(first, product(&powers[1], &powers[0])), powers[0])
     } else {
-        (last.atan2(product(&powers[2], &powers[3])), powers[3])
+        (turn(product(&powers[2], &powers[3]), last), powers[3])
     }
 }
 
+/// The angle of a cosine and a sine; nought where both are zero.
+pub(super) fn turn(cosine: f64, sine: f64) -> f64 {
+    if cosine == 0.0 && sine == 0.0 { 0.0 } else { angle(cosine, sine) }
+}
+
 /// The products of one of 1, c, s of two joints, the second changing fastest.
-fn products(first: f64, second: f64) -> [f64; PRODUCTS] {
-    let factors = |angle: f64| [1.0, angle.cos(), angle.sin()];
-    let (a, b) = (factors(first), factors(second));
+fn products(a: [f64; 3], b: [f64; 3]) -> [f64; PRODUCTS] {
     std::array::from_fn(|product| a[product / 3] * b[product % 3])
 }
 

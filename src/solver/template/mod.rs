@@ -1,4 +1,4 @@
-//! Any six revolute joints, with axes in any place: all real solutions, sixteen at most, by one eigenvalue problem ([`Template`]).
+//! Any six joints, with axes in any place: all real solutions, sixteen at most, by one eigenvalue problem ([`Template`]).
 //!
 //! The fourteen functions of Raghavan and Roth of the line of one axis turn with each joint by matrices that are affine in the cosine and
 //! sine of its angle. Seen from the joint whose angle is hidden, four pairs of them turn as plane vectors do, and six stay as they are.
@@ -6,6 +6,7 @@
 //! it is linear in `x`, so that the eigenvalue problem has exactly as many rows as the chain has solutions.
 
 mod candidates;
+mod constants;
 mod formulation;
 mod linear;
 mod pencil;
@@ -18,12 +19,13 @@ mod screw;
 mod six_axes;
 mod solve;
 
+pub(crate) use constants::Constants;
 pub use formulation::{Equations, Formulation};
 pub use pencil::SIZE;
 pub use polish::{Links, Rigid};
-pub use profile::{Frame, PRODUCTS, Profile, STILL, TURNING};
-pub use rows::{COLUMNS, FAR, MOVING, Row, Rows, halved};
+pub use profile::{FUNCTIONS, Frame, PRODUCTS, Profile, STILL, TURNING};
+pub use rows::{COLUMNS, Doubled, FAR, MOVING, Row, Rows};
 pub use scalar::{Scalar, Vector};
-pub use screw::{Axis, Line};
+pub use screw::{Axis, Figure, Line};
 pub use six_axes::{SixAxes, SixAxesParts};
-pub use solve::{Answer, Answers, ROOM, Template};
+pub use solve::{Answer, Answers, Layout, ROOM, Template};

@@ -6,7 +6,7 @@
 
 use super::profile::{PRODUCTS, STILL};
 use super::reduce::Reduced;
-use super::rows::{FAR, MOVING, Row, halved};
+use super::rows::{Doubled, FAR, MOVING, Row};
 
 /// Rows and columns of the pencil, the number of complex solutions of a general chain.
 pub const SIZE: usize = 16;
@@ -34,8 +34,8 @@ pub(super) struct Pencil {
 
 /// Where a row's coefficients go when it is multiplied by the cosine or the sine of the half angle.
 struct Doubling {
-    /// Whether the second near joint's angle is halved.
-    second: bool,
+    /// The near joint whose angle is halved.
+    doubled: Doubled<f64>,
     /// Far columns that are left.
     left: usize,
 }
@@ -44,7 +44,7 @@ impl Doubling {
     /// The row times the cosine (`power` 0) or the sine (`power` 1) of the half angle.
     fn row(&self, row: &Row<f64>, order: &[usize; FAR], power: usize) -> Wide {
         let mut wide = [0.0; ALL];
-        for (degree, values) in halved(row, self.second, 1.0).into_iter().enumerate() {
+        for (degree, values) in self.doubled.monomials(row).into_iter().enumerate() {
             wide[3 * (degree + power)..][..3].copy_from_slice(&values);
         }
         for k in 0..self.left {
@@ -56,8 +56,8 @@ impl Doubling {
 
 impl Pencil {
     /// The pencil of reduced equations; `None` when a column is left that no equation determines.
-    pub fn new(reduced: &Reduced, second: bool) -> Option<Self> {
-        let doubling = Doubling { second, left: FAR - reduced.solved };
+    pub fn new(reduced: &Reduced, doubled: Doubled<f64>) -> Option<Self> {
+        let doubling = Doubling { doubled, left: FAR - reduced.solved };
         let double = |rows: &[Row<f64>; MOVING]| -> [Wide; SIZE] {
             std::array::from_fn(|k| doubling.row(&rows[k % MOVING], &reduced.order, k / MOVING))
         };

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::candidates::turn;
 use super::linear::solve;
-use super::scalar::{Vector, add, cross, dot, sub};
+use super::scalar::{Vector, add, cross, dot, scale, sub};
 
 /// A rigid motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,19 +44,25 @@ impl Rigid {
         self.rotation.map(|row| row[index])
     }
 
-    /// Then a turn about the moved z axis.
-    fn then_turn(&self, angle: f64) -> Rigid {
-        let (s, c) = angle.sin_cos();
+    /// Then a turn about the moved z axis, or a slide along it.
+    fn then(&self, slides: bool, value: f64) -> Rigid {
+        if slides {
+            let translation = add(&self.translation, &scale(&self.column(2), value));
+            return Rigid { translation, ..*self };
+        }
+        let (s, c) = (value.sin(), value.cos());
         let rotation = self.rotation.map(|[x, y, z]| [c * x + s * y, c * y - s * x, z]);
         Rigid { rotation, ..*self }
     }
 }
 
-/// The chain as frames of its joints, whose z axes are the joints' axes.
+/// The chain as frames of its joints, which turn about their z axes or slide along them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Links {
     /// Each joint's frame in that of the joint before, the first in the base, at zero.
     pub steps: [Rigid; 6],
+    /// By joint: whether it slides.
+    pub slides: [bool; 6],
 }
 
 /// What a joint vector reaches.
@@ -66,15 +73,19 @@ struct Reach {
 }
 
 /// Newton steps at most: at a singular pose each only halves the miss.
-const STEPS: usize = 40;
+pub(super) const STEPS: usize = 40;
 /// A miss below which no further step is tried.
-const EXACT: f64 = 2e-15;
+pub(super) const EXACT: f64 = 2e-15;
 /// A miss below which a single step that does not halve it is the last.
-const ROUNDING: f64 = 1e-13;
+pub(super) const ROUNDING: f64 = 1e-13;
 /// How often a step may be shortened, over all steps.
-const SHORTENED: usize = 12;
-/// A step that turns a joint by more than this is shortened.
-const LONGEST: f64 = 0.5;
+pub(super) const SHORTENED: usize = 12;
+/// A pivot of the Jacobian below this share of the greatest one is none.
+pub(super) const SINGULAR: f64 = 1e-6;
+/// How much greater a pivot is than one that stands before it.
+pub(super) const CLEARLY: f64 = 1.0 + 1e-6;
+/// A step that moves a joint by more than this is shortened.
+pub(super) const LONGEST: f64 = 0.5;
 
 impl Links {
     fn reach(&self, q: &[f64; 6]) -> Reach {
@@ -83,28 +94,29 @@ impl Links {
         for joint in 0..6 {
             frame = if joint == 0 { frame } else { frame.after(&self.steps[joint]) };
             (axes[joint], origins[joint]) = (frame.column(2), frame.translation);
-            frame = frame.then_turn(q[joint]);
+            frame = frame.then(self.slides[joint], q[joint]);
         }
         Reach { axes, origins, end: frame }
     }
 
-    /// The frame of the last joint at `q`, turned with it.
+    /// The frame of the last joint at `q`, moved with it.
     pub fn end(&self, q: &[f64; 6]) -> Rigid {
         self.reach(q).end
     }
 
-    /// The angle of `joint` that brings the end nearest to `target`, the frame of the last joint, given all others.
+    /// The value of `joint` that brings the end nearest to `target`, the frame of the last joint, given all others.
     pub fn closing(&self, q: &[f64; 6], joint: usize, target: &Rigid) -> f64 {
         let mut before = self.steps[0];
-        for (angle, step) in q[..joint].iter().zip(&self.steps[1..]) {
-            before = before.then_turn(*angle).after(step);
+        for (k, step) in self.steps[1..].iter().enumerate().take(joint) {
+            before = before.then(self.slides[k], q[k]).after(step);
         }
         let mut behind = Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] };
-        for (angle, step) in q.iter().zip(&self.steps).skip(joint + 1) {
-            behind = behind.after(step).then_turn(*angle);
+        for (k, step) in self.steps.iter().enumerate().skip(joint + 1) {
+            behind = behind.after(step).then(self.slides[k], q[k]);
         }
-        let turn = before.inverse().after(target).after(&behind.inverse()).rotation;
-        (turn[1][0] - turn[0][1]).atan2(turn[0][0] + turn[1][1])
+        let motion = before.inverse().after(target).after(&behind.inverse());
+        let r = motion.rotation;
+        if self.slides[joint] { motion.translation[2] } else { turn(r[0][0] + r[1][1], r[1][0] - r[0][1]) }
     }
 
     /// How far the end is from `target`: the way, in the unit of lengths, and the turn (rad).
@@ -126,7 +138,7 @@ impl Links {
             if known <= EXACT || !known.is_finite() {
                 break;
             }
-            let Some(step) = newton(&reach, &miss) else { break };
+            let Some(step) = self.newton(&reach, &miss) else { break };
             let mut share = 1.0;
             let (next, next_reach, next_miss) = loop {
                 let next: [f64; 6] = std::array::from_fn(|joint| q[joint] + share * step[joint]);
@@ -148,24 +160,68 @@ impl Links {
         }
         (start, size(&miss))
     }
+
+    /// Joints that others make up for, to first order: those that are left where the Jacobian has no pivot any more.
+    pub fn free(&self, q: &[f64; 6]) -> [bool; 6] {
+        let mut matrix = self.jacobian(&self.reach(q));
+        let (mut free, mut greatest) = ([true; 6], 0.0_f64);
+        for k in 0..6 {
+            let (size, row, column) = greatest_entry(&matrix[k..], &free);
+            greatest = greatest.max(size);
+            if size <= SINGULAR * greatest {
+                return free;
+            }
+            matrix.swap(k, k + row);
+            free[column] = false;
+            let pivot = matrix[k];
+            for row in &mut matrix[k + 1..] {
+                let factor = row[column] / pivot[column];
+                row.iter_mut().zip(&pivot).for_each(|(entry, over)| *entry -= factor * over);
+            }
+        }
+        free
+    }
+
+    /// The derivatives of the end's place and turn by the joints, in columns.
+    fn jacobian(&self, reach: &Reach) -> [[f64; 6]; 6] {
+        let mut matrix = [[0.0; 6]; 6];
+        for (joint, (axis, origin)) in reach.axes.iter().zip(&reach.origins).enumerate() {
+            let (way, turn) = if self.slides[joint] {
+                (*axis, [0.0; 3])
+            } else {
+                (cross(axis, &sub(&reach.end.translation, origin)), *axis)
+            };
+            matrix.iter_mut().zip(way.iter().chain(&turn)).for_each(|(row, entry)| row[joint] = *entry);
+        }
+        matrix
+    }
+
+    /// A step that makes the miss vanish to first order, no longer than [`LONGEST`].
+    fn newton(&self, reach: &Reach, miss: &[f64; 6]) -> Option<[f64; 6]> {
+        let mut right = miss.map(|entry| [entry]);
+        if solve(&mut self.jacobian(reach), &mut right) <= 0.0 {
+            return None;
+        }
+        let step = right.map(|[entry]| entry);
+        let longest = size(&step);
+        let share = if longest > LONGEST { LONGEST / longest } else { 1.0 };
+        longest.is_finite().then(|| step.map(|entry| share * entry))
+    }
+}
+
+/// The greatest entry in columns that are left, with its row and column: of columns that are about equal the first.
+fn greatest_entry(rows: &[[f64; 6]], left: &[bool; 6]) -> (f64, usize, usize) {
+    let mut found = (0.0, 0, 0);
+    for joint in (0..6).filter(|joint| left[*joint]) {
+        for (index, row) in rows.iter().enumerate() {
+            if row[joint].abs() > found.0 * CLEARLY {
+                found = (row[joint].abs(), index, joint);
+            }
+        }
+    }
+    found
 }
 
 fn size(miss: &[f64; 6]) -> f64 {
     miss.iter().fold(0.0, |most, entry| if entry.abs() > most || entry.is_nan() { entry.abs() } else { most })
-}
-
-fn newton(reach: &Reach, miss: &[f64; 6]) -> Option<[f64; 6]> {
-    let mut left = [[0.0; 6]; 6];
-    for (joint, (axis, origin)) in reach.axes.iter().zip(&reach.origins).enumerate() {
-        let way = cross(axis, &sub(&reach.end.translation, origin));
-        left.iter_mut().zip(way.iter().chain(axis)).for_each(|(row, entry)| row[joint] = *entry);
-    }
-    let mut right = miss.map(|entry| [entry]);
-    if solve(&mut left, &mut right) <= 0.0 {
-        return None;
-    }
-    let step = right.map(|[entry]| entry);
-    let longest = size(&step);
-    let share = if longest > LONGEST { LONGEST / longest } else { 1.0 };
-    longest.is_finite().then(|| step.map(|entry| share * entry))
 }

@@ -4,7 +4,7 @@ use super::profile::{PRODUCTS, STILL};
 use super::rows::{FAR, MOVING, Row, Rows};
 
 /// A pivot of a still equation below this share of its largest coefficient is not taken while the far products alone are solved for.
-const WEAK: f64 = 1e-3;
+pub(super) const WEAK: f64 = 1e-3;
 
 /// The equations after elimination: `a - x b = 0` with `x` the tangent of half the hidden angle, in the near products and the far ones
 /// that are left.

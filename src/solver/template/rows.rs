@@ -26,25 +26,83 @@ pub struct Rows<T> {
 }
 
 impl<T: Scalar> Rows<T> {
-    /// What is turned, less what it is turned into; for the vectors across the hidden axis `w` by Rodrigues' equation
-    /// `b - a = x w x (a + b)`.
+    /// What is moved, less where it is moved to.
     pub fn new(equations: &Equations<T>) -> Self {
-        let (near, far) = (&equations.turned, &equations.reached);
-        let ([near_e, near_f], [far_e, far_f]) = (&near.turning, &far.turning);
+        if equations.slides { Rows::of_slide(equations) } else { Rows::of_turn(equations) }
+    }
+
+    /// The vectors across the hidden axis `w` fulfil Rodrigues' equation `b - a = x w x (a + b)`.
+    fn of_turn(equations: &Equations<T>) -> Self {
+        let (near, far) = (&equations.turned.functions, &equations.reached.functions);
         let square = equations.square;
-        let negated = |row: Row<T>| row.map(|entry| -(entry * square));
         Rows {
-            still: std::array::from_fn(|k| difference(&near.still[k], &far.still[k])),
-            constant: std::array::from_fn(|k| match k {
-                0..TURNING => difference(&near_e[k], &far_e[k]),
-                _ => difference(&near_f[k - TURNING], &far_f[k - TURNING]),
-            }),
+            still: std::array::from_fn(|k| difference(&near[k], &far[k])),
+            constant: std::array::from_fn(|k| difference(&near[STILL + k], &far[STILL + k])),
             linear: std::array::from_fn(|k| match k {
-                0..TURNING => difference(&near_f[k], &far_f[k].map(|entry| -entry)),
-                _ => negated(difference(&near_e[k - TURNING], &far_e[k - TURNING].map(|entry| -entry))),
+                0..TURNING => sum(&near[STILL + TURNING + k], &far[STILL + TURNING + k]),
+                _ => sum(&near[STILL - TURNING + k], &far[STILL - TURNING + k]).map(|entry| -(entry * square)),
             }),
         }
     }
+
+    /// A slide by `2 x w` is `exp(2 x N)` with `N^3 = 0`, so that `b - a = x N (a + b)` for all fourteen functions.
+    fn of_slide(equations: &Equations<T>) -> Self {
+        let (near, far) = (&equations.turned.functions, &equations.reached.functions);
+        let square = equations.square;
+        let image = |k: usize| {
+            let (_, function, factor) = SLIDING[k];
+            let row = sum(&near[function], &far[function]);
+            match factor {
+                Factor::One => row,
+                Factor::Minus => row.map(|entry| -entry),
+                Factor::MinusTwo => row.map(|entry| -(entry + entry)),
+                Factor::MinusSquare => row.map(|entry| -(entry * square)),
+                Factor::TwoSquares => row.map(|entry| (entry + entry) * square),
+                Factor::Constant => std::array::from_fn(|column| match column {
+                    0 => -(square + square),
+                    _ => square - square,
+                }),
+            }
+        };
+        Rows {
+            still: UNMOVED.map(|k| difference(&near[k], &far[k])),
+            constant: std::array::from_fn(|k| difference(&near[SLIDING[k].0], &far[SLIDING[k].0])),
+            linear: std::array::from_fn(image),
+        }
+    }
+}
+
+/// The functions that a slide leaves alone: `l`, the component of `p x l` along the axis, those of `p` across it.
+const UNMOVED: [usize; STILL] = [1, STILL + 1, STILL + TURNING + 1, 2, STILL, STILL + TURNING];
+
+/// What a slide multiplies a function by.
+#[derive(Clone, Copy)]
+enum Factor {
+    One,
+    Minus,
+    MinusTwo,
+    MinusSquare,
+    TwoSquares,
+    /// Whatever the function is, the image is the constant `-w.w`, from both sides.
+    Constant,
+}
+
+/// The other functions, and which multiple of which function `-N` makes of each: `N p = w`, `N (p x l) = w x l`,
+/// `N ((p.p) l - 2 (p.l) p) = -2 w x (p x l) - 2 (p.l) w`, `N (p.p) = 2 p.w`, `N (p.l) = l.w`.
+const SLIDING: [(usize, usize, Factor); MOVING] = [
+    (0, 0, Factor::Constant),
+    (STILL + 2, STILL + TURNING + 1, Factor::One),
+    (STILL + TURNING + 2, STILL + 1, Factor::MinusSquare),
+    (3, TURNING + 1, Factor::TwoSquares),
+    (STILL + 3, STILL + TURNING + 2, Factor::MinusTwo),
+    (STILL + TURNING + 3, STILL + 2, Factor::TwoSquares),
+    (TURNING, 0, Factor::MinusTwo),
+    (TURNING + 1, 1, Factor::Minus),
+];
+
+/// `a + b` in both sides' products.
+fn sum<T: Scalar>(a: &[T; PRODUCTS], b: &[T; PRODUCTS]) -> Row<T> {
+    difference(a, &b.map(|entry| -entry))
 }
 
 /// `a - b` in both sides' products, whose 1 is the same.
@@ -56,14 +114,28 @@ fn difference<T: Scalar>(a: &[T; PRODUCTS], b: &[T; PRODUCTS]) -> Row<T> {
     })
 }
 
-/// The near products of a row in the monomials `C^2, C S, S^2` of half the angle of one near joint, each with 1, c, s of the other one;
-/// `n` of the doubled axis is `square`: `1 = C^2 + n S^2`, `c = C^2 - n S^2`, `s' = 2 C S`.
-pub fn halved<T: Scalar>(row: &Row<T>, second: bool, square: T) -> [[T; 3]; 3] {
-    let (step, other) = if second { (1, 3) } else { (3, 1) };
-    let mut table = [[row[0]; 3]; 3];
-    for k in 0..3 {
-        let [one, cosine, sine] = [0, 1, 2].map(|index| row[k * other + index * step]);
-        (table[0][k], table[1][k], table[2][k]) = (one + cosine, sine + sine, (one - cosine) * square);
+/// The near joint whose half angle or way the equations are multiplied by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Doubled<T> {
+    /// Whether it is the second one.
+    pub second: bool,
+    /// Whether it slides.
+    pub slides: bool,
+    /// `n` of its axis.
+    pub square: T,
+}
+
+impl<T: Scalar> Doubled<T> {
+    /// The near products of a row in the monomials `C^2, C S, S^2` of half the angle of the joint, each with 1, c, s of the other one:
+    /// `1 = C^2 + n S^2`, `c = C^2 - n S^2`, `s' = 2 C S`; for a joint that slides, `1 = C^2`, `d' = C S`, `d'^2 = S^2`.
+    pub fn monomials(&self, row: &Row<T>) -> [[T; 3]; 3] {
+        let (step, other) = if self.second { (1, 3) } else { (3, 1) };
+        let mut table = [[row[0]; 3]; 3];
+        for k in 0..3 {
+            let [one, even, odd] = [0, 1, 2].map(|index| row[k * other + index * step]);
+            (table[0][k], table[1][k], table[2][k]) =
+                if self.slides { (one, odd, even) } else { (one + even, odd + odd, (one - even) * self.square) };
+        }
+        table
     }
-    table
 }

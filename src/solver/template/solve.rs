@@ -1,46 +1,60 @@
 //! The solver: formulations in turn until one can be trusted ([`Template`]).
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::candidates::Candidates;
 use super::formulation::{Equations, Formulation};
 use super::polish::{Links, Rigid};
 use super::profile::Frame;
 use super::scalar::{Vector, cross, dot, scale};
-use super::screw::{Axis, Line};
+use super::screw::{Axis, Figure, Line};
+use crate::solver::refine::wrap;
 
 /// The most answers that are kept while formulations are united.
 pub const ROOM: usize = 32;
 /// Answers whose joints all differ by no more than this (rad) are one.
-const MERGE: f64 = 1e-7;
+pub(super) const MERGE: f64 = 1e-7;
 /// The largest residual of an answer, as a share of the length scale or in radians.
-const ACCEPT: f64 = 1e-12;
+pub(super) const ACCEPT: f64 = 1e-12;
 /// The share of a pivot below which another formulation is asked too.
-const SOUND: f64 = 1e-11;
+pub(super) const SOUND: f64 = 1e-11;
 
 /// The share of a pivot at which a target without real eigenvalues is out of reach.
-const CLEAR: f64 = 1e-6;
+pub(super) const CLEAR: f64 = 1e-6;
 /// A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate.
-const ACCURATE: f64 = 1e-6;
+pub(super) const ACCURATE: f64 = 1e-6;
 /// What stands in for the accuracy of the eigenvalues when it is better than that.
-const UNKNOWN: f64 = 1e-11;
+pub(super) const UNKNOWN: f64 = 1e-11;
 /// The square of a complex eigenvalue's depth as a multiple of the eigenvalues' accuracy: below it, it may be a double root.
-const OFF: f64 = 1e3;
+pub(super) const OFF: f64 = 1e3;
 /// Below it, it is tried.
-const FAR_OFF: f64 = 1e7;
+pub(super) const FAR_OFF: f64 = 1e7;
 /// Formulations, or origins of one, that are run at most.
 const MOST_RUNS: usize = 6;
 /// How far aside the target is put for each of them: where solutions share a hidden angle, or a family of solutions stands at the same
 /// target, the eigenvectors of isolated ones are only found next to it.
-const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-3];
+pub(super) const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-3];
 /// The axis of these small turns.
-const DIRECTION: [f64; 3] = [0.48, 0.6, 0.64];
+pub(super) const DIRECTION: [f64; 3] = [0.48, 0.6, 0.64];
+
+/// The axes of six joints at zero, from base to tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layout {
+    /// Directions of length one, and points; of a joint that slides any point.
+    pub lines: [Line<f64>; 6],
+    /// By joint: whether it slides along its axis.
+    pub slides: [bool; 6],
+    /// A typical length of the chain, in the same unit.
+    pub length: f64,
+}
 
 /// A joint vector that reaches the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// The joint angles, in (-pi, pi] \[rad\].
+    /// The joint angles, in (-pi, pi] \[rad\]; ways in the unit of lengths.
     pub q: [f64; 6],
+    /// By joint: whether others make up for it, to first order. They may be free here: one member of a family of solutions.
+    pub free: [bool; 6],
     /// The largest coordinate of what is missed: a share of the length scale, or radians.
     pub residual: f64,
 }
@@ -58,20 +72,21 @@ pub struct Answers {
     pub start: f64,
 }
 
-/// The solver of one chain of six revolute joints.
+/// The solver of one chain of six joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template {
-    axes: [Axis<f64>; 6],
-    frames: [Frame<f64>; 6],
-    links: Links,
-    last: Rigid,
-    scale: f64,
+    pub(crate) axes: [Axis<f64>; 6],
+    figures: [Figure<f64>; 6],
+    pub(crate) frames: [Frame<f64>; 6],
+    pub(crate) links: Links,
+    pub(crate) last: Rigid,
+    pub(crate) scale: f64,
     formulations: Vec<Formulation>,
 }
 
 impl Answers {
     fn none() -> Self {
-        let none = Answer { q: [0.0; 6], residual: 0.0 };
+        let none = Answer { q: [0.0; 6], free: [false; 6], residual: 0.0 };
         Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false, start: 0.0 }
     }
 
@@ -80,9 +95,9 @@ impl Answers {
         &self.list[..self.count]
     }
 
-    fn keep(&mut self, answer: Answer) {
+    fn keep(&mut self, answer: Answer, slides: &[bool; 6]) {
         for known in &mut self.list[..self.count] {
-            if distance(&known.q, &answer.q) <= MERGE {
+            if distance(&known.q, &answer.q, slides) <= MERGE {
                 if answer.residual < known.residual {
                     *known = answer;
                 }
@@ -96,41 +111,47 @@ impl Answers {
     }
 }
 
-/// The largest difference of two joint vectors, by the shorter way round.
-fn distance(a: &[f64; 6], b: &[f64; 6]) -> f64 {
-    let way = |(x, y): (&f64, &f64)| (x - y - TAU * ((x - y) / TAU).round()).abs();
-    a.iter().zip(b).map(way).fold(0.0, f64::max)
-}
-
-/// The angle in (-pi, pi].
-fn wrapped(angle: f64) -> f64 {
-    let turned = angle - TAU * (angle / TAU).round();
-    if turned <= -PI { turned + TAU } else { turned }
+/// The largest difference of two joint vectors, of angles by the shorter way round.
+fn distance(a: &[f64; 6], b: &[f64; 6], slides: &[bool; 6]) -> f64 {
+    let mut most = 0.0_f64;
+    for joint in 0..6 {
+        let way = a[joint] - b[joint];
+        let turns = if slides[joint] { 0.0 } else { (way / TAU).round() };
+        most = most.max((way - TAU * turns).abs());
+    }
+    most
 }
 
 impl Template {
-    /// The solver of the chain with these axes (directions of length one) at zero, and a typical length of it; the formulations are
-    /// taken in this order.
+    /// The solver of the chain with these axes; the formulations are taken in this order.
     ///
     /// # Panics
     /// Without a formulation.
-    pub fn new(lines: [Line<f64>; 6], scale_of_lengths: f64, formulations: Vec<Formulation>) -> Self {
+    pub fn new(layout: &Layout, formulations: Vec<Formulation>) -> Self {
         assert!(!formulations.is_empty(), "a solver has a formulation at least");
-        let axes = lines.map(|line| Axis::along(Line { point: scale(&line.point, 1.0 / scale_of_lengths), ..line }));
+        let Layout { lines, slides, length } = *layout;
+        let short = |line: Line<f64>| Line { point: scale(&line.point, 1.0 / length), ..line };
+        let axes: [_; 6] = std::array::from_fn(|joint| Axis::along(short(lines[joint]), slides[joint]));
         let frames = axes.map(|axis| frame(&axis.line));
+        let figures = std::array::from_fn(|joint: usize| Figure::of(&axes[joint], frames[joint].across[0]));
         let poses = frames.map(|frame| pose(&frame));
         let step = |joint: usize| match joint {
             0 => poses[0],
             _ => poses[joint - 1].inverse().after(&poses[joint]),
         };
-        let links = Links { steps: std::array::from_fn(step) };
-        Template { axes, frames, links, last: poses[5], scale: scale_of_lengths, formulations }
+        let links = Links { steps: std::array::from_fn(step), slides };
+        Template { axes, figures, frames, links, last: poses[5], scale: length, formulations }
     }
 
-    /// The displacement `E1 ... E6` for joint angles `q` \[rad\], in the unit of length that the lines were given in.
+    /// The displacement `E1 ... E6` for joint angles \[rad\] and ways `q`, in the unit of length that the lines were given in.
     pub fn forward(&self, q: &[f64; 6]) -> Rigid {
-        let end = self.links.end(q).after(&self.last.inverse());
+        let end = self.links.end(&self.scaled(q, 1.0 / self.scale)).after(&self.last.inverse());
         Rigid { translation: scale(&end.translation, self.scale), ..end }
+    }
+
+    /// The joints with ways times a factor.
+    fn scaled(&self, q: &[f64; 6], factor: f64) -> [f64; 6] {
+        std::array::from_fn(|joint| if self.links.slides[joint] { q[joint] * factor } else { q[joint] })
     }
 
     /// The formulations, in the order in which they are taken.
@@ -161,6 +182,10 @@ impl Template {
                 break;
             }
         }
+        for answer in &mut answers.list[..answers.count] {
+            answer.free = self.links.free(&answer.q);
+            answer.q = self.scaled(&answer.q, self.scale);
+        }
         answers
     }
 
@@ -169,10 +194,11 @@ impl Template {
     fn run(&self, attempt: usize, displacement: &Rigid, target: &Rigid, answers: &mut Answers) -> bool {
         let formulation = self.formulations[attempt % self.formulations.len()];
         let back = displacement.inverse();
-        let carried = |motion: &Rigid| self.axes.map(|axis| carried(motion, &axis.line));
-        let frame = &self.frames[formulation.hidden];
-        let equations = Equations::new(formulation, frame, &self.axes, &carried(displacement), &carried(&back));
-        let Some(candidates) = Candidates::new(&equations, formulation, attempt) else { return false };
+        let carried = |motion: &Rigid| self.figures.map(|figure| carried(motion, &figure));
+        let (frame, slides) = (&self.frames[formulation.hidden], &self.links.slides);
+        let figures = [&self.figures, &carried(displacement), &carried(&back)];
+        let equations = Equations::new(formulation, frame, &self.axes, figures);
+        let Some(candidates) = Candidates::new(&equations, formulation, slides, attempt) else { return false };
         let (near, mut lost, mut worst) = (displacement.after(&self.last), 0, 0.0_f64);
         let (known, mut own) = (answers.count, Answers::none());
         for candidate in &candidates.list[..candidates.count] {
@@ -188,9 +214,10 @@ impl Template {
             }
             if residual <= ACCEPT {
                 worst = if candidate.depth == 0.0 { worst.max(start) } else { worst };
-                let answer = Answer { q: q.map(wrapped), residual };
-                answers.keep(answer);
-                own.keep(answer);
+                let q = std::array::from_fn(|joint| if slides[joint] { q[joint] } else { wrap(q[joint]) });
+                let answer = Answer { q, free: [false; 6], residual };
+                answers.keep(answer, slides);
+                own.keep(answer, slides);
             } else if candidate.depth * candidate.depth <= OFF * worst.max(UNKNOWN) {
                 lost += 1;
             }
@@ -207,7 +234,7 @@ impl Template {
 /// A small motion by `size` (rad, and shares of the length scale), another for each attempt.
 fn aside(size: f64, attempt: usize) -> Rigid {
     let sign = if attempt.is_multiple_of(2) { size } else { -size };
-    let (s, c) = sign.sin_cos();
+    let (s, c) = (sign.sin(), sign.cos());
     let about = |v: [f64; 3]| {
         let (w, along) = (DIRECTION, dot(&DIRECTION, &v) * (1.0 - c));
         let third = cross(&w, &v);
@@ -218,8 +245,9 @@ fn aside(size: f64, attempt: usize) -> Rigid {
     Rigid { rotation, translation: [-0.7 * sign, 0.5 * sign, 0.3 * sign] }
 }
 
-fn carried(motion: &Rigid, line: &Line<f64>) -> Line<f64> {
-    Line { direction: motion.turned(&line.direction), point: motion.moved(&line.point) }
+fn carried(motion: &Rigid, Figure { line, side }: &Figure<f64>) -> Figure<f64> {
+    let line = Line { direction: motion.turned(&line.direction), point: motion.moved(&line.point) };
+    Figure { line, side: side.map(|side| motion.turned(&side)) }
 }
 
 /// A frame on the line.

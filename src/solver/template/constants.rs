@@ -1,0 +1,60 @@
+//! The numbers that the solver decides by, for those who print it ([`Constants`]).
+
+use super::{candidates, polish, reduce, solve};
+
+/// What the modules beside this one define.
+#[derive(Clone, Debug)]
+pub(crate) struct Constants {
+    pub merge: f64,
+    pub accept: f64,
+    pub sound: f64,
+    pub clear: f64,
+    pub accurate: f64,
+    pub unknown: f64,
+    pub off: f64,
+    pub far_off: f64,
+    pub disturbances: Vec<f64>,
+    pub direction: [f64; 3],
+    pub origins: Vec<f64>,
+    pub sound_origin: f64,
+    pub blurred: f64,
+    pub crowded: f64,
+    pub steps: usize,
+    pub exact: f64,
+    pub rounding: f64,
+    pub shortened: usize,
+    pub longest: f64,
+    pub singular: f64,
+    pub clearly: f64,
+    pub weak: f64,
+}
+
+impl Constants {
+    /// Those of doubles.
+    pub fn new() -> Self {
+        Constants {
+            merge: solve::MERGE,
+            accept: solve::ACCEPT,
+            sound: solve::SOUND,
+            clear: solve::CLEAR,
+            accurate: solve::ACCURATE,
+            unknown: solve::UNKNOWN,
+            off: solve::OFF,
+            far_off: solve::FAR_OFF,
+            disturbances: solve::DISTURBANCES.to_vec(),
+            direction: solve::DIRECTION,
+            origins: candidates::ORIGINS.to_vec(),
+            sound_origin: candidates::SOUND,
+            blurred: candidates::BLURRED,
+            crowded: candidates::CROWDED,
+            steps: polish::STEPS,
+            exact: polish::EXACT,
+            rounding: polish::ROUNDING,
+            shortened: polish::SHORTENED,
+            longest: polish::LONGEST,
+            singular: polish::SINGULAR,
+            clearly: polish::CLEARLY,
+            weak: reduce::WEAK,
+        }
+    }
+}

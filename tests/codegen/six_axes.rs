@@ -1,0 +1,88 @@
+//! Printed solvers of six axes by one eigenvalue problem: compiled, run, compared with the evaluator.
+
+use std::fs;
+use std::process::Command;
+
+use groebot::codegen::c99;
+
+use super::derivations::targets_of;
+use super::harness::{SANITIZERS, build, compare, executables, feed, has_sanitizers};
+use super::single;
+use super::stored::{Stored, named};
+
+const FOLDERS: [&str; 6] = ["booster_leg_like", "crx_like", "general_6r", "jaco_like", "ur5_calibrated", "xarm6_like"];
+
+fn folders() -> Vec<Stored> {
+    let stored = named(&FOLDERS);
+    assert_eq!(stored.len(), FOLDERS.len());
+    stored
+}
+
+/// The arithmetic is the same in all languages, and so are the answers: not one joint is another double.
+#[test]
+fn printed_eigenvalue_problems_answer_like_the_program() {
+    for stored in folders() {
+        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 200)) {
+            assert!(report.answers > 400 && report.refused > 10, "{report:?}");
+            assert_eq!(report.unequal, 0, "{}: {report:?}", stored.name);
+        }
+    }
+}
+
+#[test]
+#[ignore = "minutes: ten thousand targets each"]
+fn every_printed_eigenvalue_problem_answers_like_the_program() {
+    for stored in folders() {
+        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 10_000)) {
+            assert!(report.answers >= 10_000 && report.unequal == 0, "{}: {report:?}", stored.name);
+        }
+    }
+}
+
+/// No access out of bounds and no undefined operation, targets that are none among the targets.
+#[test]
+fn the_c_file_runs_under_sanitizers() {
+    for stored in named(&["crx_like"]) {
+        let folder = tempfile::tempdir().unwrap();
+        if !has_sanitizers(folder.path()) || executables(&stored.program, folder.path()).is_none() {
+            return;
+        }
+        let mut command = Command::new("cc");
+        let files = ["-O1", "-g", "-std=c99", "main.c", "5_solver.c", "-lm", "-o", "checked"];
+        build(command.args(SANITIZERS).args(files).current_dir(folder.path()));
+        let targets = targets_of(&stored.program, 100);
+        let lines = targets.iter().map(|target| {
+            let words: Vec<String> = target.iter().map(|value| format!("{value:e}")).collect();
+            words.join(" ")
+        });
+        let text = format!("{}\n{}\n", targets.len(), lines.collect::<Vec<_>>().join("\n"));
+        assert_eq!(feed(&folder.path().join("checked"), text.clone()), feed(&folder.path().join("c99"), text));
+    }
+}
+
+/// In single precision eigenvalues are known to about a thousandth: some answers are lost, none is wrong.
+#[test]
+fn single_precision_finds_most_answers() {
+    for stored in named(&["general_6r", "xarm6_like"]) {
+        let Some(seen) = single::compare(&stored.program, 600) else { return };
+        println!("{}: {seen:?}", stored.name);
+        assert!(seen.farthest <= 1e-4, "{}: {seen:?}", stored.name);
+        assert!(seen.found * 100 >= seen.expected * 95, "{}: {seen:?}", stored.name);
+    }
+}
+
+/// The file needs nothing from the heap, and says how long it is.
+#[test]
+fn the_c_file_needs_no_heap() {
+    for stored in folders() {
+        let text = c99::emit(&stored.program);
+        assert!(!text.contains("malloc") && !text.contains("stdlib.h"), "{}", stored.name);
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("5_solver.c"), &text).unwrap();
+        let mut command = Command::new("cc");
+        let flags = "-std=c99 -O2 -Wall -Wextra -Wconversion -Werror -pedantic -c 5_solver.c -o solver.o";
+        if build(command.args(flags.split(' ')).current_dir(folder.path())).is_none() {
+            return;
+        }
+    }
+}
