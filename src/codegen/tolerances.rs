@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::printer::number;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, EIGHTH, LEVER, MERGE, NEAR, NUDGED, OVERSHOT,
+    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, LEVER, MERGE, NEAR, OVERSHOT,
     PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REST, RETURNS, ROUNDING, SERIES, STAGES, STIFF, TINY,
 };
 
@@ -42,7 +42,7 @@ pub(super) struct Tolerances {
     adrift: String,
     alone: String,
     aside: String,
-    nudged: String,
+    doublings: usize,
     apart: String,
     arrived: String,
     lever: String,
@@ -75,7 +75,7 @@ impl Tolerances {
             adrift: number(ADRIFT),
             alone: number(ALONE),
             aside: number(ASIDE),
-            nudged: number(NUDGED),
+            doublings: DOUBLINGS,
             apart: number(APART),
             arrived: number(ARRIVED),
             lever: number(LEVER),

@@ -8,7 +8,7 @@ use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, NUDGED, ROUNDING, STAGES};
+use super::{ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, DOUBLINGS, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
 
 /// A solution with the largest share of an equation's value in its scale.
 struct Answer {
@@ -262,30 +262,46 @@ impl<'a> Answers<'a> {
         }
     }
 
-    /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are a little elsewhere and the others
-    /// follow, and back again: an isolated answer may be led to a family next to it, but not back. Next to a branching the way is short.
+    /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one
+    /// side at least: to the other there may be a branching.
     fn lies_on_family(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
-        self.leads_back(q, free, ASIDE, bound.max(ROUNDING)) || self.leads_back(q, free, NUDGED, ROUNDING)
+        [ASIDE, -ASIDE].into_iter().any(|way| self.leads_aside(q, free, way, bound.max(ROUNDING)))
     }
 
-    /// Whether the joints come back from where those in `free` are `way` aside, by halves.
-    fn leads_back(&mut self, q: &[f64], free: &[usize], way: f64, bound: f64) -> bool {
-        let (mut at, mut before) = ([0.0; MAX_JOINTS], [0.0; MAX_JOINTS]);
+    /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated
+    /// answer may be led to a family next to it, but not back.
+    fn leads_aside(&mut self, q: &[f64], free: &[usize], way: f64, bound: f64) -> bool {
+        let mut at = [0.0; MAX_JOINTS];
         at[..q.len()].copy_from_slice(q);
-        for stage in 0..STAGES {
-            before = at;
-            let share = 0.5_f64.powi(stage as i32);
-            free.iter().for_each(|&joint| at[joint] = self.displaced(q[joint], joint, share * way));
-            if self.follow(&mut at, free).relative > bound {
+        let mut before = at;
+        for stage in 0..DOUBLINGS {
+            let share = 0.5_f64.powi((DOUBLINGS - 1 - stage) as i32);
+            let mut next = self.beyond(&before, &at, if stage == 1 { 1.0 } else { 2.0 });
+            free.iter().for_each(|&joint| next[joint] = self.displaced(q[joint], joint, share * way));
+            if self.follow(&mut next, free).relative > bound
+                || (stage == 1 && !self.leads_back(q, free, &at, &next, bound))
+            {
                 return false;
             }
+            (before, at) = (at, next);
         }
-        // On along the line through the last two.
-        for joint in 0..q.len() {
-            at[joint] += difference(self.program, joint, &at, &before);
+        true
+    }
+
+    /// Whether the joints come back to `q` on along the line from `far` through `near`.
+    fn leads_back(&mut self, q: &[f64], free: &[usize], near: &Joints, far: &Joints, bound: f64) -> bool {
+        let mut back = self.beyond(far, near, 1.0);
+        free.iter().for_each(|&joint| back[joint] = q[joint]);
+        self.follow(&mut back, free).accepted && self.are_joined(&back, q, bound, &held(free))
+    }
+
+    /// The joints beyond `b` on the line from `a`, by `ahead` times their distance.
+    fn beyond(&self, a: &Joints, b: &Joints, ahead: f64) -> Joints {
+        let mut beyond = *b;
+        for (joint, slot) in beyond.iter_mut().enumerate().take(self.program.joints.len()) {
+            *slot += ahead * difference(self.program, joint, b, a);
         }
-        free.iter().for_each(|&joint| at[joint] = q[joint]);
-        self.follow(&mut at, free).accepted && self.are_joined(&at, q, bound, &held(free))
+        beyond
     }
 
     /// Whether the family of the answer with this index has `member`, another with the same free joints: as these move there in

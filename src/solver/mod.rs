@@ -68,8 +68,8 @@ pub const POLISHED: f64 = 1e-15;
 pub const ADRIFT: f64 = 1e-7;
 /// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a family.
 pub const ASIDE: f64 = 0.1;
-/// The same where that leads nowhere, past a branching of the family, say.
-pub const NUDGED: f64 = 1e-3;
+/// In how many stages, each twice as far as the one before.
+pub const DOUBLINGS: usize = 8;
 /// Half of the farthest (rad) that an angle is moved in search of the two roots of a double one, where it hardly matters to the
 /// equations.
 pub const APART: f64 = 0.7;
@@ -80,7 +80,7 @@ pub const ALONE: f64 = 1e-13;
 pub const LEVER: f64 = 0.1;
 /// A family that is followed to where another's member has its free joints is that other family when the joints come this near.
 pub const ARRIVED: f64 = 1e-3;
-/// In how many stages a family is followed from one member to another, and back to where it began.
+/// In how many stages a family is followed from one member to another.
 pub const STAGES: usize = 4;
 /// A target's rotation or unit vector may be this far from one.
 pub const CONSISTENT: f64 = 1e-9;
