@@ -116,6 +116,9 @@ pub struct Route {
     pub start: [Footprint; 2],
     /// The steps in turn; the sides alternate.
     pub steps: Vec<Footstep>,
+    /// Where the robot rests on both feet, seen from above, before the first step and behind each: half-way between the feet, or on the
+    /// spot where it turns.
+    pub rests: Vec<Footprint>,
 }
 
 /// A regular route: steps of one length and turn, the last of which closes the feet.
@@ -166,7 +169,7 @@ impl Route {
             list.push(Footstep { side, print: beside(&middle, side) });
             side = side.other();
         }
-        Route { start, steps: list }.checked()
+        Route::new(start, list)
     }
 
     /// Reads footsteps from CSV: a header `foot,x,y,yaw`, then a line for each step, with `left` or `right`, metres and radians. Empty
@@ -197,7 +200,17 @@ impl Route {
         }
         let start =
             [Side::Left, Side::Right].map(|side| Footprint { y: side.sign() * half_width, ..Default::default() });
-        Route { start, steps }.checked()
+        Route::new(start, steps)
+    }
+
+    /// The way of `steps` from feet at `start`; between steps the robot rests half-way between its feet.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for no or more than [`MAX_STEPS`] steps, or numbers that are not finite.
+    pub fn new(start: [Footprint; 2], steps: Vec<Footstep>) -> Result<Self> {
+        let mut route = Route { start, steps, rests: Vec::new() }.checked()?;
+        route.rests = route.stands().iter().map(|feet| feet[0].middle(&feet[1])).collect();
+        Ok(route)
     }
 
     fn checked(self) -> Result<Self> {

@@ -8,8 +8,8 @@ use super::footprint::Footprint;
 use super::humanoid::Humanoid;
 use super::legs::Legs;
 use super::motion::Motion;
-use super::plan::{Request, TICK, moved as realised};
-use super::reference::{Reference, Style, smooth};
+use super::plan::{Request, moved as realised};
+use super::reference::{Reference, Style, on_the_way, smooth};
 use super::schedule::{Action, Schedule};
 use super::zmp::GRAVITY;
 use crate::{Error, ErrorKind, Result, Watch};
@@ -130,14 +130,7 @@ pub fn zmp_reference(
     feet: &[Footprint; 2],
     share: f64,
 ) -> Point2<f64> {
-    match action {
-        Action::Rest => style.between(feet),
-        Action::Swing(step) => style.ends(schedule, step, feet)[1],
-        Action::Shift(step) => {
-            let [from, to] = style.ends(schedule, step, feet);
-            from + (to - from) * smooth(share)
-        }
-    }
+    on_the_way(style, schedule, action, feet, |_, [from, to]| from + (to - from) * smooth(share))
 }
 
 /// The motion whose zero moment point follows its reference by preview control; the centres of `references` become those of the walk.
@@ -146,7 +139,7 @@ pub fn zmp_reference(
 /// As the motion of given references.
 pub(super) fn moved(
     humanoid: &Humanoid,
-    legs: &(impl Legs + Sync),
+    legs: &Legs,
     request: &Request,
     schedule: &Schedule,
     references: &mut [Reference],
@@ -161,7 +154,7 @@ pub(super) fn moved(
         })
         .collect();
     let resting = realised(humanoid, legs, request, &references[..1], watch)?;
-    let preview = Preview::new(resting.0.centres[0].z, TICK)?;
+    let preview = Preview::new(resting.0.centres[0].z, request.tick)?;
     let follow = |way: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
         let [x, y] = [0, 1].map(|axis| preview.follow(&way.iter().map(|point| point[axis]).collect::<Vec<_>>()));
         x.into_iter().zip(y).map(|(x, y)| Vector2::new(x, y)).collect()

@@ -4,7 +4,7 @@ use nalgebra::Point2;
 
 use super::check::{Fault, Found};
 use super::humanoid::Humanoid;
-use super::plan::{Request, TICK};
+use super::plan::Request;
 use super::schedule::{Action, Schedule};
 use crate::{Error, ErrorKind};
 
@@ -15,7 +15,7 @@ pub(super) fn is_healed_by_time(fault: &Fault) -> bool {
 
 /// The error for what was found.
 pub(super) fn of(humanoid: &Humanoid, schedule: &Schedule, request: &Request, found: &Found) -> Error {
-    let time = found.sample as f64 * TICK;
+    let time = found.sample as f64 * request.tick;
     let when = format!("t = {time:.2} s, {}", phase(schedule, found.phase));
     let text = match &found.fault {
         Fault::Static { margin } => {
@@ -62,6 +62,9 @@ fn phase(schedule: &Schedule, place: usize) -> String {
     match schedule.phases[place].action {
         Action::Rest if place == 0 => "rest before the first step".into(),
         Action::Rest => "rest behind the last step".into(),
+        Action::Lower => "lowering of the trunk".into(),
+        Action::Rise => "rise of the trunk".into(),
+        Action::Balance(step) => format!("balance behind step {}", step + 1),
         Action::Shift(step) if step == steps => "shift behind the last step".into(),
         Action::Shift(step) => format!("shift before step {}", step + 1),
         Action::Swing(step) => format!("swing of step {} ({} foot)", step + 1, schedule.route.steps[step].side.name()),
@@ -104,6 +107,7 @@ pub(super) fn check(request: &Request) -> crate::Result<()> {
         ("shift's duration", durations.shift),
         ("swing's duration", durations.swing),
         ("speed share", request.speed_share),
+        ("time between samples", request.tick),
     ];
     let not_negative = [
         ("lift", style.lift),

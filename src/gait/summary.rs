@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::humanoid::Humanoid;
 use super::plan::{Gait, Walk};
+use super::schedule::Action;
 
 /// A figure at its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,8 +55,8 @@ impl Summary {
         let middles = [&stands[0], &stands[stands.len() - 1]].map(|feet| feet[0].middle(&feet[1]));
         let distance = (middles[1].point() - middles[0].point()).norm();
         let phases = &walk.schedule.phases;
-        let samples = |phases: &[super::Phase]| phases.iter().map(|phase| phase.samples).sum::<usize>();
-        let walking = samples(&phases[1..phases.len() - 1]) as f64 * walk.schedule.tick;
+        let walks = |phase: &&super::Phase| !matches!(phase.action, Action::Rest | Action::Lower | Action::Rise);
+        let walking = phases.iter().filter(walks).map(|phase| phase.samples).sum::<usize>() as f64 * walk.schedule.tick;
         let least = |figure: &dyn Fn(usize) -> f64| extreme(walk, &|sample| -figure(sample), -1.0);
         let slowed = phases.iter().filter(|phase| phase.slowed > 1.0);
         Summary {
@@ -133,6 +134,7 @@ impl fmt::Display for Summary {
         let gait = match self.gait {
             Gait::Seed => "the seed's sine",
             Gait::Preview => "preview control",
+            Gait::OneStep(_) => "one step goal",
         };
         let millimetres = |extreme: &Extreme| format!("{:.1} mm at {:.2} s", 1e3 * extreme.value, extreme.time);
         writeln!(f, "{}: {} steps by {gait}, {:.2} s", self.robot, self.steps, self.duration)?;

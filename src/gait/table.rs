@@ -106,6 +106,9 @@ impl Walk {
                 Action::Rest => ("rest", None),
                 Action::Shift(step) => ("shift", Some(step + 1)),
                 Action::Swing(step) => ("swing", Some(step + 1)),
+                Action::Balance(step) => ("balance", Some(step + 1)),
+                Action::Lower => ("lower", None),
+                Action::Rise => ("rise", None),
             };
             let from = self.time(start);
             start += phase.samples;
@@ -140,7 +143,7 @@ fn summary(summary: &Summary) -> Value {
     let extreme = |extreme: &super::Extreme| json!({ "value": extreme.value, "time": extreme.time });
     let joint = |(name, figure): &(String, super::Extreme)| json!({ "joint": name, "value": figure.value, "time": figure.time });
     json!({
-        "gait": match summary.gait { Gait::Seed => "seed", Gait::Preview => "preview" },
+        "gait": match summary.gait { Gait::Seed => "seed", Gait::Preview => "preview", Gait::OneStep(_) => "osg" },
         "steps": summary.steps,
         "duration": summary.duration,
         "distance": summary.distance,

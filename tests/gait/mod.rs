@@ -13,12 +13,12 @@ use std::sync::OnceLock;
 
 use groebot::Watch;
 use groebot::gait::{
-    Durations, Gait, Humanoid, NaoLegs, Outline, Regular, Request, Route, Side, Style, Walk, nao, plan,
+    Durations, Gait, Humanoid, Legs, Outline, Regular, Request, Route, Side, Style, TICK, Walk, nao, plan,
 };
 
 /// NAO on its measured soles.
-fn robot() -> &'static (Humanoid, NaoLegs) {
-    static ROBOT: OnceLock<(Humanoid, NaoLegs)> = OnceLock::new();
+fn robot() -> &'static (Humanoid, Legs) {
+    static ROBOT: OnceLock<(Humanoid, Legs)> = OnceLock::new();
     ROBOT.get_or_init(|| nao(Outline::Measured).unwrap())
 }
 
@@ -39,6 +39,7 @@ fn request(regular: &Regular) -> Request {
         durations: Durations { rest: 0.3, shift: 0.96, swing: 0.54 },
         margin: 0.01,
         speed_share: 0.9,
+        tick: TICK,
     }
 }
 

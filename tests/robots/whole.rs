@@ -7,7 +7,7 @@ use groebot::robots::{Whole, nao_v5};
 fn nao_has_24_joints_and_weighs_what_its_documentation_says() {
     let nao = nao_v5();
     assert_eq!(nao.links.len(), 24);
-    let mass: f64 = nao.base.mass + nao.links.iter().map(|link| link.weight.mass).sum::<f64>();
+    let mass: f64 = nao.base.mass + nao.links.iter().map(|link| link.weight.unwrap().mass).sum::<f64>();
     assert!((mass - 5.305).abs() < 5e-4, "{mass}");
     let names: Vec<&str> = nao.links.iter().map(|link| link.joint.as_str()).collect();
     assert_eq!(names[..3], ["HeadYaw", "HeadPitch", "LShoulderPitch"]);
@@ -20,7 +20,7 @@ fn left_and_right_are_mirror_images() {
     let nao = nao_v5();
     for link in nao.links.iter().filter(|link| link.joint.starts_with('L')) {
         let other = &nao.links[nao.joint(&link.joint.replacen('L', "R", 1)).unwrap()];
-        let (a, b) = (&link.weight, &other.weight);
+        let (a, b) = (link.weight.unwrap(), other.weight.unwrap());
         assert_eq!((a.mass, a.centre.x, a.centre.z), (b.mass, b.centre.x, b.centre.z), "{}", link.name);
         assert_eq!(a.centre.y, -b.centre.y, "{}", link.name);
         assert_eq!(link.speed, other.speed);
