@@ -39,6 +39,8 @@ pub struct Foot {
     pub link: usize,
     /// The frame of the sole in the torso frame at the zero configuration: x ahead, y left, z up.
     pub torso_from_sole: Pose,
+    /// The height of the ankle's last axis over the sole \[m\].
+    pub ankle_height: f64,
     /// The corners of what touches the floor, in the frame of the sole \[m\].
     pub corners: Vec<Point2<f64>>,
 }
@@ -94,7 +96,7 @@ impl Humanoid {
             joints: whole.links.iter().map(range).collect(),
             shared: whole.shared.clone(),
             body: Multibody::new(base, limbs)?,
-            feet: whole.soles.each_ref().map(|sole| foot(sole, outline)),
+            feet: whole.soles.each_ref().map(|sole| foot(whole, sole, outline)),
         })
     }
 
@@ -145,11 +147,12 @@ fn inertia(weight: &Weight) -> Result<LinkInertia> {
     LinkInertia::new(weight.mass, weight.centre, weight.inertia)
 }
 
-fn foot(sole: &Sole, outline: Outline) -> Foot {
+fn foot(whole: &Whole, sole: &Sole, outline: Outline) -> Foot {
     let [(back, front), (right, left)] = match outline {
         Outline::Measured => sole.measured,
         Outline::Seed => sole.seed,
     };
     let corners = [(back, right), (front, right), (front, left), (back, left)].map(|(x, y)| Point2::new(x, y));
-    Foot { link: sole.link, torso_from_sole: sole.base_from_sole, corners: corners.to_vec() }
+    let ankle_height = whole.links[sole.link].base_from_link.translation.z - sole.base_from_sole.translation.z;
+    Foot { link: sole.link, torso_from_sole: sole.base_from_sole, ankle_height, corners: corners.to_vec() }
 }

@@ -33,7 +33,8 @@ pub struct Motion {
 }
 
 /// Solves the legs for every reference, with the torso moved until the centre of mass of the whole robot is where it is asked to be, and
-/// turned until both legs ask the same of a motor that they share.
+/// turned until both legs ask the same of a motor that they share. `alike` is a motion of nearly the same references, if there is one: it
+/// tells where to look first.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
@@ -41,13 +42,15 @@ pub fn realise(
     humanoid: &Humanoid,
     legs: &Legs,
     references: &[Reference],
+    alike: Option<&Motion>,
     tick: f64,
     watch: &Watch,
 ) -> Result<Motion> {
+    let known = |sample: usize| alike.map_or(Vector3::zeros(), |motion| motion.lead(sample, references[sample].heading));
     let solved = in_parts(references.len(), watch, |samples| {
         let mut pursuit = Pursuit::new(legs);
         samples.map(move |sample| {
-            let centre = pursuit.follow(humanoid, legs, &references[sample]);
+            let centre = pursuit.follow(humanoid, legs, &references[sample], &known(sample));
             let time = sample as f64 * tick;
             let centre = centre.map_err(|error| error.with_context(format!("t = {time:.2} s")))?;
             Ok((pursuit.last.clone(), centre))
@@ -57,13 +60,23 @@ pub fn realise(
     Ok(Motion { postures, centres })
 }
 
+impl Motion {
+    /// How far the torso is ahead of the centre of mass in x and y, and of `heading`.
+    fn lead(&self, sample: usize, heading: f64) -> Vector3<f64> {
+        let torso = &self.postures[sample].world_from_torso;
+        let apart = torso.translation.vector - self.centres[sample].coords;
+        let ahead = torso.rotation * Vector3::x();
+        Vector3::new(apart.x, apart.y, angle::difference(ahead.y.atan2(ahead.x), heading))
+    }
+}
+
 /// The torso on the way: where it was, and how centre of mass and legs answer to it.
 ///
 /// The unknowns are x, y and heading of the torso; to be zero are the miss of the centre of mass in x and y and the legs' disagreement.
 struct Pursuit {
     /// The posture at the last sample.
     last: Posture,
-    /// How far the torso was from the reference at up to four last samples, the latest first.
+    /// How far the torso was from where it was known to be at up to four last samples, the latest first.
     leads: Vec<Vector3<f64>>,
     /// How far the torso must move for a change of what is to be zero: the inverse Jacobian, kept up by Broyden's rule (1965).
     inverse: Option<Matrix3<f64>>,
@@ -74,9 +87,15 @@ impl Pursuit {
         Pursuit { last: legs.crouch(), leads: Vec::new(), inverse: None }
     }
 
-    /// Moves the torso to where `reference` asks for it; returns the centre of mass.
-    fn follow(&mut self, humanoid: &Humanoid, legs: &Legs, reference: &Reference) -> Result<Point3<f64>> {
-        let origin = Vector3::new(reference.centre.x, reference.centre.y, reference.heading);
+    /// Moves the torso to where `reference` asks for it, by about `known` from there; returns the centre of mass.
+    fn follow(
+        &mut self,
+        humanoid: &Humanoid,
+        legs: &Legs,
+        reference: &Reference,
+        known: &Vector3<f64>,
+    ) -> Result<Point3<f64>> {
+        let origin = Vector3::new(reference.centre.x, reference.centre.y, reference.heading) + known;
         let mut torso = origin + self.guess();
         let mut before: Option<(Vector3<f64>, Vector3<f64>)> = None;
         for _ in 0..MOST_CORRECTIONS {
@@ -131,7 +150,7 @@ impl Pursuit {
         Ok(Matrix3::from_diagonal(&diagonal))
     }
 
-    /// How far the torso will be from the reference: by the cubic through the last four samples.
+    /// How far the torso will be from where it is known to be: by the cubic through the last four samples.
     fn guess(&self) -> Vector3<f64> {
         match self.leads[..] {
             [] => Vector3::zeros(),

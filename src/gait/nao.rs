@@ -3,6 +3,7 @@
 use super::footprint::Side;
 use super::humanoid::{Humanoid, Outline};
 use super::legs::Legs;
+use super::one_step::{Laws, OneStep};
 use super::plan::{Gait, TICK};
 use super::usual::Usual;
 use crate::{Result, robots};
@@ -51,6 +52,16 @@ pub const NAO_SEED: Usual = Usual {
     speed_share: 0.9,
     most_turn: 0.0,
     tick: TICK,
+};
+
+/// One step goal by the generic laws of RH0 3.3, on a circle of 10 mm about the ankle.
+pub const NAO_ONE_STEP: Usual = Usual {
+    gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.001, pitch: 0.0, upright: None }),
+    amplitude: 0.04,
+    period: 2.4,
+    rest: 0.0,
+    most_turn: 0.1,
+    ..NAO_SEED
 };
 
 /// Preview control.

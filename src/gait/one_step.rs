@@ -38,8 +38,6 @@ pub struct OneStep {
     pub dip: f64,
     /// How far the swinging foot is pitched at its highest, toes down: 20 degrees in RH0 (3-47).
     pub pitch: f64,
-    /// The height of the ankle's axes over the sole: the foot is pitched about them.
-    pub ankle_height: f64,
     /// The torso's height before it is lowered for the first step and when it has risen behind the last; `None` starts and ends crouched.
     pub upright: Option<f64>,
 }
@@ -56,7 +54,8 @@ impl OneStep {
         }
     }
 
-    /// What is asked at the share `share` of phase `place`, which begins with the feet at `feet`.
+    /// What is asked at the share `share` of phase `place`, which begins with the feet at `feet`; a foot is pitched about its ankle,
+    /// `ankle_height` \[m\] over the sole.
     pub fn reference(
         &self,
         style: &Style,
@@ -64,9 +63,10 @@ impl OneStep {
         place: usize,
         feet: &[Footprint; 2],
         share: f64,
+        ankle_height: f64,
     ) -> Reference {
         let phase = &schedule.phases[place];
-        let (world_from_soles, stands) = self.soles(style, schedule, phase.action, feet, share);
+        let (world_from_soles, stands) = self.soles(style, schedule, phase.action, feet, (share, ankle_height));
         let trunk = self.trunk(style, schedule, phase.action, &world_from_soles, share);
         let torso_height = self.height(style, phase, share);
         Reference { phase: place, world_from_soles, stands, centre: trunk.point(), torso_height, heading: trunk.yaw }
@@ -170,7 +170,7 @@ impl OneStep {
         schedule: &Schedule,
         action: Action,
         feet: &[Footprint; 2],
-        share: f64,
+        (share, ankle_height): (f64, f64),
     ) -> ([Pose; 2], [bool; 2]) {
         let mut poses = feet.map(|print| print.at_height(0.0));
         let mut stands = [true; 2];
@@ -179,7 +179,7 @@ impl OneStep {
             let along = smooth(share);
             let lift = (1.0 + (PI * (2.0 * along - 1.0)).cos()) / 2.0;
             let print = feet[step.side as usize].towards(&step.print, along);
-            let ankle = Vector3::z() * self.ankle_height;
+            let ankle = Vector3::z() * ankle_height;
             let pitched = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), self.pitch * lift);
             let about_ankle = Pose::from_parts((ankle - pitched * ankle).into(), pitched);
             poses[step.side as usize] = print.at_height(style.lift * lift) * about_ankle;

@@ -90,8 +90,8 @@ pub struct Walk {
 impl Walk {
     /// The time of a sample \[s\].
     pub fn time(&self, sample: usize) -> f64 {
-        // Dividing keeps decimals such as 0.07 as they are written.
-        sample as f64 / (1.0 / self.schedule.tick).round()
+        // Rounding to nanoseconds keeps decimals such as 0.07 and 0.108 as they are written.
+        (sample as f64 * self.schedule.tick * 1e9).round() / 1e9
     }
 }
 
@@ -113,12 +113,12 @@ pub fn plan(humanoid: &Humanoid, legs: &Legs, request: &Request, watch: &Watch) 
                 format!("the walk would last {:.0} s; walk fewer steps or faster", schedule.samples() as f64 * request.tick);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let mut references = references(request, &schedule);
+        let mut references = references(humanoid, request, &schedule);
         if let Some(found) = feet_meet(humanoid, &schedule, &references) {
             return Err(refusal::of(humanoid, &schedule, request, &found));
         }
         let (motion, balances) = match request.gait {
-            Gait::Seed | Gait::OneStep(_) => moved(humanoid, legs, request, &references, watch)?,
+            Gait::Seed | Gait::OneStep(_) => moved(humanoid, legs, request, &references, None, watch)?,
             Gait::Preview => preview::moved(humanoid, legs, request, &schedule, &mut references, watch)?,
         };
         let demand =
@@ -140,22 +140,24 @@ pub(super) fn moved(
     legs: &Legs,
     request: &Request,
     references: &[Reference],
+    alike: Option<&Motion>,
     watch: &Watch,
 ) -> Result<(Motion, Vec<Balance>)> {
-    let motion = realise(humanoid, legs, references, request.tick, watch)?;
+    let motion = realise(humanoid, legs, references, alike, request.tick, watch)?;
     let balances = balance(humanoid, references, &motion, request.tick)?;
     Ok((motion, balances))
 }
 
 /// What is asked of feet and torso at each sample, for preview control with the seed's law for the centre of mass.
-fn references(request: &Request, schedule: &Schedule) -> Vec<Reference> {
+fn references(humanoid: &Humanoid, request: &Request, schedule: &Schedule) -> Vec<Reference> {
+    let ankle_height = humanoid.feet[0].ankle_height;
     let style = &request.style;
     let stands = schedule.route.stands();
     let reference = |(phase, share): (usize, f64)| {
         let action = schedule.phases[phase].action;
         let feet = Schedule::feet(&stands, action, phase == 0);
         if let Gait::OneStep(one_step) = &request.gait {
-            return one_step.reference(style, schedule, phase, &feet, share);
+            return one_step.reference(style, schedule, phase, &feet, share, ankle_height);
         }
         let (world_from_soles, standing) = soles(style, schedule, action, &feet, share);
         let centre: Point2<f64> = seed_centre(style, schedule, action, &feet, share);

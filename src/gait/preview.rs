@@ -153,16 +153,18 @@ pub(super) fn moved(
             zmp_reference(&request.style, schedule, action, &feet, share)
         })
         .collect();
-    let resting = realised(humanoid, legs, request, &references[..1], watch)?;
+    let resting = realised(humanoid, legs, request, &references[..1], None, watch)?;
     let preview = Preview::new(resting.0.centres[0].z, request.tick)?;
     let follow = |way: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
         let [x, y] = [0, 1].map(|axis| preview.follow(&way.iter().map(|point| point[axis]).collect::<Vec<_>>()));
         x.into_iter().zip(y).map(|(x, y)| Vector2::new(x, y)).collect()
     };
     let mut centres = follow(&wanted.iter().map(|point| point.coords).collect::<Vec<_>>());
+    let mut alike: Option<Motion> = None;
     for _ in 0..FEEDBACKS {
         aim(references, &centres);
-        let (_, balances) = realised(humanoid, legs, request, references, watch)?;
+        let (motion, balances) = realised(humanoid, legs, request, references, alike.as_ref(), watch)?;
+        alike = Some(motion);
         let missing: Vec<Vector2<f64>> =
             wanted.iter().zip(&balances).map(|(wanted, balance)| wanted - balance.zmp).collect();
         for (centre, correction) in centres.iter_mut().zip(follow(&missing)) {
@@ -170,7 +172,7 @@ pub(super) fn moved(
         }
     }
     aim(references, &centres);
-    realised(humanoid, legs, request, references, watch)
+    realised(humanoid, legs, request, references, alike.as_ref(), watch)
 }
 
 /// Asks the references for these centres of mass.

@@ -37,6 +37,11 @@ const HIP_TO_TRUNK: f64 = 0.0265;
 const CENTRE_HEIGHT: f64 = 0.58;
 /// `W_p`, half of the way from foot to foot \[m\]: RH0 5.3.1.
 const HALF_WIDTH: f64 = 0.112;
+/// Heights of the hip over the floor that are tried in turn \[m\]: `H_CM`, and up to 3 mm less where that is out of reach (6.2.1).
+const HIP_HEIGHTS: [f64; 4] = {
+    let height = ANKLE_HEIGHT + CENTRE_HEIGHT - HIP_TO_TRUNK;
+    [height, height - 0.001, height - 0.002, height - 0.003]
+};
 /// The time between two samples in the simulations and in the experiments \[s\]: RH0 5.3.1, 6.2.1.
 const TICKS: [f64; 2] = [0.036, 0.072];
 /// The samples of a step in the simulations and in the experiments: RH0 5.3.1, 6.2.1.
@@ -48,7 +53,6 @@ pub const RH0_SIMULATION: Usual = Usual {
         laws: Laws::Rh0 { power: 4.0 },
         dip: 0.004,
         pitch: PI / 9.0,
-        ankle_height: ANKLE_HEIGHT,
         upright: None,
     }),
     length: 0.16,
@@ -56,15 +60,32 @@ pub const RH0_SIMULATION: Usual = Usual {
     // RA_AS = 0.06 m: so far from the middle of the standing sole the centre of mass is over it.
     amplitude: HALF_WIDTH - 0.06,
     ahead: 0.0,
-    hip_heights: &[ANKLE_HEIGHT + CENTRE_HEIGHT - HIP_TO_TRUNK],
+    hip_heights: &HIP_HEIGHTS,
     period: SAMPLES[0] * TICKS[0],
-    double_support: 0.4,
+    // Of 81 samples 17 + 17: the share from which on the zero moment point stays inside, with a knee slower than 25 rpm.
+    double_support: 0.42,
     rest: 0.0,
     margin: 0.0,
     speed_share: 1.0,
     most_turn: PI / 12.0,
     tick: TICKS[0],
 };
+
+/// RH0 by the generic laws of RH0 3.3.
+pub const RH0_GENERIC: Usual = Usual {
+    gait: Gait::OneStep(OneStep {
+        laws: Laws::Generic,
+        dip: 0.004,
+        pitch: PI / 9.0,
+        upright: None,
+    }),
+    hip_heights: &LOWER_HIP_HEIGHTS,
+    double_support: 0.5,
+    ..RH0_SIMULATION
+};
+
+/// Heights of the hip for the generic laws, which want longer legs \[m\].
+const LOWER_HIP_HEIGHTS: [f64; 5] = [0.6435, 0.635, 0.625, 0.615, 0.6];
 
 /// RH0 6.2: walks of the robot itself.
 pub const RH0_EXPERIMENT: Usual = Usual {

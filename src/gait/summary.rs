@@ -26,6 +26,10 @@ pub struct Summary {
     pub steps: usize,
     /// How long the walk lasts, rests included \[s\].
     pub duration: f64,
+    /// How long it steps: without rests, lowering and rising \[s\].
+    pub stepping: f64,
+    /// Whether the mass model is a point at the torso's centre of mass.
+    pub is_point_mass: bool,
     /// How far the middle of the feet gets \[m\].
     pub distance: f64,
     /// How far the middle of the feet turns \[rad\].
@@ -64,6 +68,8 @@ impl Summary {
             gait: walk.request.gait,
             steps: walk.schedule.route.steps.len(),
             duration: walk.time(walk.balances.len() - 1),
+            stepping: walking,
+            is_point_mass: humanoid.is_point_mass,
             distance,
             turn: middles[1].yaw - middles[0].yaw,
             torso_height: walk.request.style.torso_height,
@@ -137,7 +143,11 @@ impl fmt::Display for Summary {
             Gait::OneStep(_) => "one step goal",
         };
         let millimetres = |extreme: &Extreme| format!("{:.1} mm at {:.2} s", 1e3 * extreme.value, extreme.time);
-        writeln!(f, "{}: {} steps by {gait}, {:.2} s", self.robot, self.steps, self.duration)?;
+        writeln!(
+            f,
+            "{}: {} steps by {gait}, {:.2} s, {:.2} s of them steps",
+            self.robot, self.steps, self.duration, self.stepping
+        )?;
         writeln!(
             f,
             "  way             {:.3} m, turn {:.1} deg, {:.1} cm/s between the rests, torso {:.3} m high",
@@ -146,6 +156,9 @@ impl fmt::Display for Summary {
             100.0 * self.speed,
             self.torso_height
         )?;
+        if self.is_point_mass {
+            writeln!(f, "  mass            a point at the trunk: the masses of the links are not known")?;
+        }
         writeln!(f, "  least margin    {} (ZMP, RH0 (3-5))", millimetres(&self.margin))?;
         writeln!(f, "  static margin   {} (centre of mass, RH0 (3-1))", millimetres(&self.static_margin))?;
         writeln!(f, "  pendulum's ZMP  off by {} at most", millimetres(&self.pendulum_error))?;

@@ -129,7 +129,7 @@ impl Walk {
 }
 
 /// Nine decimals, without a negative zero.
-fn decimal(value: f64) -> String {
+pub(super) fn decimal(value: f64) -> String {
     let text = format!("{value:.9}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }
@@ -146,6 +146,8 @@ fn summary(summary: &Summary) -> Value {
         "gait": match summary.gait { Gait::Seed => "seed", Gait::Preview => "preview", Gait::OneStep(_) => "osg" },
         "steps": summary.steps,
         "duration": summary.duration,
+        "stepping": summary.stepping,
+        "point_mass": summary.is_point_mass,
         "distance": summary.distance,
         "turn": summary.turn,
         "torso_height": summary.torso_height,

@@ -1,10 +1,15 @@
 //! The figures that a robot's gait has unless others are given. Main type: [`Usual`].
 
-use super::humanoid::Humanoid;
-use super::plan::{Gait, Request};
-use super::reference::Style;
 use super::footprint::Route;
+use super::humanoid::{Humanoid, Outline};
+use super::legs::Legs;
+use super::nao::{NAO_ONE_STEP, NAO_PREVIEW, NAO_SEED, nao};
+use super::plan::{Gait, Request, Walk, plan};
+use super::reference::Style;
+use super::rh0::{RH0_EXPERIMENT, RH0_GENERIC, RH0_SIMULATION, rh0};
 use super::schedule::Durations;
+use super::teo::{TEO_ONE_STEP, teo};
+use crate::{ErrorKind, Result, Watch};
 
 /// The usual figures of a gait. Metres, seconds, radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +40,63 @@ pub struct Usual {
     pub most_turn: f64,
     /// The time between two samples.
     pub tick: f64,
+}
+
+/// A robot that can walk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Walker {
+    /// NAO V5.
+    Nao,
+    /// RH0.
+    Rh0,
+    /// TEO.
+    Teo,
+}
+
+impl Walker {
+    /// The robot and the solver of its legs.
+    ///
+    /// # Errors
+    /// None with the crate's own data.
+    pub fn build(self, outline: Outline) -> Result<(Humanoid, Legs)> {
+        match self {
+            Walker::Nao => nao(outline),
+            Walker::Rh0 => rh0(outline),
+            Walker::Teo => teo(outline),
+        }
+    }
+
+    /// The gaits that the robot walks, by name, its own first, each with its usual figures.
+    pub fn gaits(self) -> &'static [(&'static str, Usual)] {
+        match self {
+            Walker::Nao => &[("seed", NAO_SEED), ("preview", NAO_PREVIEW), ("osg", NAO_ONE_STEP)],
+            Walker::Rh0 => &[("rh0", RH0_SIMULATION), ("rh0-real", RH0_EXPERIMENT), ("osg", RH0_GENERIC)],
+            Walker::Teo => &[("osg", TEO_ONE_STEP)],
+        }
+    }
+}
+
+/// The walk at `hip_height` \[m\], or at the first of `heights` at which it can be walked; `request` makes the request for a height.
+///
+/// # Errors
+/// As [`plan`]; that of the first height when it can be walked at none.
+pub fn plan_at(
+    (humanoid, legs): (&Humanoid, &Legs),
+    hip_height: Option<f64>,
+    heights: &[f64],
+    request: impl Fn(f64) -> Result<Request>,
+    watch: &Watch,
+) -> Result<Walk> {
+    let walk = |height: f64| plan(humanoid, legs, &request(height)?, watch);
+    let Some(height) = hip_height.or(heights.first().copied()) else {
+        return Err(crate::Error::new(ErrorKind::BadValue, "give the height of the hip"));
+    };
+    let first = walk(height);
+    let is_refused = |walk: &Result<Walk>| walk.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue);
+    if hip_height.is_some() || !is_refused(&first) {
+        return first;
+    }
+    heights[1..].iter().map(|height| walk(*height)).find(|walk| !is_refused(walk)).unwrap_or(first)
 }
 
 impl Usual {

@@ -1,7 +1,13 @@
 //! Walks in words, RH0 3.5.1: `out right, stride left, stride right, in left`, `turn left 90`. Main type: [`Word`].
 
+use nalgebra::Point2;
+
 use super::footprint::{Footprint, Footstep, MAX_STEPS, Route, Side};
+use crate::spatial::angle;
 use crate::{Error, ErrorKind, Result};
+
+/// How near to its goal a walk ends \[m\].
+const ARRIVED: f64 = 1e-3;
 
 /// A part of a walk: one of the four kinds of steps of RH0 3.5.1, or a turn by as many as it takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,24 +83,68 @@ impl Route {
     /// [`ErrorKind::BadValue`] when a word does not fit to where the feet are, there are no words or too many steps, or a measure is not
     /// finite and positive.
     pub fn of_words(words: &[Word], measures: &Measures) -> Result<Self> {
-        let Measures { length, half_width, most_turn } = *measures;
-        if ![length, half_width, most_turn].iter().all(|value| value.is_finite() && *value > 0.0) {
-            return Err(bad("the length, the width and the greatest turn of a step must be positive numbers"));
-        }
-        let middle = Footprint::default();
-        let mut traveller =
-            Traveller { measures: *measures, middle, ahead: [0.0; 2], steps: Vec::new(), rests: vec![middle] };
-        let start = [Side::Left, Side::Right].map(|side| traveller.beside(side));
+        let mut traveller = Traveller::new(measures)?;
+        let start = traveller.level();
         for (place, word) in words.iter().enumerate() {
             traveller.go(word).map_err(|error| error.with_context(format!("word {}", place + 1)))?;
         }
-        let mut route = Route::new(start, traveller.steps)?;
-        route.rests = traveller.rests;
+        traveller.route(start)
+    }
+
+    /// One step after the other towards `goal` \[m\], seen from level feet about the origin: each turns the robot to it as far as
+    /// `most_turn` lets it, leads up to a length ahead, and the last one closes the feet, RH0 3.3.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when the goal is not finite or too far, or a measure is not finite and positive.
+    pub fn towards(goal: &Point2<f64>, first: Side, measures: &Measures) -> Result<Self> {
+        let mut traveller = Traveller::new(measures)?;
+        if !goal.iter().all(|x| x.is_finite()) {
+            return Err(bad("the goal must be two finite numbers"));
+        }
+        let start = traveller.level();
+        let mut side = first;
+        loop {
+            let way = goal - traveller.middle.point();
+            if way.norm() < ARRIVED {
+                break;
+            }
+            let bearing = angle::difference(way.y.atan2(way.x), traveller.middle.yaw);
+            let yaw = bearing.clamp(-measures.most_turn, measures.most_turn);
+            let advance = (way.norm() * (bearing - yaw).cos()).clamp(0.0, measures.length);
+            let turned = traveller.middle.then(&Footprint { yaw, ..Footprint::default() });
+            traveller.middle = turned.then(&Footprint { x: advance, ..Footprint::default() });
+            traveller.land(side)?;
+            side = side.other();
+        }
+        traveller.land(side)?;
+        let mut route = traveller.route(start)?;
+        // A foot that goes ahead leaves the robot half-way between both.
+        route.rests = route.stands().iter().map(|feet| feet[0].middle(&feet[1])).collect();
         Ok(route)
     }
 }
 
 impl Traveller {
+    fn new(measures: &Measures) -> Result<Self> {
+        let Measures { length, half_width, most_turn } = *measures;
+        if ![length, half_width, most_turn].iter().all(|value| value.is_finite() && *value > 0.0) {
+            return Err(bad("the length, the width and the greatest turn of a step must be positive numbers"));
+        }
+        let middle = Footprint::default();
+        Ok(Traveller { measures: *measures, middle, ahead: [0.0; 2], steps: Vec::new(), rests: vec![middle] })
+    }
+
+    /// Both feet beside the middle.
+    fn level(&self) -> [Footprint; 2] {
+        [Side::Left, Side::Right].map(|side| self.beside(side))
+    }
+
+    fn route(self, start: [Footprint; 2]) -> Result<Route> {
+        let mut route = Route::new(start, self.steps)?;
+        route.rests = self.rests;
+        Ok(route)
+    }
+
     fn go(&mut self, word: &Word) -> Result<()> {
         let half = self.measures.length / 2.0;
         let level = self.ahead == [0.0; 2];
