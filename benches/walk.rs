@@ -7,7 +7,7 @@ use groebot::Watch;
 use groebot::gait::{Humanoid, NAO_PREVIEW, NAO_SEED, Outline, Regular, Request, Route, Side, Usual, nao, plan};
 
 fn request(usual: &Usual, robot: &Humanoid, length: f64, turn: f64) -> Request {
-    let regular = Regular { steps: 8, length, turn, half_width: robot.half_width(), first: Side::Left };
+    let regular = Regular { steps: 8, length, aside: 0.0, turn, half_width: robot.half_width(), first: Side::Left };
     usual.request(robot, Route::regular(&regular).expect("eight steps"), usual.hip_heights[0])
 }
 

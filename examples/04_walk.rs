@@ -7,7 +7,14 @@ use groebot::{Result, Watch};
 
 fn main() -> Result<()> {
     let (robot, legs) = nao(Outline::Measured)?;
-    let route = Route::regular(&Regular { steps: 8, length: 0.04, turn: 0.0, half_width: 0.05, first: Side::Left })?;
+    let route = Route::regular(&Regular {
+        steps: 8,
+        length: 0.04,
+        turn: 0.0,
+        aside: 0.0,
+        half_width: 0.05,
+        first: Side::Left,
+    })?;
     let request = NAO_SEED.request(&robot, route, NAO_SEED.hip_heights[0]);
     let walk = plan(&robot, &legs, &request, &Watch::none())?;
     print!("{}", Summary::of(&robot, &walk));

@@ -20,6 +20,7 @@ const FOOTSTEPS_LIMIT: u64 = 4_000_000;
 const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
   groebot walk nao --steps 8 --length 0 --turn 40 -o turn.csv
+  groebot walk nao --steps 8 --length 0 --aside 0.02
   groebot walk nao --steps 12 --gait preview -o dynamic.csv
   groebot walk nao --footsteps steps.csv -o curve.json
   groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --thesis joints.csv
@@ -88,6 +89,9 @@ pub struct Arguments {
     /// x_d, L_p: how far ahead of the standing foot the other one lands [m]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, conflicts_with = "footsteps")]
     length: Option<f64>,
+    /// How far the foot on that side steps to the left each time; the other one follows [m]
+    #[arg(long, default_value_t = 0.0, value_name = "METRES", allow_hyphen_values = true, conflicts_with = "way")]
+    aside: f64,
     /// The turn of the whole walk, anticlockwise [degrees]
     #[arg(long, default_value_t = 0.0, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with = "way")]
     turn: f64,
@@ -242,7 +246,9 @@ impl Arguments {
         let Gait::OneStep(one_step) = gait else {
             return match (self.dip, self.power, self.crouched) {
                 (None, None, false) => Ok(()),
-                _ => Err(bad("--dip, --power and --crouched are for one step goal: --gait osg, rh0 or rh0-real".into())),
+                _ => {
+                    Err(bad("--dip, --power and --crouched are for one step goal: --gait osg, rh0 or rh0-real".into()))
+                }
             };
         };
         one_step.dip = self.dip.unwrap_or(one_step.dip);
@@ -255,11 +261,9 @@ impl Arguments {
     }
 
     fn request(&self, usual: &Usual, humanoid: &Humanoid, hip_height: f64) -> Result<Request> {
-        let mut request = usual.request(humanoid, self.route(usual, humanoid.half_width())?, hip_height);
-        if let Gait::OneStep(one_step) = &mut request.gait {
-            one_step.upright = (!self.crouched).then(|| humanoid.upright());
-        }
-        Ok(request)
+        let route = self.route(usual, humanoid.half_width())?;
+        let usual = if self.crouched { *usual } else { usual.from_upright(humanoid) };
+        Ok(usual.request(humanoid, route, hip_height))
     }
 
     fn route(&self, usual: &Usual, half_width: f64) -> Result<Route> {
@@ -281,7 +285,7 @@ impl Arguments {
             None => {}
         }
         let turn = self.turn.to_radians();
-        Route::regular(&Regular { steps: self.steps, length: usual.length, turn, half_width, first })
+        Route::regular(&Regular { steps: self.steps, length: usual.length, aside: self.aside, turn, half_width, first })
     }
 
     fn write(&self, humanoid: &Humanoid, walk: &Walk) -> Result<()> {

@@ -16,6 +16,8 @@ const PLOT: (f64, f64) = (360.0, 110.0);
 const COLUMNS: usize = 3;
 /// The height of the view of the paths.
 const PATHS: f64 = 260.0;
+/// A path that is smaller than this is not drawn larger \[m\].
+const LEAST_PATH: f64 = 0.01;
 /// How far a metre to the left is drawn to the right and up.
 const LEFTWARDS: (f64, f64) = (0.35, 0.3);
 /// What is left free around the footprints \[m\].
@@ -137,27 +139,16 @@ impl Walk {
     /// The paths of ankles and trunk in space, seen aslant from the right: RH0 Fig. 5-14, 5-20.
     fn draw_paths(&self, humanoid: &Humanoid, top: f64, svg: &mut Svg) {
         let aslant = |at: Vector3<f64>| Point2::new(at.x + LEFTWARDS.0 * at.y, at.z + LEFTWARDS.1 * at.y);
-        let ankle = |side: Side| {
+        let ankle = |side: Side| -> Vec<Point2<f64>> {
             let up = Point3::new(0.0, 0.0, humanoid.feet[side as usize].ankle_height);
-            self.references.iter().map(move |reference| (reference.world_from_soles[side as usize] * up).coords)
+            let soles = self.references.iter().map(|reference| reference.world_from_soles[side as usize]);
+            soles.map(|sole| aslant((sole * up).coords)).collect()
         };
-        let torso = self.motion.postures.iter().map(|posture| posture.world_from_torso.translation.vector);
-        let paths: [(&str, Vec<Point2<f64>>); 3] = [
-            ("left-path", ankle(Side::Left).map(aslant).collect()),
-            ("right-path", ankle(Side::Right).map(aslant).collect()),
-            ("com", torso.map(aslant).collect()),
-        ];
-        let (mut low, mut high) = (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
-        for point in paths.iter().flat_map(|(_, path)| path) {
-            (low, high) = (low.inf(point), high.sup(point));
-        }
-        let scale = ((WIDTH - 2.0 * MARGIN) / (high.x - low.x).max(ROOM)).min((PATHS - 40.0) / (high.y - low.y).max(ROOM));
-        let text = format!("paths of ankles and trunk aslant from the right; 1 m is {scale:.0} pixels");
-        svg.text(MARGIN, top, &text);
-        for (class, path) in &paths {
-            let points = path.iter().map(|at| (MARGIN + (at.x - low.x) * scale, top + 16.0 + (high.y - at.y) * scale));
-            svg.line(class, points);
-        }
+        let torso = self.motion.postures.iter().map(|posture| aslant(posture.world_from_torso.translation.vector));
+        let feet = [("left-path", ankle(Side::Left)), ("right-path", ankle(Side::Right))];
+        let half = WIDTH / 2.0 - 1.5 * MARGIN;
+        draw_path("ankles", &feet, (MARGIN, top), half, svg);
+        draw_path("trunk", &[("com", torso.collect())], (WIDTH / 2.0 + MARGIN / 2.0, top), half, svg);
     }
 
     /// A joint in time against its limits; limits far away are beyond the frame.
@@ -188,6 +179,24 @@ impl Walk {
             svg.line("limit", [at(0.0, limit), at(end, limit)].into_iter());
         }
         svg.line("joint", values.iter().enumerate().map(|(sample, value)| at(self.time(sample), *value)));
+    }
+}
+
+/// Paths in a frame of the width `width` at `corner`, in one scale for both axes.
+fn draw_path(name: &str, paths: &[(&str, Vec<Point2<f64>>)], corner: (f64, f64), width: f64, svg: &mut Svg) {
+    let (mut low, mut high) = (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
+    for point in paths.iter().flat_map(|(_, path)| path) {
+        (low, high) = (low.inf(point), high.sup(point));
+    }
+    let size = high - low;
+    let scale = (width / size.x.max(LEAST_PATH)).min((PATHS - 40.0) / size.y.max(LEAST_PATH));
+    svg.text(corner.0, corner.1, &format!("{name} aslant from the right; 1 m is {scale:.0} pixels"));
+    for (class, path) in paths {
+        let points = path.iter();
+        svg.line(
+            class,
+            points.map(|at| (corner.0 + (at.x - low.x) * scale, corner.1 + 16.0 + (high.y - at.y) * scale)),
+        );
     }
 }
 

@@ -4,10 +4,10 @@ use nalgebra::{Point2, Point3};
 
 use super::footprint::{Footprint, Side};
 use super::polygon::Polygon;
+use crate::Result;
 use crate::dynamics::{Body, Limb, LinkInertia, Multibody};
 use crate::robots::{Sole, Weight, Whole, place_of};
 use crate::spatial::Pose;
-use crate::Result;
 
 /// Which outline the soles have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -116,11 +116,6 @@ impl Humanoid {
     /// From the axes of the hip up to the origin of the torso \[m\]: HipOffsetZ of NAO Table 6.1.
     pub fn hip_to_torso(&self) -> f64 {
         -self.hips[0].z
-    }
-
-    /// The height of the torso's origin over the floor when the robot stands with straight legs \[m\].
-    pub fn upright(&self) -> f64 {
-        -self.feet[0].torso_from_sole.translation.z
     }
 
     /// What the foot of `side` covers when its sole stands flat on `print`.

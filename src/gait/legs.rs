@@ -54,6 +54,28 @@ fn solver(name: &str) -> Option<Solver> {
     })
 }
 
+/// All solutions of the printed solver of the chain `name` for the pose of its tip in its root.
+///
+/// # Errors
+/// [`ErrorKind::UnknownName`] when no solver of that name is built in, [`ErrorKind::BadValue`] when the pose is not finite.
+pub(super) fn answers(name: &str, root_from_tip: &Pose) -> Result<Vec<LegValues>> {
+    let missing = || Error::new(ErrorKind::UnknownName, format!("no derived solver of `{name}` is built in"));
+    let mut found = Vec::new();
+    let solved = solver(name).ok_or_else(missing)?(&numbers(root_from_tip, 1.0), &mut |q| found.push(*q));
+    solved.ok_or_else(|| Error::new(ErrorKind::BadValue, "the pose is not finite"))?;
+    Ok(found)
+}
+
+/// What a solver is asked for a pose: position, then the rotation by rows; of its mirror image in y = 0 when `mirror` is -1.
+fn numbers(pose: &Pose, mirror: f64) -> [f64; 12] {
+    let (p, r) = (pose.translation.vector, pose.rotation.to_rotation_matrix().into_inner());
+    let mirror = Vector3::new(1.0, mirror, 1.0);
+    std::array::from_fn(|place| match place.checked_sub(3) {
+        None => p[place] * mirror[place],
+        Some(entry) => r[(entry / 3, entry % 3)] * mirror[entry / 3] * mirror[entry % 3],
+    })
+}
+
 /// A knee that is bent less than this against its sense counts as straight \[rad\].
 const STRAIGHT: f64 = 1e-6;
 
@@ -168,7 +190,8 @@ impl Leg {
         let no_solver = || unknown(format!("no derived solver of `{}` is built in", limb.chain));
         let solve = solver(&limb.chain).filter(|_| limb.joints.len() == 6).ok_or_else(no_solver)?;
         let no_knee = || unknown(format!("{}: no joint has `{knee}` in its name", limb.chain));
-        let place = limb.joints.iter().position(|joint| whole.links[*joint].joint.contains(knee)).ok_or_else(no_knee)?;
+        let place =
+            limb.joints.iter().position(|joint| whole.links[*joint].joint.contains(knee)).ok_or_else(no_knee)?;
         Ok(Leg {
             side,
             solve,
@@ -211,16 +234,7 @@ impl Leg {
         } else {
             root.inv_mul(&(torso_from_sole * self.sole_from_base * self.limb.base_from_tip))
         };
-        let (mut p, r) = (pose.translation.vector, pose.rotation.to_rotation_matrix().into_inner());
-        let mut turn = [0.0; 9];
-        let mirror = Vector3::new(1.0, if self.limb.mirrored { -1.0 } else { 1.0 }, 1.0);
-        p.component_mul_assign(&mirror);
-        for (place, entry) in turn.iter_mut().enumerate() {
-            let (row, column) = (place / 3, place % 3);
-            *entry = r[(row, column)] * mirror[row] * mirror[column];
-        }
-        let [a, b, c, d, e, f, g, h, i] = turn;
-        [p.x, p.y, p.z, a, b, c, d, e, f, g, h, i]
+        numbers(&pose, if self.limb.mirrored { -1.0 } else { 1.0 })
     }
 
     /// The values of this leg's joints for an answer of the solver.

@@ -46,7 +46,8 @@ pub fn realise(
     tick: f64,
     watch: &Watch,
 ) -> Result<Motion> {
-    let known = |sample: usize| alike.map_or(Vector3::zeros(), |motion| motion.lead(sample, references[sample].heading));
+    let known =
+        |sample: usize| alike.map_or(Vector3::zeros(), |motion| motion.lead(sample, references[sample].heading));
     let solved = in_parts(references.len(), watch, |samples| {
         let mut pursuit = Pursuit::new(legs);
         samples.map(move |sample| {

@@ -45,6 +45,7 @@ pub const NAO_SEED: Usual = Usual {
     amplitude: 0.05,
     ahead: 0.005,
     hip_heights: &HIP_HEIGHTS,
+    upright_hip: 0.24,
     period: 1.6,
     double_support: 0.66,
     rest: 0.5,
@@ -65,12 +66,5 @@ pub const NAO_ONE_STEP: Usual = Usual {
 };
 
 /// Preview control.
-pub const NAO_PREVIEW: Usual = Usual {
-    gait: Gait::Preview,
-    length: 0.05,
-    lift: 0.03,
-    period: 0.8,
-    double_support: 0.3,
-    rest: 1.5,
-    ..NAO_SEED
-};
+pub const NAO_PREVIEW: Usual =
+    Usual { gait: Gait::Preview, length: 0.05, lift: 0.03, period: 0.8, double_support: 0.3, rest: 1.5, ..NAO_SEED };

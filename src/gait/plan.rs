@@ -109,8 +109,10 @@ pub fn plan(humanoid: &Humanoid, legs: &Legs, request: &Request, watch: &Watch) 
     loop {
         let schedule = Schedule::new(request.route.clone(), &actions, &request.durations, &slowed, request.tick);
         if schedule.samples() > MOST_SAMPLES {
-            let text =
-                format!("the walk would last {:.0} s; walk fewer steps or faster", schedule.samples() as f64 * request.tick);
+            let text = format!(
+                "the walk would last {:.0} s; walk fewer steps or faster",
+                schedule.samples() as f64 * request.tick
+            );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let mut references = references(humanoid, request, &schedule);

@@ -33,6 +33,8 @@ pub fn rh0(outline: Outline) -> Result<(Humanoid, Legs)> {
 const ANKLE_HEIGHT: f64 = 0.09;
 /// From the hip to the trunk's frame \[m\]: inferred and assumed, `src/robots/data/rh0_left_leg.toml`.
 const HIP_TO_TRUNK: f64 = 0.0265;
+/// Thigh and shank \[m\]: inferred, `src/robots/data/rh0_left_leg.toml`.
+const LEG: f64 = 0.56;
 /// `H_CM`, the height of the centre of mass over the ankles \[m\]: RH0 5.3.1.
 const CENTRE_HEIGHT: f64 = 0.58;
 /// `W_p`, half of the way from foot to foot \[m\]: RH0 5.3.1.
@@ -49,18 +51,14 @@ const SAMPLES: [f64; 2] = [81.0, 323.0];
 
 /// RH0 5.3: simulated walks.
 pub const RH0_SIMULATION: Usual = Usual {
-    gait: Gait::OneStep(OneStep {
-        laws: Laws::Rh0 { power: 4.0 },
-        dip: 0.004,
-        pitch: PI / 9.0,
-        upright: None,
-    }),
+    gait: Gait::OneStep(OneStep { laws: Laws::Rh0 { power: 4.0 }, dip: 0.004, pitch: PI / 9.0, upright: None }),
     length: 0.16,
     lift: 0.1,
     // RA_AS = 0.06 m: so far from the middle of the standing sole the centre of mass is over it.
     amplitude: HALF_WIDTH - 0.06,
     ahead: 0.0,
     hip_heights: &HIP_HEIGHTS,
+    upright_hip: ANKLE_HEIGHT + LEG,
     period: SAMPLES[0] * TICKS[0],
     // Of 81 samples 17 + 17: the share from which on the zero moment point stays inside, with a knee slower than 25 rpm.
     double_support: 0.42,
@@ -73,12 +71,7 @@ pub const RH0_SIMULATION: Usual = Usual {
 
 /// RH0 by the generic laws of RH0 3.3.
 pub const RH0_GENERIC: Usual = Usual {
-    gait: Gait::OneStep(OneStep {
-        laws: Laws::Generic,
-        dip: 0.004,
-        pitch: PI / 9.0,
-        upright: None,
-    }),
+    gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.004, pitch: PI / 9.0, upright: None }),
     hip_heights: &LOWER_HIP_HEIGHTS,
     double_support: 0.5,
     ..RH0_SIMULATION

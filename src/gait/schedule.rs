@@ -67,7 +67,11 @@ impl Schedule {
                 Action::Swing(_) => durations.swing,
                 Action::Lower | Action::Rise => 2.0 * durations.shift + durations.swing,
             };
-            Phase { action: *action, samples: ((seconds * slowed / tick).round() as usize).clamp(1, MOST_SAMPLES), slowed }
+            Phase {
+                action: *action,
+                samples: ((seconds * slowed / tick).round() as usize).clamp(1, MOST_SAMPLES),
+                slowed,
+            }
         };
         Schedule { phases: actions.iter().enumerate().map(phase).collect(), route, tick }
     }

@@ -29,11 +29,12 @@ pub fn teo(outline: Outline) -> Result<(Humanoid, Legs)> {
 /// One step goal by the generic laws of RH0 3.3, on a circle of 30 mm about the point below the ankle; all figures are ours.
 pub const TEO_ONE_STEP: Usual = Usual {
     gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.004, pitch: 0.0, upright: None }),
-    length: 0.12,
-    lift: 0.05,
+    length: 0.1,
+    lift: 0.04,
     amplitude: 0.0985,
     ahead: 0.0,
-    hip_heights: &[0.73, 0.72, 0.71, 0.7, 0.69, 0.68],
+    hip_heights: &[0.735, 0.73, 0.725, 0.72, 0.71, 0.7],
+    upright_hip: 0.745,
     period: 4.0,
     double_support: 0.5,
     rest: 0.0,

@@ -26,6 +26,8 @@ pub struct Usual {
     pub ahead: f64,
     /// Heights of the axes of the hip over the floor; the first at which the walk can be walked is taken.
     pub hip_heights: &'static [f64],
+    /// The height of the axes of the hip before the trunk is lowered and when it has risen, for one step goal.
+    pub upright_hip: f64,
     /// The time of a step.
     pub period: f64,
     /// The share of a step in which both feet stand.
@@ -118,6 +120,15 @@ impl Usual {
             speed_share: self.speed_share,
             tick: self.tick,
         }
+    }
+
+    /// The figures with a lowering before the first step and a rise behind the last one, for one step goal.
+    #[must_use]
+    pub fn from_upright(mut self, humanoid: &Humanoid) -> Self {
+        if let Gait::OneStep(one_step) = &mut self.gait {
+            one_step.upright = Some(self.upright_hip + humanoid.hip_to_torso());
+        }
+        self
     }
 
     /// How long the phases last. A step of one-step-goal walks has two phases on both feet, one on each side of the swing; a step of the

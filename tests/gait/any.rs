@@ -18,7 +18,7 @@ proptest! {
     ) {
         let (nao, _) = robot();
         let first = if right { Side::Right } else { Side::Left };
-        let mut asked = request(&Regular { steps: 4, length, turn, half_width: 0.05, first });
+        let mut asked = request(&Regular { steps: 4, length, aside: 0.0, turn, half_width: 0.05, first });
         asked.style = Style { lift, amplitude, ahead, torso_height, half_width: 0.05 };
         asked.margin = margin;
         asked.durations = Durations { rest: if preview { 1.5 } else { 0.2 }, shift, swing };

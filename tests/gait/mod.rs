@@ -1,12 +1,16 @@
 //! Walking: polygons and zero moment points against their definitions, walks against forward kinematics and against the documents.
 
 mod any;
+mod errata;
 mod nao;
+mod one_step;
 mod polygon;
 mod preview;
 mod refused;
+mod rh0;
 mod route;
 mod seed;
+mod tables;
 mod zmp;
 
 use std::sync::OnceLock;
@@ -23,7 +27,7 @@ fn robot() -> &'static (Humanoid, Legs) {
 }
 
 fn regular() -> Regular {
-    Regular { steps: 4, length: 0.04, turn: 0.0, half_width: 0.05, first: Side::Left }
+    Regular { steps: 4, length: 0.04, turn: 0.0, aside: 0.0, half_width: 0.05, first: Side::Left }
 }
 
 fn style() -> Style {

@@ -43,6 +43,19 @@ proptest! {
 }
 
 #[test]
+fn side_steps_lead_aside_and_close() {
+    for (aside, first) in [(0.02, Side::Left), (-0.02, Side::Right), (0.02, Side::Right)] {
+        let route = Route::regular(&Regular { steps: 8, length: 0.0, aside, first, ..regular() }).unwrap();
+        let [left, right] = route.stands().pop().unwrap();
+        let leading = route.steps[..7].iter().filter(|step| step.side.sign() == aside.signum()).count();
+        let total = leading as f64 * aside;
+        assert!((left.y - 0.05 - total).abs() < 1e-12 && (right.y + 0.05 - total).abs() < 1e-12, "{aside}");
+        let walked = walk(&groebot::gait::Request { route, ..request(&regular()) }).unwrap();
+        super::nao::feet_are_where_they_should_be(&walked);
+    }
+}
+
+#[test]
 fn footprints_compose() {
     let print = Footprint { x: 1.0, y: 2.0, yaw: FRAC_PI_2 };
     let there = print.then(&Footprint { x: 0.5, y: 0.25, yaw: 0.1 });
@@ -84,6 +97,7 @@ fn bad_footsteps_are_refused_with_their_line() {
         Regular { steps: MAX_STEPS + 1, ..regular() },
         Regular { length: f64::NAN, ..regular() },
         Regular { length: 1e6, ..regular() },
+        Regular { aside: f64::NAN, ..regular() },
         Regular { turn: f64::INFINITY, ..regular() },
         Regular { half_width: 0.0, ..regular() },
     ] {

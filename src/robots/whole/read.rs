@@ -102,7 +102,7 @@ impl Reader {
                 read.base_from_root = turned * chain.base_from_tip().inverse();
                 read.joints.reverse();
             } else {
-                read.base_from_tip = turned * chain.base_from_tip();
+                read.base_from_tip = reflected(&(turned * chain.base_from_tip()), mirrored);
             }
             for (place, table) in tables.iter().enumerate() {
                 let place = if reversed { tables.len() - 1 - place } else { place };
@@ -185,15 +185,14 @@ impl Reader {
         let name = named.text()?;
         let mirrored = table.optional("mirrored").map_or(Ok(false), |node| node.boolean())?;
         let limb = self.limbs.iter().find(|limb| limb.chain == name && limb.mirrored == mirrored);
-        let limb = limb.ok_or_else(|| -> Error {
-            named.error(ErrorKind::UnknownName, "no limb of this robot has that chain")
-        })?;
+        let limb = limb
+            .ok_or_else(|| -> Error { named.error(ErrorKind::UnknownName, "no limb of this robot has that chain") })?;
         let base_from_sole = match table.optional("at") {
             Some(node) => {
                 let at = self.axes * Vector3::from(node.float_vector::<3>()?);
                 Pose::from_parts(at.into(), UnitQuaternion::identity())
             }
-            None => reflected(&limb.base_from_tip, limb.mirrored),
+            None => limb.base_from_tip,
         };
         let range = |key: &str| Ok::<(f64, f64), Error>(table.required(key)?.float_vector::<2>()?.into());
         let measured = [range("x")?, range("y")?];
@@ -255,7 +254,8 @@ impl Jointed {
         let axis = table.required("axis")?;
         let direction = Vector3::from(axis.float_vector::<3>()?);
         let location = base_from_file * Point3::from(table.required("point")?.float_vector::<3>()?);
-        let screw = Screw::revolute(base_from_file.rotation * direction, location).map_err(|error| axis.place(error))?;
+        let screw =
+            Screw::revolute(base_from_file.rotation * direction, location).map_err(|error| axis.place(error))?;
         let symbol = table.optional("symbol").map_or(Ok(String::new()), |node| node.text().map(str::to_owned))?;
         Ok(Jointed { symbol, screw, location, limits: None })
     }
