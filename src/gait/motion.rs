@@ -20,6 +20,8 @@ const ASIDE: f64 = 1e-4;
 const TELLING: f64 = 1e-8;
 /// The most corrections of the torso at a sample; one or two are needed.
 const MOST_CORRECTIONS: usize = 40;
+/// How many last samples tell where the torso will be: smooth motion is met to its sixth difference.
+const LEADS: usize = 6;
 /// How much further the torso must move than the centre of mass is to move, at first: the legs lag behind.
 const FIRST_GAIN: f64 = 1.25;
 
@@ -77,7 +79,7 @@ impl Motion {
 struct Pursuit {
     /// The posture at the last sample.
     last: Posture,
-    /// How far the torso was from where it was known to be at up to four last samples, the latest first.
+    /// How far the torso was from where it was known to be at the last samples, the latest first.
     leads: Vec<Vector3<f64>>,
     /// How far the torso must move for a change of what is to be zero: the inverse Jacobian, kept up by Broyden's rule (1965).
     inverse: Option<Matrix3<f64>>,
@@ -118,7 +120,7 @@ impl Pursuit {
             let step = -(inverse * miss);
             if off.norm() <= NEAR && apart.abs() <= AGREED {
                 self.leads.insert(0, torso - origin + step);
-                self.leads.truncate(4);
+                self.leads.truncate(LEADS);
                 return Ok(centre);
             }
             before = Some((step, miss));
@@ -151,15 +153,16 @@ impl Pursuit {
         Ok(Matrix3::from_diagonal(&diagonal))
     }
 
-    /// How far the torso will be from where it is known to be: by the cubic through the last four samples.
+    /// How far the torso will be from where it is known to be: by the polynomial through the last samples.
     fn guess(&self) -> Vector3<f64> {
-        match self.leads[..] {
-            [] => Vector3::zeros(),
-            [a] => a,
-            [a, b] => a * 2.0 - b,
-            [a, b, c] => (a - b) * 3.0 + c,
-            [a, b, c, d, ..] => (a + c) * 4.0 - b * 6.0 - d,
-        }
+        let count = self.leads.len();
+        let mut factor = -1.0;
+        let term = |(place, lead): (usize, &Vector3<f64>)| {
+            // Binomial coefficients with alternating signs, from `count` on.
+            factor *= -((count - place) as f64) / (place + 1) as f64;
+            lead * factor
+        };
+        self.leads.iter().enumerate().map(term).sum()
     }
 
     fn failure(&self, legs: &Legs) -> Error {

@@ -68,19 +68,29 @@ impl Preview {
         let Some((&first, &last)) = reference.first().zip(reference.last()) else { return Vec::new() };
         let (mut state, mut error) = (Vector3::new(first, 0.0, 0.0), 0.0);
         let mut positions = Vec::with_capacity(reference.len());
+        let known: Vec<f64> = reference.iter().copied().chain(std::iter::repeat_n(last, self.ahead.len())).collect();
         for sample in 0..reference.len() {
             positions.push(state.x);
             let zmp = state.x - self.height / GRAVITY * state.z;
             error += zmp - reference[sample];
-            let future = self.ahead.iter().enumerate();
-            let future: f64 =
-                future.map(|(j, gain)| gain * reference.get(sample + 1 + j).copied().unwrap_or(last)).sum();
+            let future = dot(&self.ahead, &known[sample + 1..]);
             let feedback = self.gains.dot(&RowVector4::new(error, state.x, state.y, state.z));
             let jerk = -feedback - future;
             state = advanced(&state, jerk, self.tick);
         }
         positions
     }
+}
+
+/// The scalar product of `gains` with as many values, in four sums side by side.
+fn dot(gains: &[f64], values: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    for (gains, values) in gains.chunks(4).zip(values.chunks(4)) {
+        for (sum, (gain, value)) in sums.iter_mut().zip(gains.iter().zip(values)) {
+            *sum += gain * value;
+        }
+    }
+    sums.iter().sum()
 }
 
 /// The cart after a tick of constant jerk.
