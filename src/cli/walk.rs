@@ -116,6 +116,9 @@ pub struct Arguments {
     /// z_d, H_p: how high a foot is lifted [m]
     #[arg(long, value_name = "METRES")]
     lift: Option<f64>,
+    /// W_p: half of the way from foot to foot, sideways [m] [default: as wide as the hips]
+    #[arg(long, value_name = "METRES")]
+    half_width: Option<f64>,
     /// A, W_p - RA_AS: how far to the side the centre of mass goes [m]
     #[arg(long, value_name = "METRES")]
     amplitude: Option<f64>,
@@ -233,6 +236,7 @@ impl Arguments {
         for (place, given) in places {
             *place = given.unwrap_or(*place);
         }
+        usual.half_width = self.half_width.or(usual.half_width);
         let double = usual.double_support;
         if !(double > 0.0 && double < 1.0) {
             return Err(bad(format!("--double-support is {double}; give a share between 0 and 1")));
@@ -261,7 +265,7 @@ impl Arguments {
     }
 
     fn request(&self, usual: &Usual, humanoid: &Humanoid, hip_height: f64) -> Result<Request> {
-        let route = self.route(usual, humanoid.half_width())?;
+        let route = self.route(usual, usual.half_width(humanoid))?;
         let usual = if self.crouched { *usual } else { usual.from_upright(humanoid) };
         Ok(usual.request(humanoid, route, hip_height))
     }

@@ -42,6 +42,7 @@ pub const NAO_SEED: Usual = Usual {
     gait: Gait::Seed,
     length: 0.04,
     lift: 0.02,
+    half_width: None,
     amplitude: 0.05,
     ahead: 0.005,
     hip_heights: &HIP_HEIGHTS,

@@ -4,7 +4,9 @@ use nalgebra::Point2;
 
 use super::check::{Fault, Found};
 use super::humanoid::Humanoid;
-use super::plan::Request;
+use super::one_step::{Laws, OneStep};
+use super::plan::{Gait, Request};
+use super::reference::Style;
 use super::schedule::{Action, Schedule};
 use crate::{Error, ErrorKind};
 
@@ -127,5 +129,33 @@ pub(super) fn check(request: &Request) -> crate::Result<()> {
     if !style.ahead.is_finite() {
         return refuse("lead of the centre of mass", style.ahead, "a finite number");
     }
-    Ok(())
+    match &request.gait {
+        Gait::OneStep(one_step) => check_one_step(one_step, style),
+        Gait::Seed | Gait::Preview => Ok(()),
+    }
+}
+
+/// Refuses figures that no one-step-goal walk can have.
+fn check_one_step(one_step: &OneStep, style: &Style) -> crate::Result<()> {
+    let refuse = |name: &str, value: f64, wanted: &str| {
+        Err(Error::new(ErrorKind::BadValue, format!("the {name} is {value}; give {wanted}")))
+    };
+    if !(one_step.dip.is_finite() && one_step.dip >= 0.0) {
+        return refuse("dip", one_step.dip, "zero or a positive number");
+    }
+    if !one_step.pitch.is_finite() {
+        return refuse("pitch of the foot", one_step.pitch, "a finite number");
+    }
+    if let Some(upright) = one_step.upright.filter(|upright| !(upright.is_finite() && *upright > 0.0)) {
+        return refuse("upright height", upright, "a positive number");
+    }
+    match one_step.laws {
+        Laws::Rh0 { power } if !(power.is_finite() && power >= 1.0) => refuse("power", power, "a number of at least 1"),
+        Laws::Generic if style.amplitude > style.half_width => refuse(
+            "amplitude",
+            style.amplitude,
+            "at most half of the feet's width: the circle of support has the rest as radius",
+        ),
+        _ => Ok(()),
+    }
 }

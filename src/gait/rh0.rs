@@ -54,6 +54,7 @@ pub const RH0_SIMULATION: Usual = Usual {
     gait: Gait::OneStep(OneStep { laws: Laws::Rh0 { power: 4.0 }, dip: 0.004, pitch: PI / 9.0, upright: None }),
     length: 0.16,
     lift: 0.1,
+    half_width: None,
     // RA_AS = 0.06 m: so far from the middle of the standing sole the centre of mass is over it.
     amplitude: HALF_WIDTH - 0.06,
     ahead: 0.0,

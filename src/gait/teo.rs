@@ -31,6 +31,7 @@ pub const TEO_ONE_STEP: Usual = Usual {
     gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.004, pitch: 0.0, upright: None }),
     length: 0.1,
     lift: 0.04,
+    half_width: None,
     amplitude: 0.0985,
     ahead: 0.0,
     hip_heights: &[0.735, 0.73, 0.725, 0.72, 0.71, 0.7],

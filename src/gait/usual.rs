@@ -20,6 +20,8 @@ pub struct Usual {
     pub length: f64,
     /// How high a foot is lifted: `z_d` of NAO 6.8, `H_p` of RH0 3.5.
     pub lift: f64,
+    /// Half of the way from foot to foot, sideways; `None` is as wide as the hips are.
+    pub half_width: Option<f64>,
     /// How far to the side the centre of mass goes.
     pub amplitude: f64,
     /// How far ahead of the ankles the centre of mass is held.
@@ -102,12 +104,17 @@ pub fn plan_at(
 }
 
 impl Usual {
+    /// Half of the way from foot to foot, sideways \[m\].
+    pub fn half_width(&self, humanoid: &Humanoid) -> f64 {
+        self.half_width.unwrap_or(humanoid.half_width())
+    }
+
     /// The request to walk `route` with the hips at `hip_height` \[m\].
     pub fn request(&self, humanoid: &Humanoid, route: Route, hip_height: f64) -> Request {
         let style = Style {
             lift: self.lift,
             amplitude: self.amplitude,
-            half_width: humanoid.half_width(),
+            half_width: self.half_width(humanoid),
             ahead: self.ahead,
             torso_height: hip_height + humanoid.hip_to_torso(),
         };

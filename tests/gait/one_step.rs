@@ -27,7 +27,7 @@ fn walk(walker: Walker, usual: &Usual, goal: (f64, f64)) -> Walk {
 }
 
 /// By forward kinematics of the whole robot.
-fn feet_are_on_their_prints(robot: &groebot::gait::Humanoid, walk: &Walk) {
+pub fn feet_are_on_their_prints(robot: &groebot::gait::Humanoid, walk: &Walk) {
     for (sample, reference) in walk.references.iter().enumerate() {
         let posture = &walk.motion.postures[sample];
         let placed = robot.body.place(&posture.world_from_torso, &posture.q).unwrap();
