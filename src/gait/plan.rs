@@ -123,8 +123,12 @@ pub fn plan(humanoid: &Humanoid, legs: &Legs, request: &Request, watch: &Watch) 
             Gait::Seed | Gait::OneStep(_) => moved(humanoid, legs, request, &references, None, watch)?,
             Gait::Preview => preview::moved(humanoid, legs, request, &schedule, &mut references, watch)?,
         };
-        let demand =
-            Demand { margin: request.margin, statically: request.gait == Gait::Seed, speed_share: request.speed_share };
+        let demand = Demand {
+            margin: request.margin,
+            statically: request.gait == Gait::Seed,
+            keeps_way: request.gait.is_one_step(),
+            speed_share: request.speed_share,
+        };
         let found = faults(humanoid, &references, &motion, &balances, &demand, request.tick);
         if found.is_empty() {
             return Ok(Walk { request: request.clone(), schedule, references, motion, balances });

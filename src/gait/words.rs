@@ -92,7 +92,7 @@ impl Route {
     }
 
     /// One step after the other towards `goal` \[m\], seen from level feet about the origin: each turns the robot to it as far as
-    /// `most_turn` lets it, leads up to a length ahead, and the last one closes the feet, RH0 3.3.
+    /// `most_turn` lets it and leads up to a length ahead, and the last one closes the feet, RH0 3.3.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the goal is not finite or too far, or a measure is not finite and positive.
@@ -102,6 +102,7 @@ impl Route {
             return Err(bad("the goal must be two finite numbers"));
         }
         let start = traveller.level();
+        let turning_circle = 2.0 * measures.length / measures.most_turn;
         let mut side = first;
         loop {
             let way = goal - traveller.middle.point();
@@ -110,7 +111,12 @@ impl Route {
             }
             let bearing = angle::difference(way.y.atan2(way.x), traveller.middle.yaw);
             let yaw = bearing.clamp(-measures.most_turn, measures.most_turn);
-            let advance = (way.norm() * (bearing - yaw).cos()).clamp(0.0, measures.length);
+            // Within the circle that it turns on, the robot would never face the goal: it turns on the spot.
+            let advance = match bearing - yaw {
+                0.0 => way.norm().min(measures.length),
+                left if way.norm() > turning_circle => measures.length * left.cos().max(0.0),
+                _ => 0.0,
+            };
             let turned = traveller.middle.then(&Footprint { yaw, ..Footprint::default() });
             traveller.middle = turned.then(&Footprint { x: advance, ..Footprint::default() });
             traveller.land(side)?;

@@ -128,6 +128,8 @@ proptest! {
         let between = left.middle(&right);
         prop_assert!((between.point() - goal).norm() < 1e-3);
         prop_assert!((nalgebra::distance(&left.point(), &right.point()) - 0.224).abs() < 1e-9);
+        // Half a turn on the spot, the way, and twice that for the arcs.
+        prop_assert!(route.steps.len() < 2 * ((3.15 / 0.2) as usize + (goal.coords.norm() / 0.16) as usize) + 6);
         let mut side = first;
         let mut yaw = 0.0;
         for step in &route.steps {
