@@ -2,47 +2,42 @@
 
 use std::path::{Path, PathBuf};
 
+use nalgebra::Point2;
+
 use super::progress::{Limits, Session};
 use super::{Outcome, console};
 use crate::document::read_text;
 use crate::files::write_atomically;
 use crate::gait::{
-    Durations, Gait, Humanoid, NaoLegs, Outline, Regular, Request, Route, Side, Style, Summary, Walk, nao, plan,
+    Gait, Humanoid, Laws, Measures, Outline, Regular, Request, Route, Side, Summary, Usual, Walk, Walker, plan_at,
+    words,
 };
-use crate::{Error, ErrorKind, Result, Watch};
+use crate::{Error, ErrorKind, Result};
 
 /// The longest file of footsteps, in bytes.
 const FOOTSTEPS_LIMIT: u64 = 4_000_000;
-/// From the axes of the hip up to the origin of the torso \[m\]: HipOffsetZ of NAO Table 6.1.
-const HIP_TO_TORSO: f64 = 0.085;
-/// Half of the way from foot to foot \[m\]: HipOffsetY of NAO Table 6.1.
-const HALF_WIDTH: f64 = 0.05;
 
 const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
   groebot walk nao --steps 8 --length 0 --turn 40 -o turn.csv
+  groebot walk nao --steps 8 --length 0 --aside 0.02
   groebot walk nao --steps 12 --gait preview -o dynamic.csv
   groebot walk nao --footsteps steps.csv -o curve.json
+  groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --thesis joints.csv
+  groebot walk rh0 --plan \"turn left 90\" --plot turn.svg
+  groebot walk teo --goal 1,0.5 -o goal.csv
 
-Metres, seconds; degrees for --turn and in the summary, radians in files. The last step closes the feet: 8 steps of 0.04 m lead 0.28 m ahead.
-A file of footsteps has the header foot,x,y,yaw and a line for each step: left or right, metres, radians; it starts at the origin.
-Rows are 0.01 s apart. A phase that would be unstable or too fast is slowed down; a walk that no slower phase makes stable is refused.";
-
-/// How the centre of mass is moved.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum GaitName {
-    /// The seed's sine: over one foot the centre of mass rests
-    Seed,
-    /// Preview control of the zero moment point: the centre of mass never rests
-    Preview,
-}
+Metres, seconds; degrees for --turn, --max-turn, --plan and in the summary, radians in files. The last of --steps closes the feet: 8 steps of
+0.04 m lead 0.28 m ahead. A file of footsteps has the header foot,x,y,yaw and a line for each step: left or right, metres, radians; it starts
+at the origin. A phase that would be unstable or too fast is slowed down; a walk that no slower phase makes stable is refused.
+Gaits: nao seed, preview, osg; rh0 rh0, rh0-real, osg; teo osg; the first is taken unless one is named.";
 
 /// Which soles.
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum SoleName {
     /// As measured on the robot
     Measured,
-    /// 160 x 90 mm, as the seed has it
+    /// 160 x 90 mm for NAO, as the seed has it
     Seed,
 }
 
@@ -60,65 +55,106 @@ enum FootName {
 enum RobotName {
     /// NAO V5
     Nao,
+    /// RH0 of the thesis
+    Rh0,
+    /// TEO, RH0's successor
+    Teo,
+}
+
+/// How the centre of mass is moved.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum GaitName {
+    /// The seed's sine: over one foot the centre of mass rests
+    Seed,
+    /// Preview control of the zero moment point: the centre of mass never rests
+    Preview,
+    /// One step goal by its generic laws: the centre of mass keeps to a circle on the sole
+    Osg,
+    /// One step goal by RH0's laws, with the figures of the thesis' simulations (5.3)
+    Rh0,
+    /// The same with the figures of the thesis' experiments (6.2)
+    Rh0Real,
 }
 
 /// Plans a walk that keeps its zero moment point over the feet, with joint angles by the derived solver
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
+#[command(group = clap::ArgGroup::new("way").args(["footsteps", "plan", "goal"]))]
 pub struct Arguments {
     /// The robot
     robot: RobotName,
     /// The number of steps; the last one closes the feet
-    #[arg(long, default_value_t = 8, conflicts_with = "footsteps")]
+    #[arg(long, default_value_t = 8, conflicts_with = "way")]
     steps: usize,
-    /// x_d: how far ahead of the standing foot the other one lands [m] [default: 0.04, or 0.05 with --gait preview]
+    /// x_d, L_p: how far ahead of the standing foot the other one lands [m]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, conflicts_with = "footsteps")]
     length: Option<f64>,
+    /// How far the foot on that side steps to the left each time; the other one follows [m]
+    #[arg(long, default_value_t = 0.0, value_name = "METRES", allow_hyphen_values = true, conflicts_with = "way")]
+    aside: f64,
     /// The turn of the whole walk, anticlockwise [degrees]
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        value_name = "DEGREES",
-        allow_hyphen_values = true,
-        conflicts_with = "footsteps"
-    )]
+    #[arg(long, default_value_t = 0.0, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with = "way")]
     turn: f64,
+    /// G_CM: how far one step, or a pair of them in --plan, turns the robot at most [degrees]
+    #[arg(long, value_name = "DEGREES")]
+    max_turn: Option<f64>,
     /// The foot that steps first
-    #[arg(long, value_enum, default_value = "left", conflicts_with = "footsteps")]
+    #[arg(long, value_enum, default_value = "left", conflicts_with_all = ["footsteps", "plan"])]
     first: FootName,
     /// Footsteps from a CSV file
     #[arg(long, value_name = "FILE")]
     footsteps: Option<PathBuf>,
+    /// The walk in words: out, stride, in with left or right; turn left or right with degrees; parted by commas
+    #[arg(long, value_name = "WORDS")]
+    plan: Option<String>,
+    /// Step by step towards a place, seen from the middle of the feet at first: ahead, to the left [m]
+    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    goal: Option<Vec<f64>>,
     /// How the centre of mass is moved
-    #[arg(long, value_enum, default_value = "seed")]
-    gait: GaitName,
-    /// z_d: how high a foot is lifted [m] [default: 0.02, or 0.03 with --gait preview]
+    #[arg(long, value_enum)]
+    gait: Option<GaitName>,
+    /// z_d, H_p: how high a foot is lifted [m]
     #[arg(long, value_name = "METRES")]
     lift: Option<f64>,
-    /// A: how far to the side the centre of mass goes [m]
-    #[arg(long, default_value_t = 0.05, value_name = "METRES")]
-    amplitude: f64,
-    /// The height of the axes of the hip over the floor [m] [default: the first of 0.228, 0.225, 0.232, 0.222, 0.215, 0.205 that works]
+    /// W_p: half of the way from foot to foot, sideways [m] [default: as wide as the hips]
+    #[arg(long, value_name = "METRES")]
+    half_width: Option<f64>,
+    /// A, W_p - RA_AS: how far to the side the centre of mass goes [m]
+    #[arg(long, value_name = "METRES")]
+    amplitude: Option<f64>,
+    /// K_CM: half of how far the trunk goes down until lift-off and landing [m]; for one step goal
+    #[arg(long, value_name = "METRES")]
+    dip: Option<f64>,
+    /// Po_CM: the power of the way sideways; for RH0's laws
+    #[arg(long, value_name = "NUMBER")]
+    power: Option<f64>,
+    /// Start and end in the crouch, without lowering and rising; for one step goal
+    #[arg(long)]
+    crouched: bool,
+    /// The height of the axes of the hip over the floor [m] [default: the first of the robot's usual ones that works]
     #[arg(long, value_name = "METRES")]
     hip_height: Option<f64>,
     /// How far ahead of the ankles the centre of mass is held [m]
-    #[arg(long, default_value_t = 0.005, value_name = "METRES", allow_hyphen_values = true)]
-    ahead: f64,
-    /// The time of a step [s] [default: 1.6, or 0.8 with --gait preview]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    ahead: Option<f64>,
+    /// The time of a step [s]
     #[arg(long, value_name = "SECONDS")]
     period: Option<f64>,
-    /// The share of a step in which both feet stand [default: 0.66, or 0.3 with --gait preview]
+    /// The share of a step in which both feet stand
     #[arg(long, value_name = "SHARE")]
     double_support: Option<f64>,
-    /// How long the robot stands before the first and behind the last step [s] [default: 0.5, or 1.5 with --gait preview]
+    /// How long the robot stands before the first and behind the last step [s]
     #[arg(long, value_name = "SECONDS")]
     rest: Option<f64>,
+    /// S_D: the time between two rows [s]
+    #[arg(long, value_name = "SECONDS")]
+    tick: Option<f64>,
     /// The least distance of the zero moment point from the border of the support polygon [m]
-    #[arg(long, default_value_t = 0.01, value_name = "METRES")]
-    margin: f64,
+    #[arg(long, value_name = "METRES")]
+    margin: Option<f64>,
     /// The greatest share of its own speed that a joint may have
-    #[arg(long, default_value_t = 0.9, value_name = "SHARE")]
-    speed: f64,
+    #[arg(long, value_name = "SHARE")]
+    speed: Option<f64>,
     /// The outline of the soles
     #[arg(long, value_enum, default_value = "measured")]
     sole: SoleName,
@@ -128,6 +164,9 @@ pub struct Arguments {
     /// Where the same goes as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Where the columns of the thesis' tables go, CSV in degrees and its axes; for rh0
+    #[arg(long, value_name = "FILE")]
+    thesis: Option<PathBuf>,
     /// Where the picture goes, SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
@@ -142,11 +181,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
         SoleName::Measured => Outline::Measured,
         SoleName::Seed => Outline::Seed,
     };
-    let (humanoid, legs) = match arguments.robot {
-        RobotName::Nao => nao(outline)?,
+    let walker = match arguments.robot {
+        RobotName::Nao => Walker::Nao,
+        RobotName::Rh0 => Walker::Rh0,
+        RobotName::Teo => Walker::Teo,
     };
+    let usual = arguments.usual(walker)?;
+    let (humanoid, legs) = walker.build(outline)?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
-    let walk = arguments.plan(&humanoid, &legs, &session.watch)?;
+    let request = |height| arguments.request(&usual, &humanoid, height);
+    let walk = plan_at((&humanoid, &legs), arguments.hip_height, usual.hip_heights, request, &session.watch)?;
     drop(session);
     arguments.write(&humanoid, &walk)?;
     if arguments.quiet {
@@ -155,87 +199,97 @@ pub fn run(arguments: &Arguments) -> Outcome {
     console::print(&Summary::of(&humanoid, &walk).to_string())
 }
 
-/// The figures that a gait has unless others are given.
-struct Defaults {
-    gait: Gait,
-    length: f64,
-    lift: f64,
-    period: f64,
-    double_support: f64,
-    rest: f64,
+impl GaitName {
+    fn name(self) -> &'static str {
+        match self {
+            GaitName::Seed => "seed",
+            GaitName::Preview => "preview",
+            GaitName::Osg => "osg",
+            GaitName::Rh0 => "rh0",
+            GaitName::Rh0Real => "rh0-real",
+        }
+    }
 }
 
-const SEED: Defaults =
-    Defaults { gait: Gait::Seed, length: 0.04, lift: 0.02, period: 1.6, double_support: 0.66, rest: 0.5 };
-const PREVIEW: Defaults =
-    Defaults { gait: Gait::Preview, length: 0.05, lift: 0.03, period: 0.8, double_support: 0.3, rest: 1.5 };
-
-/// Heights of the hip that are tried when none is given \[m\]: higher ones leave the ankles' roll more room, lower ones reach further.
-const HIP_HEIGHTS: [f64; 6] = [0.228, 0.225, 0.232, 0.222, 0.215, 0.205];
-
 impl Arguments {
-    /// The walk at the height of the hip that is given, or at the first of [`HIP_HEIGHTS`] at which it can be walked.
-    ///
-    /// # Errors
-    /// As [`plan`]; that of the first height when it can be walked at none.
-    fn plan(&self, humanoid: &Humanoid, legs: &NaoLegs, watch: &Watch) -> Result<Walk> {
-        let walk = |height: f64| plan(humanoid, legs, &self.request(height)?, watch);
-        let Some(height) = self.hip_height else {
-            let first = walk(HIP_HEIGHTS[0]);
-            let is_refused =
-                |walk: &Result<Walk>| walk.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue);
-            if !is_refused(&first) {
-                return first;
-            }
-            let others = HIP_HEIGHTS[1..].iter().map(|height| walk(*height));
-            return others.into_iter().find(|walk| !is_refused(walk)).unwrap_or(first);
+    /// The figures of the gait, the given ones in their places.
+    fn usual(&self, walker: Walker) -> Result<Usual> {
+        let gaits = walker.gaits();
+        let wanted = self.gait.map_or(gaits[0].0, GaitName::name);
+        let Some(&(_, mut usual)) = gaits.iter().find(|(name, _)| *name == wanted) else {
+            let names = gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+            return Err(bad(format!("this robot does not walk by `{wanted}`; give one of {names}")));
         };
-        walk(height)
-    }
-
-    fn request(&self, hip_height: f64) -> Result<Request> {
-        let defaults = match self.gait {
-            GaitName::Seed => SEED,
-            GaitName::Preview => PREVIEW,
-        };
-        let period = self.period.unwrap_or(defaults.period);
-        let double = self.double_support.unwrap_or(defaults.double_support);
-        if !(double > 0.0 && double < 1.0) {
-            let text = format!("--double-support is {double}; give a share between 0 and 1");
-            return Err(Error::new(ErrorKind::BadValue, text));
+        let places = [
+            (&mut usual.length, self.length),
+            (&mut usual.lift, self.lift),
+            (&mut usual.amplitude, self.amplitude),
+            (&mut usual.ahead, self.ahead),
+            (&mut usual.period, self.period),
+            (&mut usual.double_support, self.double_support),
+            (&mut usual.rest, self.rest),
+            (&mut usual.tick, self.tick),
+            (&mut usual.margin, self.margin),
+            (&mut usual.speed_share, self.speed),
+            (&mut usual.most_turn, self.max_turn.map(f64::to_radians)),
+        ];
+        for (place, given) in places {
+            *place = given.unwrap_or(*place);
         }
-        let style = Style {
-            lift: self.lift.unwrap_or(defaults.lift),
-            amplitude: self.amplitude,
-            half_width: HALF_WIDTH,
-            ahead: self.ahead,
-            torso_height: hip_height + HIP_TO_TORSO,
-        };
-        let durations = Durations {
-            rest: self.rest.unwrap_or(defaults.rest),
-            shift: period * double,
-            swing: period * (1.0 - double),
-        };
-        let (gait, margin, speed_share) = (defaults.gait, self.margin, self.speed);
-        let route = self.route(defaults.length)?;
-        Ok(Request { route, gait, style, durations, margin, speed_share })
+        usual.half_width = self.half_width.or(usual.half_width);
+        let double = usual.double_support;
+        if !(double > 0.0 && double < 1.0) {
+            return Err(bad(format!("--double-support is {double}; give a share between 0 and 1")));
+        }
+        self.one_step(&mut usual.gait)?;
+        Ok(usual)
     }
 
-    fn route(&self, length: f64) -> Result<Route> {
+    /// Puts the figures of one step goal in their places.
+    fn one_step(&self, gait: &mut Gait) -> Result<()> {
+        let Gait::OneStep(one_step) = gait else {
+            return match (self.dip, self.power, self.crouched) {
+                (None, None, false) => Ok(()),
+                _ => {
+                    Err(bad("--dip, --power and --crouched are for one step goal: --gait osg, rh0 or rh0-real".into()))
+                }
+            };
+        };
+        one_step.dip = self.dip.unwrap_or(one_step.dip);
+        match (&mut one_step.laws, self.power) {
+            (_, None) => {}
+            (Laws::Rh0 { power }, Some(given)) => *power = given,
+            (Laws::Generic, Some(_)) => return Err(bad("--power is for RH0's laws: --gait rh0 or rh0-real".into())),
+        }
+        Ok(())
+    }
+
+    fn request(&self, usual: &Usual, humanoid: &Humanoid, hip_height: f64) -> Result<Request> {
+        let route = self.route(usual, usual.half_width(humanoid))?;
+        let usual = if self.crouched { *usual } else { usual.from_upright(humanoid) };
+        Ok(usual.request(humanoid, route, hip_height))
+    }
+
+    fn route(&self, usual: &Usual, half_width: f64) -> Result<Route> {
         if let Some(file) = &self.footsteps {
             let text = read_text(file, FOOTSTEPS_LIMIT)?;
-            return Route::from_csv(&text, HALF_WIDTH).map_err(|error| error.in_file(file));
+            return Route::from_csv(&text, half_width).map_err(|error| error.in_file(file));
         }
-        Route::regular(&Regular {
-            steps: self.steps,
-            length: self.length.unwrap_or(length),
-            turn: self.turn.to_radians(),
-            half_width: HALF_WIDTH,
-            first: match self.first {
-                FootName::Left => Side::Left,
-                FootName::Right => Side::Right,
-            },
-        })
+        let first = match self.first {
+            FootName::Left => Side::Left,
+            FootName::Right => Side::Right,
+        };
+        let measures = Measures { length: usual.length, half_width, most_turn: usual.most_turn };
+        if let Some(text) = &self.plan {
+            return Route::of_words(&words(text)?, &measures);
+        }
+        match self.goal.as_deref() {
+            Some(&[x, y]) => return Route::towards(&Point2::new(x, y), first, &measures),
+            Some(_) => return Err(bad("--goal takes two numbers: --goal 1,0.5".into())),
+            None => {}
+        }
+        let turn = self.turn.to_radians();
+        Route::regular(&Regular { steps: self.steps, length: usual.length, aside: self.aside, turn, half_width, first })
     }
 
     fn write(&self, humanoid: &Humanoid, walk: &Walk) -> Result<()> {
@@ -247,9 +301,16 @@ impl Arguments {
         if let Some(file) = &self.json {
             write_atomically(file, walk.to_json(humanoid).as_bytes())?;
         }
+        if let Some(file) = &self.thesis {
+            write_atomically(file, walk.to_thesis_csv(humanoid)?.as_bytes())?;
+        }
         if let Some(file) = &self.plot {
             write_atomically(file, walk.to_svg(humanoid).as_bytes())?;
         }
         Ok(())
     }
+}
+
+fn bad(text: String) -> Error {
+    Error::new(ErrorKind::BadValue, text)
 }

@@ -43,6 +43,11 @@ impl LinkInertia {
         Err(Error::new(ErrorKind::BadValue, fault))
     }
 
+    /// A link whose mass is counted elsewhere.
+    pub fn none() -> Self {
+        LinkInertia { mass: 0.0, centre_of_mass: Point3::origin(), rotational: Matrix3::zeros() }
+    }
+
     /// The mass \[kg\].
     pub fn mass(&self) -> f64 {
         self.mass

@@ -146,7 +146,7 @@ impl Placed<'_> {
         let centre = centres[0];
         jacobian.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
         jacobian.fixed_view_mut::<3, 3>(0, 3).copy_from(&-centre.cross_matrix());
-        for (joint, twist) in self.twists().enumerate() {
+        for (joint, twist) in self.twists().enumerate().filter(|(joint, _)| carried[joint + 1] > 0.0) {
             let velocity = twist.v + twist.w.cross(&centres[joint + 1]);
             jacobian.set_column(6 + joint, &(velocity * (carried[joint + 1] / self.body.total)));
         }

@@ -5,12 +5,13 @@ use nalgebra::{Point2, Vector3};
 use super::footprint::Side;
 use super::humanoid::Humanoid;
 use super::motion::Motion;
+use super::parts::in_parts;
 use super::polygon::Polygon;
 use super::reference::Reference;
 use super::zmp::{Configuration, momentum_between, of_pendulum, zero_moment_point};
 use crate::dynamics::Momentum;
 use crate::spatial::Pose;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// A standing sole touches the floor with what is within this height of its lowest corner \[m\].
 const TOUCH: f64 = 1e-6;
@@ -85,10 +86,9 @@ fn momenta(humanoid: &Humanoid, motion: &Motion, tick: f64) -> Result<Vec<Moment
     };
     let between =
         |sample: usize| momentum_between(&humanoid.body, configuration(sample), configuration(sample + 1), tick);
+    let moving = motion.postures.len().saturating_sub(1);
     let mut momenta = vec![Momentum::zero()];
-    for sample in 1..motion.postures.len() {
-        momenta.push(between(sample - 1)?);
-    }
+    momenta.extend(in_parts(moving, &Watch::none(), |samples| samples.map(&between))?);
     momenta.push(Momentum::zero());
     Ok(momenta)
 }

@@ -63,6 +63,8 @@ pub struct Demand {
     pub margin: f64,
     /// Whether the centre of mass must keep that margin too, as in a walk that can stop at any time.
     pub statically: bool,
+    /// Whether the centre of mass keeps its way however slow the walk is, so that where it is too near to the border no slower walk helps.
+    pub keeps_way: bool,
     /// The greatest share of its own speed that a joint may have.
     pub speed_share: f64,
 }
@@ -82,9 +84,10 @@ pub fn faults(
         if let Some(fault) = limit(humanoid, &motion.postures[sample].q) {
             add(fault);
         }
-        if demand.statically && balance.static_margin < demand.margin {
+        let (falls, tilts) = (balance.margin < demand.margin, balance.static_margin < demand.margin);
+        if tilts && (demand.statically || demand.keeps_way && falls) {
             add(Fault::Static { margin: balance.static_margin });
-        } else if balance.margin < demand.margin {
+        } else if falls {
             add(Fault::Dynamic { margin: balance.margin });
         }
         if sample > 0 {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Point3, Vector3};
 
 use super::footprint::{Footprint, Side};
 use super::humanoid::Humanoid;
@@ -14,6 +14,12 @@ const MARGIN: f64 = 40.0;
 const MOST_VIEW_HEIGHT: f64 = 520.0;
 const PLOT: (f64, f64) = (360.0, 110.0);
 const COLUMNS: usize = 3;
+/// The height of the view of the paths.
+const PATHS: f64 = 260.0;
+/// A path that is smaller than this is not drawn larger \[m\].
+const LEAST_PATH: f64 = 0.01;
+/// How far a metre to the left is drawn to the right and up.
+const LEFTWARDS: (f64, f64) = (0.35, 0.3);
 /// What is left free around the footprints \[m\].
 const ROOM: f64 = 0.03;
 
@@ -73,7 +79,7 @@ impl Walk {
         let moving: Vec<usize> = (0..humanoid.joints.len()).filter(|joint| self.moves(*joint)).collect();
         let view = View::of(self.prints().iter().flat_map(|(side, print)| sole(humanoid, *side, print)), 50.0);
         let rows = moving.len().div_ceil(COLUMNS);
-        let below = view.top + view.height() + 60.0;
+        let below = view.top + view.height() + 60.0 + PATHS;
         let height = below + rows as f64 * (PLOT.1 + 40.0);
         let mut svg = Svg(String::new());
         svg.add(format_args!(
@@ -81,6 +87,7 @@ impl Walk {
         ));
         svg.add(format_args!("{STYLE}"));
         self.draw_floor(humanoid, &view, &mut svg);
+        self.draw_paths(humanoid, view.top + view.height() + 30.0, &mut svg);
         for (place, joint) in moving.into_iter().enumerate() {
             let (column, row) = (place % COLUMNS, place / COLUMNS);
             let corner = (MARGIN + column as f64 * (PLOT.0 + 20.0), below + row as f64 * (PLOT.1 + 40.0));
@@ -129,6 +136,21 @@ impl Walk {
         svg.line("com", self.balances.iter().map(|balance| view.at(&balance.pressure)));
     }
 
+    /// The paths of ankles and trunk in space, seen aslant from the right: RH0 Fig. 5-14, 5-20.
+    fn draw_paths(&self, humanoid: &Humanoid, top: f64, svg: &mut Svg) {
+        let aslant = |at: Vector3<f64>| Point2::new(at.x + LEFTWARDS.0 * at.y, at.z + LEFTWARDS.1 * at.y);
+        let ankle = |side: Side| -> Vec<Point2<f64>> {
+            let up = Point3::new(0.0, 0.0, humanoid.feet[side as usize].ankle_height);
+            let soles = self.references.iter().map(|reference| reference.world_from_soles[side as usize]);
+            soles.map(|sole| aslant((sole * up).coords)).collect()
+        };
+        let torso = self.motion.postures.iter().map(|posture| aslant(posture.world_from_torso.translation.vector));
+        let feet = [("left-path", ankle(Side::Left)), ("right-path", ankle(Side::Right))];
+        let half = WIDTH / 2.0 - 1.5 * MARGIN;
+        draw_path("ankles", &feet, (MARGIN, top), half, svg);
+        draw_path("trunk", &[("com", torso.collect())], (WIDTH / 2.0 + MARGIN / 2.0, top), half, svg);
+    }
+
     /// A joint in time against its limits; limits far away are beyond the frame.
     fn draw_joint(&self, humanoid: &Humanoid, joint: usize, corner: (f64, f64), svg: &mut Svg) {
         let range = &humanoid.joints[joint];
@@ -160,6 +182,24 @@ impl Walk {
     }
 }
 
+/// Paths in a frame of the width `width` at `corner`, in one scale for both axes.
+fn draw_path(name: &str, paths: &[(&str, Vec<Point2<f64>>)], corner: (f64, f64), width: f64, svg: &mut Svg) {
+    let (mut low, mut high) = (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
+    for point in paths.iter().flat_map(|(_, path)| path) {
+        (low, high) = (low.inf(point), high.sup(point));
+    }
+    let size = high - low;
+    let scale = (width / size.x.max(LEAST_PATH)).min((PATHS - 40.0) / size.y.max(LEAST_PATH));
+    svg.text(corner.0, corner.1, &format!("{name} aslant from the right; 1 m is {scale:.0} pixels"));
+    for (class, path) in paths {
+        let points = path.iter();
+        svg.line(
+            class,
+            points.map(|at| (corner.0 + (at.x - low.x) * scale, corner.1 + 16.0 + (high.y - at.y) * scale)),
+        );
+    }
+}
+
 fn sole(humanoid: &Humanoid, side: Side, print: &Footprint) -> Vec<Point2<f64>> {
     humanoid.sole_at(side, print).corners().to_vec()
 }
@@ -171,6 +211,7 @@ polyline { fill: none; stroke-width: 1.5 }
 .right { fill: #dcefd2; fill-opacity: 0.6; stroke: #74a85a }
 .com { stroke: #1b4f8a } .com-key { fill: #1b4f8a }
 .zmp { stroke: #c2352b } .zmp-key { fill: #c2352b }
+.left-path { stroke: #5b8fc4 } .right-path { stroke: #74a85a }
 .joint { stroke: #1b4f8a } .limit { stroke: #c2352b; stroke-dasharray: 4 3 }
 .frame { fill: #fafafa; stroke: #ccc }
 </style>

@@ -116,6 +116,9 @@ pub struct Route {
     pub start: [Footprint; 2],
     /// The steps in turn; the sides alternate.
     pub steps: Vec<Footstep>,
+    /// Where the robot rests on both feet, seen from above, before the first step and behind each: half-way between the feet, or on the
+    /// spot where it turns.
+    pub rests: Vec<Footprint>,
 }
 
 /// A regular route: steps of one length and turn, the last of which closes the feet.
@@ -125,6 +128,8 @@ pub struct Regular {
     pub steps: usize,
     /// From one foot's print to the next one's, ahead \[m\].
     pub length: f64,
+    /// How far each step of the foot on that side leads to the left \[m\]; the other foot follows.
+    pub aside: f64,
     /// The turn of the whole walk \[rad\], anticlockwise.
     pub turn: f64,
     /// Half of the way from foot to foot, sideways \[m\].
@@ -139,19 +144,22 @@ impl Route {
     /// # Errors
     /// [`ErrorKind::BadValue`] for no or more than [`MAX_STEPS`] steps, a number that is not finite, or one that is out of any reach.
     pub fn regular(regular: &Regular) -> Result<Self> {
-        let Regular { steps, length, turn, half_width, first } = *regular;
+        let Regular { steps, length, aside, turn, half_width, first } = *regular;
         if steps == 0 || steps > MAX_STEPS {
             return Err(bad(format!("{steps} steps are asked for; give 1 to {MAX_STEPS}")));
         }
-        if !(length.is_finite() && turn.is_finite() && half_width.is_finite() && half_width > 0.0) {
+        if !(length.is_finite() && aside.is_finite() && turn.is_finite() && half_width.is_finite() && half_width > 0.0)
+        {
             return Err(bad(
                 "the length, the turn and the width of the steps must be finite, the width positive".into()
             ));
         }
         let advances = (steps - 1).max(1);
         let share = turn / advances as f64;
-        let stride =
-            Footprint { x: 0.0, y: 0.0, yaw: share / 2.0 }.then(&Footprint { x: length, y: 0.0, yaw: share / 2.0 });
+        let stride = |side: Side| {
+            let y = if aside * side.sign() > 0.0 { aside } else { 0.0 };
+            Footprint { x: 0.0, y: 0.0, yaw: share / 2.0 }.then(&Footprint { x: length, y, yaw: share / 2.0 })
+        };
         let beside = |middle: &Footprint, side: Side| {
             middle.then(&Footprint { y: side.sign() * half_width, ..Default::default() })
         };
@@ -161,12 +169,12 @@ impl Route {
         let mut list = Vec::with_capacity(steps);
         for step in 0..steps {
             if step < advances {
-                middle = middle.then(&stride);
+                middle = middle.then(&stride(side));
             }
             list.push(Footstep { side, print: beside(&middle, side) });
             side = side.other();
         }
-        Route { start, steps: list }.checked()
+        Route::new(start, list)
     }
 
     /// Reads footsteps from CSV: a header `foot,x,y,yaw`, then a line for each step, with `left` or `right`, metres and radians. Empty
@@ -197,7 +205,17 @@ impl Route {
         }
         let start =
             [Side::Left, Side::Right].map(|side| Footprint { y: side.sign() * half_width, ..Default::default() });
-        Route { start, steps }.checked()
+        Route::new(start, steps)
+    }
+
+    /// The way of `steps` from feet at `start`; between steps the robot rests half-way between its feet.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for no or more than [`MAX_STEPS`] steps, or numbers that are not finite.
+    pub fn new(start: [Footprint; 2], steps: Vec<Footstep>) -> Result<Self> {
+        let mut route = Route { start, steps, rests: Vec::new() }.checked()?;
+        route.rests = route.stands().iter().map(|feet| feet[0].middle(&feet[1])).collect();
+        Ok(route)
     }
 
     fn checked(self) -> Result<Self> {

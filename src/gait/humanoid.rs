@@ -4,10 +4,10 @@ use nalgebra::{Point2, Point3};
 
 use super::footprint::{Footprint, Side};
 use super::polygon::Polygon;
+use crate::Result;
 use crate::dynamics::{Body, Limb, LinkInertia, Multibody};
-use crate::robots::{Sole, Weight, Whole};
+use crate::robots::{Sole, Weight, Whole, place_of};
 use crate::spatial::Pose;
-use crate::{Error, ErrorKind, Result};
 
 /// Which outline the soles have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -24,6 +24,8 @@ pub enum Outline {
 pub struct JointRange {
     /// Its name in the robot's own documents.
     pub name: String,
+    /// Its symbol in the source's formulas: `q3` there is `3` here.
+    pub symbol: String,
     /// Least and greatest value \[rad\].
     pub limits: (f64, f64),
     /// The greatest rate \[rad/s\].
@@ -37,6 +39,8 @@ pub struct Foot {
     pub link: usize,
     /// The frame of the sole in the torso frame at the zero configuration: x ahead, y left, z up.
     pub torso_from_sole: Pose,
+    /// The height of the ankle's last axis over the sole \[m\].
+    pub ankle_height: f64,
     /// The corners of what touches the floor, in the frame of the sole \[m\].
     pub corners: Vec<Point2<f64>>,
 }
@@ -54,6 +58,10 @@ pub struct Humanoid {
     pub body: Multibody,
     /// The feet, left and right.
     pub feet: [Foot; 2],
+    /// Where the first joints of the legs are, left and right, in the torso frame \[m\].
+    pub hips: [Point3<f64>; 2],
+    /// Whether the torso carries the whole mass as a point at its centre of mass, for want of the links' own masses.
+    pub is_point_mass: bool,
 }
 
 impl Humanoid {
@@ -64,32 +72,50 @@ impl Humanoid {
     pub fn new(whole: &Whole, outline: Outline) -> Result<Self> {
         let base = Body { base_from_link: Pose::identity(), inertia: inertia(&whole.base)? };
         let limb = |link: &crate::robots::WholeLink| {
-            let inertia = inertia(&link.weight).map_err(|error| error.with_context(&link.name))?;
+            let inertia = link.weight.as_ref().map_or(Ok(LinkInertia::none()), inertia);
+            let inertia = inertia.map_err(|error| error.with_context(&link.name))?;
             let body = Body { base_from_link: link.base_from_link, inertia };
             Ok(Limb { parent: link.parent, screw: link.screw, body })
         };
         let limbs = whole.links.iter().map(limb).collect::<Result<_>>()?;
         let range = |link: &crate::robots::WholeLink| JointRange {
             name: link.joint.clone(),
+            symbol: link.symbol.clone(),
             limits: link.limits,
             speed: link.speed,
         };
+        let hip = |sole: &Sole| {
+            let limb = whole.limbs.iter().find(|limb| limb.joints.contains(&sole.link));
+            let first = limb.and_then(|limb| limb.joints.iter().min());
+            first.map_or(Point3::origin(), |first| whole.links[*first].base_from_link.translation.vector.into())
+        };
         Ok(Humanoid {
             name: whole.name.clone(),
+            hips: whole.soles.each_ref().map(hip),
+            is_point_mass: whole.is_point_mass,
             joints: whole.links.iter().map(range).collect(),
             shared: whole.shared.clone(),
             body: Multibody::new(base, limbs)?,
-            feet: whole.soles.each_ref().map(|sole| foot(sole, outline)),
+            feet: whole.soles.each_ref().map(|sole| foot(whole, sole, outline)),
         })
     }
 
     /// The place of the joint `name`.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] when no joint has that name.
+    /// [`crate::ErrorKind::UnknownName`] when no joint has that name.
     pub fn joint(&self, name: &str) -> Result<usize> {
-        let unknown = || Error::new(ErrorKind::UnknownName, format!("{} has no joint `{name}`", self.name));
-        self.joints.iter().position(|joint| joint.name == name).ok_or_else(unknown)
+        place_of(name, self.joints.iter().map(|joint| joint.name.as_str()), &self.name)
+    }
+
+    /// Half of the way from foot to foot, sideways, when the legs hang straight \[m\]: `W_p` of RH0, HipOffsetY of NAO Table 6.1.
+    pub fn half_width(&self) -> f64 {
+        self.feet[0].torso_from_sole.translation.y
+    }
+
+    /// From the axes of the hip up to the origin of the torso \[m\]: HipOffsetZ of NAO Table 6.1.
+    pub fn hip_to_torso(&self) -> f64 {
+        -self.hips[0].z
     }
 
     /// What the foot of `side` covers when its sole stands flat on `print`.
@@ -116,11 +142,12 @@ fn inertia(weight: &Weight) -> Result<LinkInertia> {
     LinkInertia::new(weight.mass, weight.centre, weight.inertia)
 }
 
-fn foot(sole: &Sole, outline: Outline) -> Foot {
+fn foot(whole: &Whole, sole: &Sole, outline: Outline) -> Foot {
     let [(back, front), (right, left)] = match outline {
         Outline::Measured => sole.measured,
         Outline::Seed => sole.seed,
     };
     let corners = [(back, right), (front, right), (front, left), (back, left)].map(|(x, y)| Point2::new(x, y));
-    Foot { link: sole.link, torso_from_sole: sole.base_from_sole, corners: corners.to_vec() }
+    let ankle_height = whole.links[sole.link].base_from_link.translation.z - sole.base_from_sole.translation.z;
+    Foot { link: sole.link, torso_from_sole: sole.base_from_sole, ankle_height, corners: corners.to_vec() }
 }

@@ -1,31 +1,29 @@
 //! From what is asked of feet and centre of mass to joint angles, sample by sample. Main type: [`Motion`].
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
-use nalgebra::{Point2, Point3, Vector2};
-
-use super::footprint::Footprint;
 use super::humanoid::Humanoid;
 use super::legs::{Legs, Posture};
+use super::parts::in_parts;
 use super::reference::Reference;
+use crate::spatial::{Pose, angle};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// How near the centre of mass comes to where it is asked to be \[m\]. What is left varies slowly from sample to sample; where it jumps,
 /// the zero moment point moves by at most a thousand times as much, which its margins count.
 const NEAR: f64 = 5e-7;
-/// How far the centre of mass must move to tell the gains \[m\].
-const TELLING: f64 = 1e-7;
-/// The most corrections of the torso at a sample; two or three are needed.
-const MOST_CORRECTIONS: usize = 30;
+/// How far the legs may disagree on a shared motor \[rad\]: what is left moves a foot by less than a tenth of a nanometre.
+const AGREED: f64 = 1e-10;
+/// How far the heading is moved to see how the legs' disagreement answers \[rad\].
+const ASIDE: f64 = 1e-4;
+/// How far the torso must move for its answer to be measured \[m, rad\].
+const TELLING: f64 = 1e-8;
+/// The most corrections of the torso at a sample; one or two are needed.
+const MOST_CORRECTIONS: usize = 40;
+/// How many last samples tell where the torso will be: smooth motion is met to its sixth difference.
+const LEADS: usize = 6;
 /// How much further the torso must move than the centre of mass is to move, at first: the legs lag behind.
 const FIRST_GAIN: f64 = 1.25;
-/// Between which values the gain is kept as it is measured.
-const GAINS: (f64, f64) = (1.0, 2.0);
-/// In how many parts a walk is solved, each on a thread of its own; their number does not depend on the machine, so that the same walk
-/// comes out everywhere.
-const PARTS: usize = 4;
-/// After how many samples progress is told.
-const REPORTED: usize = 64;
 
 /// The postures of a walk, one a sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,119 +34,153 @@ pub struct Motion {
     pub centres: Vec<Point3<f64>>,
 }
 
-/// Solves the legs for every reference, with the torso's origin at height `torso_height` \[m\] and moved until the centre of mass of the
-/// whole robot is where it is asked to be.
+/// Solves the legs for every reference, with the torso moved until the centre of mass of the whole robot is where it is asked to be, and
+/// turned until both legs ask the same of a motor that they share. `alike` is a motion of nearly the same references, if there is one: it
+/// tells where to look first.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
 pub fn realise(
     humanoid: &Humanoid,
-    legs: &(impl Legs + Sync),
+    legs: &Legs,
     references: &[Reference],
-    torso_height: f64,
+    alike: Option<&Motion>,
     tick: f64,
     watch: &Watch,
 ) -> Result<Motion> {
-    let done = AtomicUsize::new(0);
-    let size = references.len().div_ceil(PARTS).max(1);
-    let solve = |(place, part): (usize, &[Reference])| {
-        let mut pursuit = Pursuit::new(legs, part);
-        let solved = part.iter().enumerate().map(|(sample, reference)| {
-            if sample % REPORTED == 0 {
-                watch.check()?;
-                let done = done.fetch_add(REPORTED.min(part.len() - sample), Ordering::Relaxed);
-                watch.report("samples of the walk", done, references.len() - done);
-            }
-            let time = (place * size + sample) as f64 * tick;
-            let centre = pursuit.follow(humanoid, legs, reference, torso_height);
+    let known =
+        |sample: usize| alike.map_or(Vector3::zeros(), |motion| motion.lead(sample, references[sample].heading));
+    let solved = in_parts(references.len(), watch, |samples| {
+        let mut pursuit = Pursuit::new(legs);
+        samples.map(move |sample| {
+            let centre = pursuit.follow(humanoid, legs, &references[sample], &known(sample));
+            let time = sample as f64 * tick;
             let centre = centre.map_err(|error| error.with_context(format!("t = {time:.2} s")))?;
             Ok((pursuit.last.clone(), centre))
-        });
-        solved.collect::<Result<Vec<_>>>()
-    };
-    let parts: Vec<Result<Vec<_>>> = std::thread::scope(|scope| {
-        let spawned: Vec<_> =
-            references.chunks(size).enumerate().map(|part| scope.spawn(move || solve(part))).collect();
-        let joined = spawned.into_iter().map(|part| part.join());
-        joined.map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
-    });
-    let samples = parts.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten();
-    let (postures, centres) = samples.unzip();
+        })
+    })?;
+    let (postures, centres) = solved.into_iter().unzip();
     Ok(Motion { postures, centres })
 }
 
-/// The torso on the way: where it was, and how the centre of mass answers to it.
+impl Motion {
+    /// How far the torso is ahead of the centre of mass in x and y, and of `heading`.
+    fn lead(&self, sample: usize, heading: f64) -> Vector3<f64> {
+        let torso = &self.postures[sample].world_from_torso;
+        let apart = torso.translation.vector - self.centres[sample].coords;
+        let ahead = torso.rotation * Vector3::x();
+        Vector3::new(apart.x, apart.y, angle::difference(ahead.y.atan2(ahead.x), heading))
+    }
+}
+
+/// The torso on the way: where it was, and how centre of mass and legs answer to it.
+///
+/// The unknowns are x, y and heading of the torso; to be zero are the miss of the centre of mass in x and y and the legs' disagreement.
 struct Pursuit {
     /// The posture at the last sample.
     last: Posture,
-    /// How far the torso was from the centre of mass that was asked for, at up to four last samples, the latest first.
-    leads: Vec<Vector2<f64>>,
-    /// How far the torso moves for a move of the centre of mass, along x and y.
-    gains: Vector2<f64>,
+    /// How far the torso was from where it was known to be at the last samples, the latest first.
+    leads: Vec<Vector3<f64>>,
+    /// How far the torso must move for a change of what is to be zero: the inverse Jacobian, kept up by Broyden's rule (1965).
+    inverse: Option<Matrix3<f64>>,
 }
 
 impl Pursuit {
-    /// Before the first of `references`: a crouch above the feet.
-    fn new(legs: &impl Legs, references: &[Reference]) -> Self {
-        let mut last = legs.crouch();
-        if let Some(reference) = references.first() {
-            let [left, right] = reference.world_from_soles.each_ref().map(|sole| sole.rotation.euler_angles().2);
-            let middle = Footprint { yaw: left, ..Footprint::default() }
-                .middle(&Footprint { yaw: right, ..Footprint::default() });
-            last.world_from_torso = middle.at_height(0.0);
-        }
-        Pursuit { last, leads: Vec::new(), gains: Vector2::repeat(FIRST_GAIN) }
+    fn new(legs: &Legs) -> Self {
+        Pursuit { last: legs.crouch(), leads: Vec::new(), inverse: None }
     }
 
-    /// Moves the torso until the centre of mass is where `reference` asks for it, by secants; returns the centre of mass.
+    /// Moves the torso to where `reference` asks for it, by about `known` from there; returns the centre of mass.
     fn follow(
         &mut self,
         humanoid: &Humanoid,
-        legs: &impl Legs,
+        legs: &Legs,
         reference: &Reference,
-        torso_height: f64,
+        known: &Vector3<f64>,
     ) -> Result<Point3<f64>> {
-        let mut torso = reference.centre + self.guess();
-        let mut before: Option<(Point2<f64>, Point2<f64>)> = None;
+        let origin = Vector3::new(reference.centre.x, reference.centre.y, reference.heading) + known;
+        let mut torso = origin + self.guess();
+        let mut before: Option<(Vector3<f64>, Vector3<f64>)> = None;
         for _ in 0..MOST_CORRECTIONS {
-            let at = Point3::new(torso.x, torso.y, torso_height);
-            self.last = legs.stand(&reference.world_from_soles, &at, &self.last)?;
-            let centre = humanoid.body.place(&self.last.world_from_torso, &self.last.q)?.centre_of_mass();
-            let miss = reference.centre - centre.xy();
-            if miss.norm() <= NEAR {
-                self.leads.insert(0, torso - reference.centre + miss.component_mul(&self.gains));
-                self.leads.truncate(4);
+            let mut posture = self.stand(legs, reference, &torso)?;
+            let apart = legs.disagreement(&posture);
+            if apart.abs() <= AGREED {
+                legs.agree(&mut posture);
+            }
+            let centre = humanoid.body.place(&posture.world_from_torso, &posture.q)?.centre_of_mass();
+            let off = centre.xy() - reference.centre;
+            let miss = Vector3::new(off.x, off.y, apart);
+            let inverse = match self.inverse {
+                Some(inverse) => inverse,
+                None => self.first_inverse(legs, reference, &torso, apart)?,
+            };
+            self.last = posture;
+            let inverse = before.map_or(inverse, |(moved, was)| broyden(&inverse, &moved, &(miss - was)));
+            self.inverse = Some(inverse);
+            let step = -(inverse * miss);
+            if off.norm() <= NEAR && apart.abs() <= AGREED {
+                self.leads.insert(0, torso - origin + step);
+                self.leads.truncate(LEADS);
                 return Ok(centre);
             }
-            if let Some((torso_before, centre_before)) = before {
-                self.learn(&(torso - torso_before), &(centre.xy() - centre_before));
-            }
-            before = Some((torso, centre.xy()));
-            torso += miss.component_mul(&self.gains);
+            before = Some((step, miss));
+            torso += step;
         }
-        let text =
-            "the centre of mass cannot be brought to where the gait asks for it; lower the hip or shorten the steps";
-        Err(Error::new(ErrorKind::BadValue, text))
+        Err(self.failure(legs))
     }
 
-    /// How far the torso will be from the centre of mass: by the cubic through the last four samples.
-    fn guess(&self) -> Vector2<f64> {
-        match self.leads[..] {
-            [] => Vector2::zeros(),
-            [a] => a,
-            [a, b] => a * 2.0 - b,
-            [a, b, c] => (a - b) * 3.0 + c,
-            [a, b, c, d, ..] => (a + c) * 4.0 - b * 6.0 - d,
-        }
+    /// The posture with the torso at x, y and heading `torso`.
+    fn stand(&self, legs: &Legs, reference: &Reference, torso: &Vector3<f64>) -> Result<Posture> {
+        let at = Vector3::new(torso.x, torso.y, reference.torso_height);
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), torso.z);
+        legs.stand(&reference.world_from_soles, &Pose::from_parts(at.into(), turn), &self.last)
     }
 
-    /// Takes the gains from a move of the torso and what it did, where it was large enough to be measured.
-    fn learn(&mut self, moved: &Vector2<f64>, answered: &Vector2<f64>) {
-        for axis in 0..2 {
-            let gain = moved[axis] / answered[axis];
-            if answered[axis].abs() > TELLING && gain.is_finite() {
-                self.gains[axis] = gain.clamp(GAINS.0, GAINS.1);
-            }
+    /// The inverse Jacobian to start with: the legs lag behind by a fixed share; how the disagreement answers is measured.
+    fn first_inverse(
+        &self,
+        legs: &Legs,
+        reference: &Reference,
+        torso: &Vector3<f64>,
+        apart: f64,
+    ) -> Result<Matrix3<f64>> {
+        let mut diagonal = Vector3::new(FIRST_GAIN, FIRST_GAIN, 0.0);
+        if legs.share_a_motor() {
+            let aside = self.stand(legs, reference, &(torso + Vector3::z() * ASIDE))?;
+            let slope = angle::difference(legs.disagreement(&aside), apart) / ASIDE;
+            diagonal.z = if slope == 0.0 { 0.0 } else { 1.0 / slope };
         }
+        Ok(Matrix3::from_diagonal(&diagonal))
     }
+
+    /// How far the torso will be from where it is known to be: by the polynomial through the last samples.
+    fn guess(&self) -> Vector3<f64> {
+        let count = self.leads.len();
+        let mut factor = -1.0;
+        let term = |(place, lead): (usize, &Vector3<f64>)| {
+            // Binomial coefficients with alternating signs, from `count` on.
+            factor *= -((count - place) as f64) / (place + 1) as f64;
+            lead * factor
+        };
+        self.leads.iter().enumerate().map(term).sum()
+    }
+
+    fn failure(&self, legs: &Legs) -> Error {
+        let text = if legs.disagreement(&self.last).abs() > AGREED {
+            "no heading of the torso lets both legs share the motor that turns them; turn the feet less against one another"
+        } else {
+            "the centre of mass cannot be brought to where the gait asks for it; lower the hip or shorten the steps"
+        };
+        Error::new(ErrorKind::BadValue, text)
+    }
+}
+
+/// The inverse Jacobian corrected by a move and its answer; as it was where the move was too small to tell.
+fn broyden(inverse: &Matrix3<f64>, moved: &Vector3<f64>, answered: &Vector3<f64>) -> Matrix3<f64> {
+    let expected = inverse * answered;
+    let along = moved.dot(&expected);
+    if moved.norm() < TELLING || along <= 0.1 * moved.norm_squared() {
+        return *inverse;
+    }
+    inverse + (moved - expected) * (moved.transpose() * inverse) / along
 }

@@ -8,13 +8,15 @@ use super::footprint::Route;
 use super::humanoid::Humanoid;
 use super::legs::Legs;
 use super::motion::{Motion, realise};
+use super::one_step::OneStep;
 use super::preview;
 use super::reference::{Reference, Style, seed_centre, soles};
 use super::refusal;
-use super::schedule::{Durations, Schedule};
+use super::schedule::{Action, Durations, Schedule};
+use crate::spatial::angle;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The time between two samples \[s\]: 100 Hz.
+/// The time between two samples of NAO's walks \[s\]: 100 Hz.
 pub const TICK: f64 = 0.01;
 /// The factor by which a phase is slowed down at a time.
 const SLOWER: f64 = 1.15;
@@ -24,13 +26,31 @@ const SLOWEST: f64 = 12.0;
 const MOST_SAMPLES: usize = 180_000;
 
 /// How the centre of mass is moved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Gait {
     /// The seed's sine, NAO (6.8.1): over one foot the centre of mass rests.
     #[default]
     Seed,
     /// Preview control of the zero moment point (Kajita and others 2003): the centre of mass never rests.
     Preview,
+    /// One step goal, RH0 3.3 and 3.5: orient, lean, lift, land, balance.
+    OneStep(OneStep),
+}
+
+impl Gait {
+    /// Whether it is a one-step-goal gait.
+    pub fn is_one_step(&self) -> bool {
+        matches!(self, Gait::OneStep(_))
+    }
+
+    /// The phases of a walk of `steps` steps.
+    pub fn actions(&self, steps: usize) -> Vec<Action> {
+        if let Gait::OneStep(one_step) = self {
+            return one_step.actions(steps);
+        }
+        let walk = (0..steps).flat_map(|step| [Action::Shift(step), Action::Swing(step)]);
+        [Action::Rest].into_iter().chain(walk).chain([Action::Shift(steps), Action::Rest]).collect()
+    }
 }
 
 /// What walk is wanted.
@@ -48,6 +68,8 @@ pub struct Request {
     pub margin: f64,
     /// The greatest share of its own speed that a joint may have.
     pub speed_share: f64,
+    /// The time between two samples \[s\].
+    pub tick: f64,
 }
 
 /// A checked walk.
@@ -68,8 +90,8 @@ pub struct Walk {
 impl Walk {
     /// The time of a sample \[s\].
     pub fn time(&self, sample: usize) -> f64 {
-        // Dividing keeps decimals such as 0.07 as they are written.
-        sample as f64 / (1.0 / self.schedule.tick).round()
+        // Rounding to nanoseconds keeps decimals such as 0.07 and 0.108 as they are written.
+        (sample as f64 * self.schedule.tick * 1e9).round() / 1e9
     }
 }
 
@@ -80,27 +102,34 @@ impl Walk {
 /// [`ErrorKind::BadValue`] with the first time and the reason: a foot out of reach, a joint beyond its limits, feet that meet, a centre of
 /// mass too near to the border, a margin that no slower phase keeps, a figure of the gait that is not finite or not positive;
 /// [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
-pub fn plan(humanoid: &Humanoid, legs: &(impl Legs + Sync), request: &Request, watch: &Watch) -> Result<Walk> {
+pub fn plan(humanoid: &Humanoid, legs: &Legs, request: &Request, watch: &Watch) -> Result<Walk> {
     refusal::check(request)?;
-    let mut slowed = vec![1.0; Schedule::count(request.route.steps.len())];
+    let actions = request.gait.actions(request.route.steps.len());
+    let mut slowed = vec![1.0; actions.len()];
     loop {
-        let schedule = Schedule::new(request.route.clone(), &request.durations, &slowed, TICK);
+        let schedule = Schedule::new(request.route.clone(), &actions, &request.durations, &slowed, request.tick);
         if schedule.samples() > MOST_SAMPLES {
-            let text =
-                format!("the walk would last {:.0} s; walk fewer steps or faster", schedule.samples() as f64 * TICK);
+            let text = format!(
+                "the walk would last {:.0} s; walk fewer steps or faster",
+                schedule.samples() as f64 * request.tick
+            );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let mut references = references(&request.style, &schedule);
+        let mut references = references(humanoid, request, &schedule);
         if let Some(found) = feet_meet(humanoid, &schedule, &references) {
             return Err(refusal::of(humanoid, &schedule, request, &found));
         }
         let (motion, balances) = match request.gait {
-            Gait::Seed => moved(humanoid, legs, request, &references, watch)?,
+            Gait::Seed | Gait::OneStep(_) => moved(humanoid, legs, request, &references, None, watch)?,
             Gait::Preview => preview::moved(humanoid, legs, request, &schedule, &mut references, watch)?,
         };
-        let demand =
-            Demand { margin: request.margin, statically: request.gait == Gait::Seed, speed_share: request.speed_share };
-        let found = faults(humanoid, &references, &motion, &balances, &demand, TICK);
+        let demand = Demand {
+            margin: request.margin,
+            statically: request.gait == Gait::Seed,
+            keeps_way: request.gait.is_one_step(),
+            speed_share: request.speed_share,
+        };
+        let found = faults(humanoid, &references, &motion, &balances, &demand, request.tick);
         if found.is_empty() {
             return Ok(Walk { request: request.clone(), schedule, references, motion, balances });
         }
@@ -114,25 +143,34 @@ pub fn plan(humanoid: &Humanoid, legs: &(impl Legs + Sync), request: &Request, w
 /// As [`realise`] and [`balance`].
 pub(super) fn moved(
     humanoid: &Humanoid,
-    legs: &(impl Legs + Sync),
+    legs: &Legs,
     request: &Request,
     references: &[Reference],
+    alike: Option<&Motion>,
     watch: &Watch,
 ) -> Result<(Motion, Vec<Balance>)> {
-    let motion = realise(humanoid, legs, references, request.style.torso_height, TICK, watch)?;
-    let balances = balance(humanoid, references, &motion, TICK)?;
+    let motion = realise(humanoid, legs, references, alike, request.tick, watch)?;
+    let balances = balance(humanoid, references, &motion, request.tick)?;
     Ok((motion, balances))
 }
 
-/// What is asked of feet and centre of mass at each sample, with the seed's law for the centre of mass.
-fn references(style: &Style, schedule: &Schedule) -> Vec<Reference> {
+/// What is asked of feet and torso at each sample, for preview control with the seed's law for the centre of mass.
+fn references(humanoid: &Humanoid, request: &Request, schedule: &Schedule) -> Vec<Reference> {
+    let ankle_height = humanoid.feet[0].ankle_height;
+    let style = &request.style;
     let stands = schedule.route.stands();
     let reference = |(phase, share): (usize, f64)| {
         let action = schedule.phases[phase].action;
         let feet = Schedule::feet(&stands, action, phase == 0);
+        if let Gait::OneStep(one_step) = &request.gait {
+            return one_step.reference(style, schedule, phase, &feet, share, ankle_height);
+        }
         let (world_from_soles, standing) = soles(style, schedule, action, &feet, share);
         let centre: Point2<f64> = seed_centre(style, schedule, action, &feet, share);
-        Reference { phase, world_from_soles, stands: standing, centre }
+        let [left, right] = world_from_soles.each_ref().map(|sole| sole.rotation.euler_angles().2);
+        let heading = left + angle::difference(right, left) / 2.0;
+        let torso_height = style.torso_height;
+        Reference { phase, world_from_soles, stands: standing, centre, torso_height, heading }
     };
     schedule.instants().map(reference).collect()
 }

@@ -8,8 +8,8 @@ use super::footprint::Footprint;
 use super::humanoid::Humanoid;
 use super::legs::Legs;
 use super::motion::Motion;
-use super::plan::{Request, TICK, moved as realised};
-use super::reference::{Reference, Style, smooth};
+use super::plan::{Request, moved as realised};
+use super::reference::{Reference, Style, on_the_way, smooth};
 use super::schedule::{Action, Schedule};
 use super::zmp::GRAVITY;
 use crate::{Error, ErrorKind, Result, Watch};
@@ -68,19 +68,29 @@ impl Preview {
         let Some((&first, &last)) = reference.first().zip(reference.last()) else { return Vec::new() };
         let (mut state, mut error) = (Vector3::new(first, 0.0, 0.0), 0.0);
         let mut positions = Vec::with_capacity(reference.len());
+        let known: Vec<f64> = reference.iter().copied().chain(std::iter::repeat_n(last, self.ahead.len())).collect();
         for sample in 0..reference.len() {
             positions.push(state.x);
             let zmp = state.x - self.height / GRAVITY * state.z;
             error += zmp - reference[sample];
-            let future = self.ahead.iter().enumerate();
-            let future: f64 =
-                future.map(|(j, gain)| gain * reference.get(sample + 1 + j).copied().unwrap_or(last)).sum();
+            let future = dot(&self.ahead, &known[sample + 1..]);
             let feedback = self.gains.dot(&RowVector4::new(error, state.x, state.y, state.z));
             let jerk = -feedback - future;
             state = advanced(&state, jerk, self.tick);
         }
         positions
     }
+}
+
+/// The scalar product of `gains` with as many values, in four sums side by side.
+fn dot(gains: &[f64], values: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    for (gains, values) in gains.chunks(4).zip(values.chunks(4)) {
+        for (sum, (gain, value)) in sums.iter_mut().zip(gains.iter().zip(values)) {
+            *sum += gain * value;
+        }
+    }
+    sums.iter().sum()
 }
 
 /// The cart after a tick of constant jerk.
@@ -130,14 +140,7 @@ pub fn zmp_reference(
     feet: &[Footprint; 2],
     share: f64,
 ) -> Point2<f64> {
-    match action {
-        Action::Rest => style.between(feet),
-        Action::Swing(step) => style.ends(schedule, step, feet)[1],
-        Action::Shift(step) => {
-            let [from, to] = style.ends(schedule, step, feet);
-            from + (to - from) * smooth(share)
-        }
-    }
+    on_the_way(style, schedule, action, feet, |_, [from, to]| from + (to - from) * smooth(share))
 }
 
 /// The motion whose zero moment point follows its reference by preview control; the centres of `references` become those of the walk.
@@ -146,7 +149,7 @@ pub fn zmp_reference(
 /// As the motion of given references.
 pub(super) fn moved(
     humanoid: &Humanoid,
-    legs: &(impl Legs + Sync),
+    legs: &Legs,
     request: &Request,
     schedule: &Schedule,
     references: &mut [Reference],
@@ -160,16 +163,18 @@ pub(super) fn moved(
             zmp_reference(&request.style, schedule, action, &feet, share)
         })
         .collect();
-    let resting = realised(humanoid, legs, request, &references[..1], watch)?;
-    let preview = Preview::new(resting.0.centres[0].z, TICK)?;
+    let resting = realised(humanoid, legs, request, &references[..1], None, watch)?;
+    let preview = Preview::new(resting.0.centres[0].z, request.tick)?;
     let follow = |way: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
         let [x, y] = [0, 1].map(|axis| preview.follow(&way.iter().map(|point| point[axis]).collect::<Vec<_>>()));
         x.into_iter().zip(y).map(|(x, y)| Vector2::new(x, y)).collect()
     };
     let mut centres = follow(&wanted.iter().map(|point| point.coords).collect::<Vec<_>>());
+    let mut alike: Option<Motion> = None;
     for _ in 0..FEEDBACKS {
         aim(references, &centres);
-        let (_, balances) = realised(humanoid, legs, request, references, watch)?;
+        let (motion, balances) = realised(humanoid, legs, request, references, alike.as_ref(), watch)?;
+        alike = Some(motion);
         let missing: Vec<Vector2<f64>> =
             wanted.iter().zip(&balances).map(|(wanted, balance)| wanted - balance.zmp).collect();
         for (centre, correction) in centres.iter_mut().zip(follow(&missing)) {
@@ -177,7 +182,7 @@ pub(super) fn moved(
         }
     }
     aim(references, &centres);
-    realised(humanoid, legs, request, references, watch)
+    realised(humanoid, legs, request, references, alike.as_ref(), watch)
 }
 
 /// Asks the references for these centres of mass.

@@ -32,6 +32,10 @@ pub struct Reference {
     pub stands: [bool; 2],
     /// Where the centre of mass is to be, seen from above.
     pub centre: Point2<f64>,
+    /// The height of the torso's origin over the floor \[m\].
+    pub torso_height: f64,
+    /// Where the torso is to look \[rad\]; where the legs share a motor, the motor has the last word.
+    pub heading: f64,
 }
 
 /// The smoothest way from 0 to 1 with rest at both ends: velocity and acceleration are zero there (the minimum-jerk profile, Flash and
@@ -78,20 +82,31 @@ pub fn seed_centre(
     feet: &[Footprint; 2],
     share: f64,
 ) -> Point2<f64> {
-    match action {
-        Action::Rest => style.between(feet),
-        Action::Swing(step) => style.ends(schedule, step, feet)[1],
-        Action::Shift(step) => {
-            let [mut from, mut to] = style.ends(schedule, step, feet);
-            let (mut low, mut high) = (-0.5, 0.5);
-            if step == 0 {
-                (low, from) = (0.0, from + (from - to));
-            } else if schedule.stance(step).is_none() {
-                (high, to) = (0.0, to + (to - from));
-            }
-            let u = low + (high - low) * smooth(share);
-            along_sine(&from, &to, &feet[0].middle(&feet[1]), u)
+    on_the_way(style, schedule, action, feet, |step, [mut from, mut to]| {
+        let (mut low, mut high) = (-0.5, 0.5);
+        if step == 0 {
+            (low, from) = (0.0, from + (from - to));
+        } else if schedule.stance(step).is_none() {
+            (high, to) = (0.0, to + (to - from));
         }
+        let u = low + (high - low) * smooth(share);
+        along_sine(&from, &to, &feet[0].middle(&feet[1]), u)
+    })
+}
+
+/// A point that rests between the feet or over one foot, and goes from one place to the other in a shift: `shifting` gets the step and
+/// the two ends of its way.
+pub(super) fn on_the_way(
+    style: &Style,
+    schedule: &Schedule,
+    action: Action,
+    feet: &[Footprint; 2],
+    shifting: impl FnOnce(usize, [Point2<f64>; 2]) -> Point2<f64>,
+) -> Point2<f64> {
+    match action {
+        Action::Rest | Action::Lower | Action::Rise | Action::Balance(_) => style.between(feet),
+        Action::Swing(step) => style.ends(schedule, step, feet)[1],
+        Action::Shift(step) => shifting(step, style.ends(schedule, step, feet)),
     }
 }
 

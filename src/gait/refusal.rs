@@ -4,7 +4,9 @@ use nalgebra::Point2;
 
 use super::check::{Fault, Found};
 use super::humanoid::Humanoid;
-use super::plan::{Request, TICK};
+use super::one_step::{Laws, OneStep};
+use super::plan::{Gait, Request};
+use super::reference::Style;
 use super::schedule::{Action, Schedule};
 use crate::{Error, ErrorKind};
 
@@ -15,7 +17,7 @@ pub(super) fn is_healed_by_time(fault: &Fault) -> bool {
 
 /// The error for what was found.
 pub(super) fn of(humanoid: &Humanoid, schedule: &Schedule, request: &Request, found: &Found) -> Error {
-    let time = found.sample as f64 * TICK;
+    let time = found.sample as f64 * request.tick;
     let when = format!("t = {time:.2} s, {}", phase(schedule, found.phase));
     let text = match &found.fault {
         Fault::Static { margin } => {
@@ -62,6 +64,9 @@ fn phase(schedule: &Schedule, place: usize) -> String {
     match schedule.phases[place].action {
         Action::Rest if place == 0 => "rest before the first step".into(),
         Action::Rest => "rest behind the last step".into(),
+        Action::Lower => "lowering of the trunk".into(),
+        Action::Rise => "rise of the trunk".into(),
+        Action::Balance(step) => format!("balance behind step {}", step + 1),
         Action::Shift(step) if step == steps => "shift behind the last step".into(),
         Action::Shift(step) => format!("shift before step {}", step + 1),
         Action::Swing(step) => format!("swing of step {} ({} foot)", step + 1, schedule.route.steps[step].side.name()),
@@ -104,6 +109,7 @@ pub(super) fn check(request: &Request) -> crate::Result<()> {
         ("shift's duration", durations.shift),
         ("swing's duration", durations.swing),
         ("speed share", request.speed_share),
+        ("time between samples", request.tick),
     ];
     let not_negative = [
         ("lift", style.lift),
@@ -123,5 +129,33 @@ pub(super) fn check(request: &Request) -> crate::Result<()> {
     if !style.ahead.is_finite() {
         return refuse("lead of the centre of mass", style.ahead, "a finite number");
     }
-    Ok(())
+    match &request.gait {
+        Gait::OneStep(one_step) => check_one_step(one_step, style),
+        Gait::Seed | Gait::Preview => Ok(()),
+    }
+}
+
+/// Refuses figures that no one-step-goal walk can have.
+fn check_one_step(one_step: &OneStep, style: &Style) -> crate::Result<()> {
+    let refuse = |name: &str, value: f64, wanted: &str| {
+        Err(Error::new(ErrorKind::BadValue, format!("the {name} is {value}; give {wanted}")))
+    };
+    if !(one_step.dip.is_finite() && one_step.dip >= 0.0) {
+        return refuse("dip", one_step.dip, "zero or a positive number");
+    }
+    if !one_step.pitch.is_finite() {
+        return refuse("pitch of the foot", one_step.pitch, "a finite number");
+    }
+    if let Some(upright) = one_step.upright.filter(|upright| !(upright.is_finite() && *upright > 0.0)) {
+        return refuse("upright height", upright, "a positive number");
+    }
+    match one_step.laws {
+        Laws::Rh0 { power } if !(power.is_finite() && power >= 1.0) => refuse("power", power, "a number of at least 1"),
+        Laws::Generic if style.amplitude > style.half_width => refuse(
+            "amplitude",
+            style.amplitude,
+            "at most half of the feet's width: the circle of support has the rest as radius",
+        ),
+        _ => Ok(()),
+    }
 }

@@ -15,6 +15,12 @@ pub enum Action {
     Shift(usize),
     /// The foot of the step with this number swings.
     Swing(usize),
+    /// On both feet, the weight goes from the foot that stood in the step with this number to the middle: phase 5 of RH0 3.3.
+    Balance(usize),
+    /// Before the first step the trunk goes down until the legs can reach.
+    Lower,
+    /// Behind the last step the trunk goes up again.
+    Rise,
 }
 
 /// A phase of a walk.
@@ -44,33 +50,30 @@ pub struct Schedule {
 pub struct Durations {
     /// Each rest, before the first and behind the last step.
     pub rest: f64,
-    /// Each shift of the weight.
+    /// Each shift of the weight; lowering and rising last as long as two shifts and a swing.
     pub shift: f64,
     /// Each swing.
     pub swing: f64,
 }
 
 impl Schedule {
-    /// The phases of `route`; `slowed[i]` is the factor by which phase `i` lasts longer.
-    pub fn new(route: Route, durations: &Durations, slowed: &[f64], tick: f64) -> Self {
-        let steps = route.steps.len();
-        let walk = (0..steps).flat_map(|step| [Action::Shift(step), Action::Swing(step)]);
-        let actions = [Action::Rest].into_iter().chain(walk).chain([Action::Shift(steps), Action::Rest]);
-        let phase = |(place, action): (usize, Action)| {
+    /// The phases of `route`, `actions` in turn; `slowed[i]` is the factor by which phase `i` lasts longer.
+    pub fn new(route: Route, actions: &[Action], durations: &Durations, slowed: &[f64], tick: f64) -> Self {
+        let phase = |(place, action): (usize, &Action)| {
             let slowed = slowed.get(place).copied().unwrap_or(1.0);
             let seconds = match action {
                 Action::Rest => durations.rest,
-                Action::Shift(_) => durations.shift,
+                Action::Shift(_) | Action::Balance(_) => durations.shift,
                 Action::Swing(_) => durations.swing,
+                Action::Lower | Action::Rise => 2.0 * durations.shift + durations.swing,
             };
-            Phase { action, samples: ((seconds * slowed / tick).round() as usize).clamp(1, MOST_SAMPLES), slowed }
+            Phase {
+                action: *action,
+                samples: ((seconds * slowed / tick).round() as usize).clamp(1, MOST_SAMPLES),
+                slowed,
+            }
         };
-        Schedule { phases: actions.enumerate().map(phase).collect(), route, tick }
-    }
-
-    /// The number of phases of a route of `steps` steps.
-    pub fn count(steps: usize) -> usize {
-        2 * steps + 3
+        Schedule { phases: actions.iter().enumerate().map(phase).collect(), route, tick }
     }
 
     /// The number of samples, the first and the last instant included.
@@ -91,7 +94,9 @@ impl Schedule {
     pub fn feet(stands: &[[Footprint; 2]], action: Action, is_first: bool) -> [Footprint; 2] {
         match action {
             Action::Rest if is_first => stands[0],
-            Action::Rest => stands[stands.len() - 1],
+            Action::Lower => stands[0],
+            Action::Rest | Action::Rise => stands[stands.len() - 1],
+            Action::Balance(step) => stands[step + 1],
             Action::Shift(step) | Action::Swing(step) => stands[step],
         }
     }

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::humanoid::Humanoid;
 use super::plan::{Gait, Walk};
+use super::schedule::Action;
 
 /// A figure at its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +26,10 @@ pub struct Summary {
     pub steps: usize,
     /// How long the walk lasts, rests included \[s\].
     pub duration: f64,
+    /// How long it steps: without rests, lowering and rising \[s\].
+    pub stepping: f64,
+    /// Whether the mass model is a point at the torso's centre of mass.
+    pub is_point_mass: bool,
     /// How far the middle of the feet gets \[m\].
     pub distance: f64,
     /// How far the middle of the feet turns \[rad\].
@@ -54,8 +59,8 @@ impl Summary {
         let middles = [&stands[0], &stands[stands.len() - 1]].map(|feet| feet[0].middle(&feet[1]));
         let distance = (middles[1].point() - middles[0].point()).norm();
         let phases = &walk.schedule.phases;
-        let samples = |phases: &[super::Phase]| phases.iter().map(|phase| phase.samples).sum::<usize>();
-        let walking = samples(&phases[1..phases.len() - 1]) as f64 * walk.schedule.tick;
+        let walks = |phase: &&super::Phase| !matches!(phase.action, Action::Rest | Action::Lower | Action::Rise);
+        let walking = phases.iter().filter(walks).map(|phase| phase.samples).sum::<usize>() as f64 * walk.schedule.tick;
         let least = |figure: &dyn Fn(usize) -> f64| extreme(walk, &|sample| -figure(sample), -1.0);
         let slowed = phases.iter().filter(|phase| phase.slowed > 1.0);
         Summary {
@@ -63,6 +68,8 @@ impl Summary {
             gait: walk.request.gait,
             steps: walk.schedule.route.steps.len(),
             duration: walk.time(walk.balances.len() - 1),
+            stepping: walking,
+            is_point_mass: humanoid.is_point_mass,
             distance,
             turn: middles[1].yaw - middles[0].yaw,
             torso_height: walk.request.style.torso_height,
@@ -133,9 +140,14 @@ impl fmt::Display for Summary {
         let gait = match self.gait {
             Gait::Seed => "the seed's sine",
             Gait::Preview => "preview control",
+            Gait::OneStep(_) => "one step goal",
         };
         let millimetres = |extreme: &Extreme| format!("{:.1} mm at {:.2} s", 1e3 * extreme.value, extreme.time);
-        writeln!(f, "{}: {} steps by {gait}, {:.2} s", self.robot, self.steps, self.duration)?;
+        writeln!(
+            f,
+            "{}: {} steps by {gait}, {:.2} s, {:.2} s of them steps",
+            self.robot, self.steps, self.duration, self.stepping
+        )?;
         writeln!(
             f,
             "  way             {:.3} m, turn {:.1} deg, {:.1} cm/s between the rests, torso {:.3} m high",
@@ -144,6 +156,9 @@ impl fmt::Display for Summary {
             100.0 * self.speed,
             self.torso_height
         )?;
+        if self.is_point_mass {
+            writeln!(f, "  mass            a point at the trunk: the masses of the links are not known")?;
+        }
         writeln!(f, "  least margin    {} (ZMP, RH0 (3-5))", millimetres(&self.margin))?;
         writeln!(f, "  static margin   {} (centre of mass, RH0 (3-1))", millimetres(&self.static_margin))?;
         writeln!(f, "  pendulum's ZMP  off by {} at most", millimetres(&self.pendulum_error))?;

@@ -106,6 +106,9 @@ impl Walk {
                 Action::Rest => ("rest", None),
                 Action::Shift(step) => ("shift", Some(step + 1)),
                 Action::Swing(step) => ("swing", Some(step + 1)),
+                Action::Balance(step) => ("balance", Some(step + 1)),
+                Action::Lower => ("lower", None),
+                Action::Rise => ("rise", None),
             };
             let from = self.time(start);
             start += phase.samples;
@@ -126,7 +129,7 @@ impl Walk {
 }
 
 /// Nine decimals, without a negative zero.
-fn decimal(value: f64) -> String {
+pub(super) fn decimal(value: f64) -> String {
     let text = format!("{value:.9}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }
@@ -140,9 +143,11 @@ fn summary(summary: &Summary) -> Value {
     let extreme = |extreme: &super::Extreme| json!({ "value": extreme.value, "time": extreme.time });
     let joint = |(name, figure): &(String, super::Extreme)| json!({ "joint": name, "value": figure.value, "time": figure.time });
     json!({
-        "gait": match summary.gait { Gait::Seed => "seed", Gait::Preview => "preview" },
+        "gait": match summary.gait { Gait::Seed => "seed", Gait::Preview => "preview", Gait::OneStep(_) => "osg" },
         "steps": summary.steps,
         "duration": summary.duration,
+        "stepping": summary.stepping,
+        "point_mass": summary.is_point_mass,
         "distance": summary.distance,
         "turn": summary.turn,
         "torso_height": summary.torso_height,

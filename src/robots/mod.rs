@@ -1,11 +1,11 @@
 //! Known robots as [`Chain`]s: NAO, RH0, TEO, PUMA, Stanford, a polar robot, UR5, IRB 120. The figures stand in `data/*.toml`
 //! (format: [`crate::kinematics::chain_toml`]) with their source beside them; what is inferred or assumed says so there.
 //!
-//! All are in metres and radians. Main type: [`Robot`]. [`Whole`] is NAO with all its limbs and masses.
+//! All are in metres and radians. Main type: [`Robot`]. [`Whole`] is NAO, RH0 or TEO with all its limbs and masses.
 
 mod whole;
 
-pub use whole::{Sole, Weight, Whole, WholeLink};
+pub use whole::{Sole, Weight, Whole, WholeLimb, WholeLink, place_of};
 
 use crate::kinematics::Chain;
 
@@ -79,6 +79,16 @@ robots! {
 /// The chain of the robot called `name`; `None` when no robot of [`ALL`] has that name.
 pub fn by_name(name: &str) -> Option<Chain> {
     ALL.iter().find(|robot| robot.name == name).map(Robot::chain)
+}
+
+/// RH0 as a whole: its legs, column and arms; its mass is a point at the trunk's frame, for that of its links is not known.
+pub fn rh0() -> Whole {
+    Whole::from_toml(include_str!("whole/rh0.toml")).expect("the crate's own data, which tests/robots reads")
+}
+
+/// TEO as a whole: its legs, and all that is above them as one body.
+pub fn teo() -> Whole {
+    Whole::from_toml(include_str!("whole/teo.toml")).expect("the crate's own data, which tests/robots reads")
 }
 
 /// NAO V5 as a whole: torso, head, arms and legs, their masses, speeds and soles.

@@ -1,10 +1,9 @@
 //! A whole robot as data: its chains on one base, what the links weigh, how fast the joints turn, its soles. Main type: [`Whole`].
 
-use nalgebra::{Matrix3, Point3};
+mod read;
 
-use super::by_name;
-use crate::document::{Document, Node, Table};
-use crate::kinematics::Chain;
+use nalgebra::{Matrix3, Point3, Vector3};
+
 use crate::spatial::{Pose, Screw};
 use crate::{Error, ErrorKind, Result};
 
@@ -26,6 +25,8 @@ pub struct WholeLink {
     pub name: String,
     /// The name of the joint, unique in the robot.
     pub joint: String,
+    /// The joint's symbol in its chain or source: `q3` there is `3` here.
+    pub symbol: String,
     /// The link before it, by its place in [`Whole::links`]; `None` for the base.
     pub parent: Option<usize>,
     /// The joint in the base frame at the zero configuration.
@@ -36,8 +37,35 @@ pub struct WholeLink {
     pub limits: (f64, f64),
     /// The greatest rate of the joint without load \[rad/s\].
     pub speed: f64,
-    /// What the link weighs.
-    pub weight: Weight,
+    /// What the link weighs; `None` where its mass is counted with the base.
+    pub weight: Option<Weight>,
+}
+
+/// Where the links of a chain are in a whole robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WholeLimb {
+    /// The name of the chain, or of the limb where the file states its joints itself.
+    pub chain: String,
+    /// The place in [`Whole::links`] of each joint, in the chain's own order.
+    pub joints: Vec<usize>,
+    /// Whether the chain leads from the foot to the base: its root moves with the last link, its tip is the base.
+    pub reversed: bool,
+    /// Whether the limb is the chain's mirror image in the plane y = 0.
+    pub mirrored: bool,
+    /// The chain's root frame in the base frame at the zero configuration.
+    pub base_from_root: Pose,
+    /// The chain's tip frame in the base frame at the zero configuration.
+    pub base_from_tip: Pose,
+}
+
+impl WholeLimb {
+    /// The value of a joint of this limb whose screw is `screw`, for the value 1 of the chain's own joint: -1 where the mirror image of a
+    /// turn goes the other way.
+    pub fn sense(&self, screw: &Screw) -> f64 {
+        let direction = screw.twist().w;
+        let mirrored = Vector3::new(direction.x, -direction.y, direction.z);
+        if self.mirrored { -direction.dot(&mirrored).signum() } else { 1.0 }
+    }
 }
 
 /// A sole, as rectangles in its frame: x ahead, y left, z up.
@@ -62,134 +90,33 @@ pub struct Whole {
     pub base: Weight,
     /// The links, chain by chain from the base; link `i` is moved by joint `i`.
     pub links: Vec<WholeLink>,
+    /// The limbs.
+    pub limbs: Vec<WholeLimb>,
+    /// Whether the base carries the whole mass as a point, for want of the links' own.
+    pub is_point_mass: bool,
     /// Pairs of joints that one motor turns by the same angle.
     pub shared: Vec<(usize, usize)>,
+    /// Pairs of joints of which the first takes the value of the second: the arms' sagittal coordination, RH0 (3-23), (3-38).
+    pub coordinated: Vec<(usize, usize)>,
     /// The soles, left and right.
     pub soles: [Sole; 2],
 }
 
 impl Whole {
-    /// Reads the text of a data file; its chains are robots of this module.
+    /// The place of the joint `name` in [`Whole::links`].
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`], [`ErrorKind::MissingKey`], [`ErrorKind::UnknownKey`], [`ErrorKind::UnknownName`] for a chain, joint or limb
-    /// that is not there, [`ErrorKind::BadValue`] for a wrong number of links or soles; with the line.
-    pub fn from_toml(text: &str) -> Result<Self> {
-        let document = Document::parse(text)?;
-        let root = document.root();
-        root.deny_unknown(&["name", "source", "mass", "base", "limb", "shared", "sole"])?;
-        let mut links = Vec::new();
-        let mut tips = Vec::new();
-        for limb in root.required("limb")?.tables()? {
-            tips.push(append(&limb, &mut links)?);
-        }
-        let base = root.required("base")?.table()?;
-        base.deny_unknown(&["name", "mass", "centre", "inertia"])?;
-        let soles = root.required("sole")?;
-        let [left, right] = soles.tables()?[..] else {
-            return Err(soles.error(ErrorKind::BadValue, "give two soles, the left one first"));
-        };
-        Ok(Whole {
-            name: root.required("name")?.text()?.to_owned(),
-            base: weight(&base)?,
-            shared: shared(&root, &links)?,
-            soles: [sole(&left, &tips)?, sole(&right, &tips)?],
-            links,
-        })
-    }
-
-    /// The place of the joint `name` in [`Whole::links`].
-    pub fn joint(&self, name: &str) -> Option<usize> {
-        self.links.iter().position(|link| link.joint == name)
+    /// [`ErrorKind::UnknownName`] when no joint has that name.
+    pub fn joint(&self, name: &str) -> Result<usize> {
+        place_of(name, self.links.iter().map(|link| link.joint.as_str()), &self.name)
     }
 }
 
-/// Where a chain ends.
-struct LimbTip {
-    chain: String,
-    link: usize,
-    base_from_tip: Pose,
-}
-
-/// Appends the links of a limb and tells where it ends.
-fn append(limb: &Table<'_>, links: &mut Vec<WholeLink>) -> Result<LimbTip> {
-    limb.deny_unknown(&["chain", "prefix", "link"])?;
-    let name = limb.required("chain")?;
-    let text = || name.error(ErrorKind::UnknownName, "no robot of this crate has this name");
-    let chain: Chain = by_name(name.text()?).ok_or_else(text)?;
-    let prefix = limb.required("prefix")?.text()?;
-    let given = limb.required("link")?;
-    let tables = given.tables()?;
-    if tables.len() != chain.joints().len() {
-        let text = format!("{} links are given; the chain has {} joints", tables.len(), chain.joints().len());
-        return Err(given.error(ErrorKind::BadValue, text));
-    }
-    for (place, table) in tables.iter().enumerate() {
-        let parent = (place > 0).then(|| links.len() - 1);
-        links.push(link(table, &chain, place, prefix, parent)?);
-    }
-    Ok(LimbTip { chain: chain.name().to_owned(), link: links.len() - 1, base_from_tip: chain.base_from_tip() })
-}
-
-fn link(table: &Table<'_>, chain: &Chain, place: usize, prefix: &str, parent: Option<usize>) -> Result<WholeLink> {
-    table.deny_unknown(&["name", "joint", "speed", "mass", "centre", "inertia"])?;
-    let joint = &chain.joints()[place];
-    let named = table.required("joint")?;
-    if named.text()? != joint.name {
-        let text = format!("joint {place} of the chain is `{}`; list its joints in order", joint.name);
-        return Err(named.error(ErrorKind::UnknownName, text));
-    }
-    let missing =
-        || named.error(ErrorKind::MissingKey, "the chain gives no limits of this joint; a whole robot needs them");
-    Ok(WholeLink {
-        name: table.required("name")?.text()?.to_owned(),
-        joint: format!("{prefix}{}", joint.name),
-        parent,
-        screw: chain.screws()[place],
-        base_from_link: Pose::from_parts(joint.location().coords.into(), nalgebra::UnitQuaternion::identity()),
-        limits: joint.limits.ok_or_else(missing)?,
-        speed: table.required("speed")?.float()?,
-        weight: weight(table)?,
-    })
-}
-
-fn weight(table: &Table<'_>) -> Result<Weight> {
-    let [xx, yy, zz, xy, xz, yz] = table.required("inertia")?.float_vector::<6>()?;
-    Ok(Weight {
-        mass: table.required("mass")?.float()?,
-        centre: Point3::from(table.required("centre")?.float_vector::<3>()?),
-        inertia: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
-    })
-}
-
-fn shared(root: &Table<'_>, links: &[WholeLink]) -> Result<Vec<(usize, usize)>> {
-    let Some(node) = root.optional("shared") else { return Ok(Vec::new()) };
-    let place = |node: &Node<'_>| -> Result<usize> {
-        let name = node.text()?;
-        let unknown = || node.error(ErrorKind::UnknownName, format!("no joint is called `{name}`"));
-        links.iter().position(|link| link.joint == name).ok_or_else(unknown)
-    };
-    let pair = |table: &Table<'_>| {
-        let joints = table.required("joints")?;
-        match &joints.array()?[..] {
-            [one, other] => Ok((place(one)?, place(other)?)),
-            _ => Err(joints.error(ErrorKind::BadValue, "give the names of two joints")),
-        }
-    };
-    node.tables()?.iter().map(pair).collect()
-}
-
-fn sole(table: &Table<'_>, tips: &[LimbTip]) -> Result<Sole> {
-    table.deny_unknown(&["limb", "x", "y", "seed"])?;
-    let named = table.required("limb")?;
-    let name = named.text()?;
-    let tip = tips
-        .iter()
-        .find(|tip| tip.chain == name)
-        .ok_or_else(|| -> Error { named.error(ErrorKind::UnknownName, "no limb of this robot has that chain") })?;
-    let measured = [table.required("x")?.float_vector::<2>()?.into(), table.required("y")?.float_vector::<2>()?.into()];
-    let size = table.required("seed")?.float_vector::<2>()?;
-    let about = |(low, high): (f64, f64), size: f64| ((low + high - size) / 2.0, (low + high + size) / 2.0);
-    let seed = [about(measured[0], size[0]), about(measured[1], size[1])];
-    Ok(Sole { link: tip.link, base_from_sole: tip.base_from_tip, measured, seed })
+/// The place of the joint `name` among the `joints` of `robot`.
+///
+/// # Errors
+/// [`ErrorKind::UnknownName`] when no joint has that name.
+pub fn place_of<'n>(name: &str, mut joints: impl Iterator<Item = &'n str>, robot: &str) -> Result<usize> {
+    let unknown = || Error::new(ErrorKind::UnknownName, format!("{robot} has no joint `{name}`"));
+    joints.position(|joint| joint == name).ok_or_else(unknown)
 }

@@ -70,3 +70,60 @@ fn what_cannot_be_walked_is_refused_and_writes_nothing() {
         assert_eq!(run(wrong).code, 2, "{wrong:?}");
     }
 }
+
+#[test]
+fn rh0_walks_in_words_and_in_the_thesis_columns() {
+    let folder = tempdir().unwrap();
+    let [csv, thesis, svg] = ["walk.csv", "thesis.csv", "walk.svg"].map(|name| folder.path().join(name));
+    let plan = "out right, stride left, stride right, in left";
+    let told =
+        succeed(&["walk", "rh0", "--plan", plan, "-o", text(&csv), "--thesis", text(&thesis), "--plot", text(&svg)]);
+    for word in ["rh0: 4 steps", "17.50 s", "0.480 m", "a point at the trunk", "none had to be slowed down"] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
+    let table = fs::read_to_string(&thesis).unwrap();
+    let header = table.lines().next().unwrap();
+    assert!(header.starts_with("t,q1,q2,q3,q4,q5,q6,q12,q11,q10,q9,q8,q7,X_right_foot,"), "{header}");
+    assert_eq!(table.lines().count(), 1 + 1 + 6 * 81);
+    assert!(table.lines().nth(3).unwrap().starts_with("0.072,"));
+    assert_eq!(fs::read_to_string(&csv).unwrap().lines().count(), table.lines().count());
+    assert!(fs::read_to_string(&svg).unwrap().contains("ankles aslant"));
+    let told = succeed(&["walk", "rh0", "--plan", "turn left 90"]);
+    assert!(
+        told.contains("12 steps") && told.contains("34.99 s of them steps") && told.contains("turn 90.0 deg"),
+        "{told}"
+    );
+    let told = succeed(&["walk", "rh0", "--gait", "rh0-real", "--crouched", "--plan", "turn right 20"]);
+    assert!(told.contains("4 steps") && told.contains("turn -20.0 deg"), "{told}");
+}
+
+#[test]
+fn three_robots_walk_by_one_step_goal() {
+    for arguments in [
+        &["walk", "teo", "--goal", "0.3,0.1"][..],
+        &["walk", "teo", "--plan", "out left, stride right, in left"],
+        &["walk", "nao", "--gait", "osg", "--goal=0.1,-0.05"],
+        &["walk", "rh0", "--gait", "osg", "--steps", "3"],
+    ] {
+        assert!(succeed(arguments).contains("by one step goal"), "{arguments:?}");
+    }
+    for (arguments, word) in [
+        (&["walk", "nao", "--plan", "hop left"][..], "`hop left`"),
+        (&["walk", "rh0", "--plan", "stride left"], "word 1"),
+        (&["walk", "rh0", "--gait", "seed"], "give one of `rh0`, `rh0-real`, `osg`"),
+        (&["walk", "nao", "--dip", "0.01"], "--gait osg"),
+        (&["walk", "teo", "--power", "2"], "--power is for RH0's laws"),
+        (&["walk", "nao", "--steps", "1", "--thesis", "/nowhere/t.csv"], "its tables are for rh0"),
+        (&["walk", "rh0", "--plan", "out left", "--length", "0.5"], "out of reach"),
+        (&["walk", "teo", "--goal", "1"], "two numbers"),
+    ] {
+        let told = refused(arguments);
+        assert!(told.contains(word), "{word}: {told}");
+    }
+    for wrong in [
+        &["walk", "rh0", "--plan", "out left", "--steps", "3"][..],
+        &["walk", "teo", "--goal", "1,0", "--plan", "in left"],
+    ] {
+        assert_eq!(run(wrong).code, 2, "{wrong:?}");
+    }
+}

@@ -1,7 +1,11 @@
 //! Whatever is asked for: a walk that keeps what it promises, or a refusal that says when and why.
 
-use groebot::ErrorKind;
-use groebot::gait::{Durations, Gait, Regular, Route, Side, Style};
+use groebot::gait::{
+    Durations, Gait, Laws, Measures, NAO_ONE_STEP, Outline, RH0_GENERIC, Regular, Route, Side, Style, TEO_ONE_STEP,
+    Usual, Walker, plan,
+};
+use groebot::{ErrorKind, Watch};
+use nalgebra::Point2;
 use proptest::prelude::*;
 
 use super::nao::feet_are_where_they_should_be;
@@ -18,7 +22,7 @@ proptest! {
     ) {
         let (nao, _) = robot();
         let first = if right { Side::Right } else { Side::Left };
-        let mut asked = request(&Regular { steps: 4, length, turn, half_width: 0.05, first });
+        let mut asked = request(&Regular { steps: 4, length, aside: 0.0, turn, half_width: 0.05, first });
         asked.style = Style { lift, amplitude, ahead, torso_height, half_width: 0.05 };
         asked.margin = margin;
         asked.durations = Durations { rest: if preview { 1.5 } else { 0.2 }, shift, swing };
@@ -42,6 +46,50 @@ proptest! {
                 }
                 let Route { steps, .. } = &walk.schedule.route;
                 prop_assert_eq!(steps.len(), 4);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// The same of one step goal, for all robots that walk by it, by both versions of its laws.
+    #[test]
+    fn one_step_goal_keeps_its_promises_or_is_refused(
+        (robot, rh0_laws, power, dip) in (0usize..3, any::<bool>(), 1.0..5.0f64, 0.0..0.01f64),
+        (x, y, length, lift) in (-0.05..0.1f64, -0.08..0.08f64, 0.04..0.2f64, 0.0..0.1f64),
+        (share, lower, period, crouched) in (0.3..1.0f64, 0.0..0.06f64, 2.0..5.0f64, any::<bool>()),
+    ) {
+        let (walker, usual) = [(Walker::Nao, NAO_ONE_STEP), (Walker::Rh0, RH0_GENERIC), (Walker::Teo, TEO_ONE_STEP)][robot];
+        let (humanoid, legs) = walker.build(Outline::Measured).unwrap();
+        let Gait::OneStep(mut one_step) = usual.gait else { unreachable!("one step goal") };
+        one_step.dip = dip;
+        if rh0_laws {
+            one_step.laws = Laws::Rh0 { power };
+        }
+        let amplitude = share * usual.amplitude;
+        let asked = Usual { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..usual };
+        let asked = if crouched { asked } else { asked.from_upright(&humanoid) };
+        let measures = Measures { length, half_width: humanoid.half_width(), most_turn: usual.most_turn };
+        let route = Route::towards(&Point2::new(x, y), Side::Right, &measures).unwrap();
+        let request = asked.request(&humanoid, route, usual.hip_heights[0] - lower);
+        match plan(&humanoid, &legs, &request, &Watch::none()) {
+            Err(error) => {
+                prop_assert_eq!(error.kind(), ErrorKind::BadValue);
+                prop_assert!(error.message().starts_with("t = "), "{}", error);
+            }
+            Ok(walk) => {
+                super::one_step::feet_are_on_their_prints(&humanoid, &walk);
+                for (sample, balance) in walk.balances.iter().enumerate() {
+                    prop_assert!(balance.margin >= usual.margin);
+                    let (q, before) = (&walk.motion.postures[sample].q, &walk.motion.postures[sample.saturating_sub(1)].q);
+                    for (joint, range) in humanoid.joints.iter().enumerate() {
+                        prop_assert!(range.limits.0 <= q[joint] && q[joint] <= range.limits.1);
+                        let most = range.speed * usual.speed_share * usual.tick;
+                        prop_assert!((q[joint] - before[joint]).abs() <= most + 1e-12);
+                    }
+                }
             }
         }
     }

@@ -1,29 +1,33 @@
 //! Walking: polygons and zero moment points against their definitions, walks against forward kinematics and against the documents.
 
 mod any;
+mod errata;
 mod nao;
+mod one_step;
 mod polygon;
 mod preview;
 mod refused;
+mod rh0;
 mod route;
 mod seed;
+mod tables;
 mod zmp;
 
 use std::sync::OnceLock;
 
 use groebot::Watch;
 use groebot::gait::{
-    Durations, Gait, Humanoid, NaoLegs, Outline, Regular, Request, Route, Side, Style, Walk, nao, plan,
+    Durations, Gait, Humanoid, Legs, Outline, Regular, Request, Route, Side, Style, TICK, Walk, nao, plan,
 };
 
 /// NAO on its measured soles.
-fn robot() -> &'static (Humanoid, NaoLegs) {
-    static ROBOT: OnceLock<(Humanoid, NaoLegs)> = OnceLock::new();
+fn robot() -> &'static (Humanoid, Legs) {
+    static ROBOT: OnceLock<(Humanoid, Legs)> = OnceLock::new();
     ROBOT.get_or_init(|| nao(Outline::Measured).unwrap())
 }
 
 fn regular() -> Regular {
-    Regular { steps: 4, length: 0.04, turn: 0.0, half_width: 0.05, first: Side::Left }
+    Regular { steps: 4, length: 0.04, turn: 0.0, aside: 0.0, half_width: 0.05, first: Side::Left }
 }
 
 fn style() -> Style {
@@ -39,6 +43,7 @@ fn request(regular: &Regular) -> Request {
         durations: Durations { rest: 0.3, shift: 0.96, swing: 0.54 },
         margin: 0.01,
         speed_share: 0.9,
+        tick: TICK,
     }
 }
 

@@ -1,6 +1,6 @@
 //! What cannot be walked is refused with the reason, or slowed down.
 
-use groebot::gait::{Regular, Request, Route, Summary, plan};
+use groebot::gait::{Gait, Laws, OneStep, Regular, Request, Route, Summary, plan};
 use groebot::{ErrorKind, Watch};
 
 use super::{regular, request, robot, walk};
@@ -80,4 +80,19 @@ fn the_caller_may_stop_it() {
     let watch = Watch::none().with_cancel(std::sync::Arc::new(true.into()));
     let (humanoid, legs) = robot();
     assert_eq!(plan(humanoid, legs, &request(&regular()), &watch).unwrap_err().kind(), ErrorKind::Cancelled);
+}
+
+#[test]
+fn figures_of_one_step_goal_that_mean_nothing_are_refused() {
+    let one_step = OneStep { laws: Laws::Generic, dip: 0.0, pitch: 0.0, upright: None };
+    let with = |one_step: OneStep| reason(|request| request.gait = Gait::OneStep(one_step));
+    assert!(with(OneStep { dip: -1.0, ..one_step }).contains("dip"));
+    assert!(with(OneStep { pitch: f64::NAN, ..one_step }).contains("pitch"));
+    assert!(with(OneStep { upright: Some(0.0), ..one_step }).contains("upright"));
+    assert!(with(OneStep { laws: Laws::Rh0 { power: 0.5 }, ..one_step }).contains("power"));
+    let wide = |request: &mut Request| {
+        request.gait = Gait::OneStep(one_step);
+        request.style.amplitude = 0.06;
+    };
+    assert!(reason(wide).contains("circle of support"));
 }

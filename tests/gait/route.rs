@@ -31,7 +31,7 @@ proptest! {
     #[test]
     fn regular_routes_close(steps in 1usize..30, length in -0.1..0.1f64, turn in -2.0..2.0f64, right: bool) {
         let first = if right { Side::Right } else { Side::Left };
-        let route = Route::regular(&Regular { steps, length, turn, half_width: 0.05, first }).unwrap();
+        let route = Route::regular(&Regular { steps, length, aside: 0.0, turn, half_width: 0.05, first }).unwrap();
         let stands = route.stands();
         let [left, right] = stands[stands.len() - 1];
         prop_assert_eq!(route.steps.len(), steps);
@@ -39,6 +39,21 @@ proptest! {
             prop_assert!((nalgebra::distance(&left.point(), &right.point()) - 0.1).abs() < 1e-12);
             prop_assert!((left.yaw - turn).abs() < 1e-12 && (right.yaw - turn).abs() < 1e-12);
         }
+    }
+}
+
+#[test]
+fn side_steps_lead_aside_and_close() {
+    for (aside, first) in [(0.01, Side::Left), (-0.01, Side::Right), (0.01, Side::Right)] {
+        let route = Route::regular(&Regular { steps: 8, length: 0.0, aside, first, ..regular() }).unwrap();
+        let [left, right] = route.stands().pop().unwrap();
+        let leading = route.steps[..7].iter().filter(|step| step.side.sign() == aside.signum()).count();
+        let total = leading as f64 * aside;
+        assert!((left.y - 0.05 - total).abs() < 1e-12 && (right.y + 0.05 - total).abs() < 1e-12, "{aside}");
+        // The swinging foot's AnkleRoll is near its limit with the seed's 50 mm; 40 mm leave it room.
+        let mut asked = groebot::gait::Request { route, ..request(&regular()) };
+        asked.style.amplitude = 0.04;
+        super::nao::feet_are_where_they_should_be(&walk(&asked).unwrap());
     }
 }
 
@@ -84,6 +99,7 @@ fn bad_footsteps_are_refused_with_their_line() {
         Regular { steps: MAX_STEPS + 1, ..regular() },
         Regular { length: f64::NAN, ..regular() },
         Regular { length: 1e6, ..regular() },
+        Regular { aside: f64::NAN, ..regular() },
         Regular { turn: f64::INFINITY, ..regular() },
         Regular { half_width: 0.0, ..regular() },
     ] {

@@ -1,0 +1,147 @@
+//! The figures that a robot's gait has unless others are given. Main type: [`Usual`].
+
+use super::footprint::Route;
+use super::humanoid::{Humanoid, Outline};
+use super::legs::Legs;
+use super::nao::{NAO_ONE_STEP, NAO_PREVIEW, NAO_SEED, nao};
+use super::plan::{Gait, Request, Walk, plan};
+use super::reference::Style;
+use super::rh0::{RH0_EXPERIMENT, RH0_GENERIC, RH0_SIMULATION, rh0};
+use super::schedule::Durations;
+use super::teo::{TEO_ONE_STEP, teo};
+use crate::{ErrorKind, Result, Watch};
+
+/// The usual figures of a gait. Metres, seconds, radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Usual {
+    /// How the centre of mass is moved.
+    pub gait: Gait,
+    /// How far ahead of the standing foot the other one lands: `x_d` of NAO 6.8, `L_p` of RH0 3.5.
+    pub length: f64,
+    /// How high a foot is lifted: `z_d` of NAO 6.8, `H_p` of RH0 3.5.
+    pub lift: f64,
+    /// Half of the way from foot to foot, sideways; `None` is as wide as the hips are.
+    pub half_width: Option<f64>,
+    /// How far to the side the centre of mass goes.
+    pub amplitude: f64,
+    /// How far ahead of the ankles the centre of mass is held.
+    pub ahead: f64,
+    /// Heights of the axes of the hip over the floor; the first at which the walk can be walked is taken.
+    pub hip_heights: &'static [f64],
+    /// The height of the axes of the hip before the trunk is lowered and when it has risen, for one step goal.
+    pub upright_hip: f64,
+    /// The time of a step.
+    pub period: f64,
+    /// The share of a step in which both feet stand.
+    pub double_support: f64,
+    /// How long the robot stands before the first and behind the last step.
+    pub rest: f64,
+    /// The least distance of the zero moment point from the border of the support polygon.
+    pub margin: f64,
+    /// The greatest share of its own speed that a joint may have.
+    pub speed_share: f64,
+    /// How far the robot turns in one step at most: `G_CM` of RH0 3.5.
+    pub most_turn: f64,
+    /// The time between two samples.
+    pub tick: f64,
+}
+
+/// A robot that can walk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Walker {
+    /// NAO V5.
+    Nao,
+    /// RH0.
+    Rh0,
+    /// TEO.
+    Teo,
+}
+
+impl Walker {
+    /// The robot and the solver of its legs.
+    ///
+    /// # Errors
+    /// None with the crate's own data.
+    pub fn build(self, outline: Outline) -> Result<(Humanoid, Legs)> {
+        match self {
+            Walker::Nao => nao(outline),
+            Walker::Rh0 => rh0(outline),
+            Walker::Teo => teo(outline),
+        }
+    }
+
+    /// The gaits that the robot walks, by name, its own first, each with its usual figures.
+    pub fn gaits(self) -> &'static [(&'static str, Usual)] {
+        match self {
+            Walker::Nao => &[("seed", NAO_SEED), ("preview", NAO_PREVIEW), ("osg", NAO_ONE_STEP)],
+            Walker::Rh0 => &[("rh0", RH0_SIMULATION), ("rh0-real", RH0_EXPERIMENT), ("osg", RH0_GENERIC)],
+            Walker::Teo => &[("osg", TEO_ONE_STEP)],
+        }
+    }
+}
+
+/// The walk at `hip_height` \[m\], or at the first of `heights` at which it can be walked; `request` makes the request for a height.
+///
+/// # Errors
+/// As [`plan`]; that of the first height when it can be walked at none.
+pub fn plan_at(
+    (humanoid, legs): (&Humanoid, &Legs),
+    hip_height: Option<f64>,
+    heights: &[f64],
+    request: impl Fn(f64) -> Result<Request>,
+    watch: &Watch,
+) -> Result<Walk> {
+    let walk = |height: f64| plan(humanoid, legs, &request(height)?, watch);
+    let Some(height) = hip_height.or(heights.first().copied()) else {
+        return Err(crate::Error::new(ErrorKind::BadValue, "give the height of the hip"));
+    };
+    let first = walk(height);
+    let is_refused = |walk: &Result<Walk>| walk.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue);
+    if hip_height.is_some() || !is_refused(&first) {
+        return first;
+    }
+    heights[1..].iter().map(|height| walk(*height)).find(|walk| !is_refused(walk)).unwrap_or(first)
+}
+
+impl Usual {
+    /// Half of the way from foot to foot, sideways \[m\].
+    pub fn half_width(&self, humanoid: &Humanoid) -> f64 {
+        self.half_width.unwrap_or(humanoid.half_width())
+    }
+
+    /// The request to walk `route` with the hips at `hip_height` \[m\].
+    pub fn request(&self, humanoid: &Humanoid, route: Route, hip_height: f64) -> Request {
+        let style = Style {
+            lift: self.lift,
+            amplitude: self.amplitude,
+            half_width: self.half_width(humanoid),
+            ahead: self.ahead,
+            torso_height: hip_height + humanoid.hip_to_torso(),
+        };
+        Request {
+            route,
+            gait: self.gait,
+            style,
+            durations: self.durations(),
+            margin: self.margin,
+            speed_share: self.speed_share,
+            tick: self.tick,
+        }
+    }
+
+    /// The figures with a lowering before the first step and a rise behind the last one, for one step goal.
+    #[must_use]
+    pub fn from_upright(mut self, humanoid: &Humanoid) -> Self {
+        if let Gait::OneStep(one_step) = &mut self.gait {
+            one_step.upright = Some(self.upright_hip + humanoid.hip_to_torso());
+        }
+        self
+    }
+
+    /// How long the phases last. A step of one-step-goal walks has two phases on both feet, one on each side of the swing; a step of the
+    /// others has one.
+    pub fn durations(&self) -> Durations {
+        let (double, phases) = (self.period * self.double_support, if self.gait.is_one_step() { 2.0 } else { 1.0 });
+        Durations { rest: self.rest, shift: double / phases, swing: self.period - double }
+    }
+}
