@@ -160,7 +160,10 @@ impl ChainText {
             formulations: solver
                 .formulations()
                 .iter()
-                .map(|formulation| FormulationText { hidden: formulation.hidden, second: formulation.second.to_string() })
+                .map(|formulation| FormulationText {
+                    hidden: formulation.hidden,
+                    second: formulation.second.to_string(),
+                })
                 .collect(),
         }
     }

@@ -1,11 +1,10 @@
 //! Chains of six joints of which some slide.
 
-use groebot::derive::Source;
+use groebot::Watch;
+use groebot::derive::lift::Derived;
 use groebot::derive::template::{self, DerivedSixAxes};
-use groebot::derive::Proved;
 use groebot::kinematics::Chain;
 use groebot::solver::template::{Answers, Template};
-use groebot::Watch;
 
 use super::{Random, random_chain_of};
 
@@ -46,6 +45,37 @@ fn one_joint_may_slide_anywhere() {
             let solver = template::solver(&random_chain_of(&mut random, &[joint])).unwrap();
             let (misses, worst) = misses(&solver, &mut random, &[joint], 300);
             assert!(misses == 0 && worst <= 1e-12, "joint {joint}: {misses} misses, {worst:e}");
+        }
+    }
+}
+
+/// Two joints may slide if they are not the first and the fourth, the second and the fifth, or the third and the last.
+#[test]
+fn two_joints_may_slide_in_most_places() {
+    let mut random = Random::new(36);
+    for first in 0..6 {
+        for second in (first + 1..6).filter(|second| second - first != 3) {
+            let sliding = [first, second];
+            let solver = template::solver(&random_chain_of(&mut random, &sliding)).unwrap();
+            let (misses, worst) = misses(&solver, &mut random, &sliding, 200);
+            assert!(misses == 0 && worst <= 1e-12, "{sliding:?}: {misses} misses, {worst:e}");
+        }
+    }
+}
+
+/// Three joints that slide leave three angles for the rotation: blocks find them, wherever they stand.
+#[test]
+fn blocks_solve_chains_with_three_sliding_joints() {
+    let mut random = Random::new(37);
+    for sliding in [[0, 1, 2], [0, 2, 4], [1, 2, 5], [0, 3, 5], [3, 4, 5]] {
+        let chain = random_chain_of(&mut random, &sliding);
+        let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+        for _ in 0..20 {
+            let q = values(&mut random, &sliding);
+            let target = derived.program.reached(&q).unwrap();
+            let near = |found: &[f64]| found.iter().zip(&q).all(|(a, b)| (a - b).abs() < 1e-9);
+            let solutions = derived.program.solve(&target).unwrap();
+            assert_eq!(solutions.iter().filter(|solution| near(&solution.q)).count(), 1, "{sliding:?} {q:?}");
         }
     }
 }

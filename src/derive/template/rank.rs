@@ -10,7 +10,9 @@ use super::residue::Residue;
 use crate::derive::planner::Random;
 use crate::kinematics::{Chain, JointKind};
 use crate::number::Zp;
-use crate::solver::template::{Axis, Doubled, Equations, FAR, Figure, Formulation, Frame, Line, MOVING, Row, Rows, STILL};
+use crate::solver::template::{
+    Axis, Doubled, Equations, FAR, Figure, Formulation, Frame, Line, MOVING, Row, Rows, STILL,
+};
 use crate::{Error, ErrorKind, Result};
 
 /// Rows and columns of a pencil before elimination.
@@ -52,8 +54,10 @@ fn determinant(chain: &Chain, formulation: Formulation, field: Zp, seed: u64) ->
     }
     let zero = Residue::new(0, field);
     let figures = axes.map(|axis| Figure::of(&axis, frame(&axis.line, zero).across[0]));
-    let moved = figures.map(|figure| axes.iter().zip(&turns).rev().fold(figure, |figure, (a, by)| figure.moved(a, *by)));
-    let back = figures.map(|figure| axes.iter().zip(&turns).fold(figure, |figure, (a, [c, s])| figure.moved(a, [*c, -*s])));
+    let moved =
+        figures.map(|figure| axes.iter().zip(&turns).rev().fold(figure, |figure, (a, by)| figure.moved(a, *by)));
+    let back =
+        figures.map(|figure| axes.iter().zip(&turns).fold(figure, |figure, (a, [c, s])| figure.moved(a, [*c, -*s])));
     let frame = frame(&axes[formulation.hidden].line, zero);
     let rows = Rows::new(&Equations::new(formulation, &frame, &axes, [&figures, &moved, &back]));
     let axis = &axes[formulation.doubled()];

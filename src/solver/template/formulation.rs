@@ -67,7 +67,8 @@ impl<T: Scalar> Equations<T> {
                 _ => figures[joint],
             }
         };
-        let axis = |steps: usize, ahead: bool| Axis { line: place(steps, ahead).line, ..axes[formulation.joint(steps)] };
+        let axis =
+            |steps: usize, ahead: bool| Axis { line: place(steps, ahead).line, ..axes[formulation.joint(steps)] };
         Equations {
             square: axes[formulation.hidden].square,
             slides: axes[formulation.hidden].slides,

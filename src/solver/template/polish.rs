@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::linear::solve;
 use super::candidates::turn;
+use super::linear::solve;
 use super::scalar::{Vector, add, cross, dot, scale, sub};
 
 /// A rigid motion.
