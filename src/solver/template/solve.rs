@@ -203,7 +203,8 @@ impl Template {
             }
         }
         for answer in &mut answers.list[..answers.count] {
-            answer.free = self.links.free(&answer.q);
+            // A run that can be trusted at once has seen no family.
+            answer.free = if answers.runs > 1 { self.links.free(&answer.q) } else { [false; 6] };
             answer.q = self.scaled(&answer.q, self.scale);
         }
         for q in &mut answers.lost[..answers.lost_count] {
