@@ -8,6 +8,7 @@ mod regular;
 mod robots;
 mod sliding;
 mod solver;
+mod study;
 
 use std::f64::consts::{PI, TAU};
 
