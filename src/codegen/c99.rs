@@ -194,6 +194,10 @@ impl Language for C99 {
         format!("six{depth}->q[{joint}]")
     }
 
+    fn six_axes_lost(&self, depth: usize) -> String {
+        format!("six{depth}->lost")
+    }
+
     fn six_axes_free(&self, depth: usize, joint: usize) -> String {
         format!("six{depth}->free[{joint}]")
     }

@@ -58,6 +58,8 @@ pub(super) trait Language {
     fn open_six_axes(&self, depth: usize, chain: usize, target: &[String]) -> Vec<String>;
     /// The value of the joint with this index in that loop; typed.
     fn six_axes_joint(&self, depth: usize, joint: usize) -> String;
+    /// Whether the candidate in that loop is one that was lost.
+    fn six_axes_lost(&self, depth: usize) -> String;
     /// Whether that joint is free.
     fn six_axes_free(&self, depth: usize, joint: usize) -> String;
     /// Handing over an answer.

@@ -20,13 +20,15 @@ pub(super) struct Walk<'a> {
     branch: Vec<String>,
     /// Joints that may be free at an answer, and the expression that tells.
     loose: Vec<(usize, String)>,
+    /// Expressions that tell whether a candidate may have others next to it.
+    lost: Vec<String>,
 }
 
 impl<'a> Walk<'a> {
     /// At the chart's first step, behind `lines`, in the block with this index.
     pub fn new(scene: &'a Scene<'a>, block: usize, chart: &'a Chart, lines: Vec<String>) -> Self {
-        let (finds_roots, branch, loose) = (Vec::new(), Vec::new(), Vec::new());
-        Walk { scene, block, chart, lines, depth: 0, finds_roots, branch, loose }
+        let (finds_roots, branch, loose, lost) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Walk { scene, block, chart, lines, depth: 0, finds_roots, branch, loose, lost }
     }
 
     fn push(&mut self, lines: Vec<String>) {
@@ -131,6 +133,7 @@ impl<'a> Walk<'a> {
         let place = six_axes::steps(self.scene.program).iter().position(|other| std::ptr::eq(*other, six));
         let number = 1 + place.expect("the step is one of the program's");
         self.push(language.open_six_axes(depth, number, &target));
+        self.lost.push(language.six_axes_lost(depth));
         for (place, joint) in six.parts().joints.iter().enumerate() {
             let value = language.six_axes_joint(depth, place);
             let values = match joint {
@@ -164,7 +167,7 @@ impl<'a> Walk<'a> {
     fn close(&self, language: &dyn Language) -> String {
         let before = (self.block > 0).then(|| language.known("close"));
         let own = (0..self.depth).filter(|depth| self.finds_roots[*depth]).map(|depth| format!("roots{depth}.close"));
-        let all: Vec<String> = before.into_iter().chain(own).collect();
+        let all: Vec<String> = before.into_iter().chain(own).chain(self.lost.iter().cloned()).collect();
         if all.is_empty() { "false".to_owned() } else { all.join(" || ") }
     }
 

@@ -355,7 +355,7 @@ impl Step {
             Step::Roots { polynomials, .. } => {
                 polynomials.iter().map(|coefficients| coefficients.len().saturating_sub(1)).max().unwrap_or(0)
             }
-            Step::SixAxes(_) => ROOM,
+            Step::SixAxes(_) => 2 * ROOM,
             _ => 1,
         }
     }

@@ -149,12 +149,14 @@ impl<'a> Walk<'a> {
     /// Runs the steps behind one that finds six angles together, once for each of their solutions.
     fn six_axes(&mut self, block: usize, six: &SixAxes, behind: &[Step], path: Path) -> Result<()> {
         let target = six.parts().target.map(|operand| self.frame.value(operand));
-        for (choice, answer) in six.solve(&target).into_iter().enumerate() {
-            let mut path = Path { choice: path.choice + choice, ..path };
+        let (found, answers) = six.solve(&target);
+        let lost = answers.lost().iter().map(|q| (*q, [false; 6], true));
+        for (choice, (q, free, is_lost)) in found.iter().map(|a| (a.q, a.free, false)).chain(lost).enumerate() {
+            let mut path = Path { choice: path.choice + choice, close: path.close || is_lost, ..path };
             for (place, joint) in six.parts().joints.iter().enumerate() {
-                self.put(*joint, answer.q[place]);
+                self.put(*joint, q[place]);
                 let index = self.program.joints.iter().position(|other| other.value == *joint);
-                index.into_iter().for_each(|index| path.free[index] |= answer.free[place]);
+                index.into_iter().for_each(|index| path.free[index] |= free[place]);
             }
             self.steps(block, behind, path)?;
         }

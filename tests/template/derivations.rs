@@ -6,9 +6,11 @@ use groebot::Watch;
 use groebot::derive::{Proved, Source};
 
 /// Their names, and how many complex solutions they have.
-const FOLDERS: [(&str, usize); 6] = [
+const FOLDERS: [(&str, usize); 8] = [
     ("booster_leg_like", 16),
     ("crx_like", 16),
+    ("general_4r2p", 8),
+    ("general_5r1p", 16),
     ("general_6r", 16),
     ("jaco_like", 16),
     ("ur5_calibrated", 16),

@@ -6,7 +6,9 @@ mod eigenvalues;
 mod program;
 mod regular;
 mod robots;
+mod sliding;
 mod solver;
+mod study;
 
 use std::f64::consts::{PI, TAU};
 
@@ -63,10 +65,15 @@ pub fn nearest(answers: &Answers, q: &[f64; 6]) -> f64 {
 
 /// The chain of revolute joints with these axes (directions and points), its tip at the origin.
 pub fn chain(axes: &[([BigRational; 3], [BigRational; 3])]) -> Chain {
+    chain_of(axes, &[])
+}
+
+/// The same, of which these joints slide.
+pub fn chain_of(axes: &[([BigRational; 3], [BigRational; 3])], sliding: &[usize]) -> Chain {
     let joint = |(index, (axis, point)): (usize, &([BigRational; 3], [BigRational; 3]))| Joint {
         name: format!("Joint{}", index + 1),
         symbol: (index + 1).to_string(),
-        kind: JointKind::Revolute,
+        kind: if sliding.contains(&index) { JointKind::Prismatic } else { JointKind::Revolute },
         axis: axis.clone(),
         point: point.clone(),
         limits: None,
@@ -91,6 +98,11 @@ pub fn chain(axes: &[([BigRational; 3], [BigRational; 3])]) -> Chain {
 
 /// A chain whose axes have random integer directions and pass through random points within one metre.
 pub fn random_chain(random: &mut Random) -> Chain {
+    random_chain_of(random, &[])
+}
+
+/// The same, of which these joints slide.
+pub fn random_chain_of(random: &mut Random, sliding: &[usize]) -> Chain {
     let axes: Vec<_> = (0..6)
         .map(|_| {
             let axis = [0, 1, 2].map(|k| rational(random.integer(-9, 9) + if k == 2 { 20 } else { 0 }, 1));
@@ -99,5 +111,5 @@ pub fn random_chain(random: &mut Random) -> Chain {
             (axis, [0, 1, 2].map(|_| rational(random.integer(-1000, 1000), 1000)))
         })
         .collect();
-    chain(&axes)
+    chain_of(&axes, sliding)
 }

@@ -6,6 +6,7 @@ use super::DerivedSixAxes;
 use super::rank::Determinant;
 use crate::derive::explain::Document;
 use crate::derive::stages::{MARK, PAGE, STAGES};
+use crate::kinematics::JointKind;
 use crate::solver::template::Formulation;
 
 /// How the equations come about, line by line.
@@ -27,6 +28,16 @@ const EQUATIONS: [&str; 7] = [
      polishes each, and the equations of the loop measure it.",
 ];
 
+/// What is different for joints that slide.
+const SLIDING: [&str; 3] = [
+    "Of a joint that slides by d the functions are polynomials of degree two in d: 1, d^2, d take the places of 1, c, s, and with \
+     d = sin(r/2) / cos(r/2) the equations are multiplied by cos(r/2)^2.",
+    "A hidden joint that slides by 2 x w moves the fourteen functions by exp(2 x N) with N^3 = 0: b - a = x N (a + b), of which six \
+     equations are free of x.",
+    "If joint h+3 slides, it leaves directions alone and lines along its own, l: with a across it, a, l, p x l, l x a, p.a and p.(l x a) are \
+     the fourteen functions.",
+];
+
 impl DerivedSixAxes {
     /// The stage files with their names: the same bytes at every run.
     pub fn stage_files(&self) -> Vec<(String, Vec<u8>)> {
@@ -43,10 +54,16 @@ impl DerivedSixAxes {
 
     fn equations_text(&self) -> String {
         let mut text = format!("{}: the equations of any six revolute joints\n", self.chain.name());
-        for (number, line) in EQUATIONS.iter().enumerate() {
+        for (number, line) in self.told_equations().enumerate() {
             let _ = write!(text, "\n({}) {line}\n", number + 1);
         }
         text
+    }
+
+    /// How the equations come about, and what is different for joints that slide if there are any.
+    fn told_equations(&self) -> impl Iterator<Item = &'static str> {
+        let slides = self.chain.joints().iter().any(|joint| joint.kind == JointKind::Prismatic);
+        EQUATIONS.into_iter().chain(SLIDING.into_iter().filter(move |_| slides))
     }
 
     fn plan_text(&self) -> String {
@@ -90,8 +107,15 @@ impl DerivedSixAxes {
     /// What a formulation hides and doubles.
     fn told(&self, formulation: Formulation) -> String {
         let name = |joint: usize| self.chain.joints()[joint].name.as_str();
-        let doubled = formulation.joint(if formulation.second { 2 } else { 1 });
-        format!("The angle of {} is the eigenvalue, that of {} is halved", name(formulation.hidden), name(doubled))
+        let (hidden, doubled) = (formulation.hidden, formulation.doubled());
+        let slides = |joint: usize| self.chain.joints()[joint].kind == JointKind::Prismatic;
+        let what = if slides(hidden) { "way" } else { "angle" };
+        let second = match (slides(doubled), slides(hidden)) {
+            (true, _) => format!("the equations are multiplied by the way of {}", name(doubled)),
+            (false, false) => format!("that of {} is halved", name(doubled)),
+            (false, true) => format!("the angle of {} is halved", name(doubled)),
+        };
+        format!("The {what} of {} is the eigenvalue, {second}", name(hidden))
     }
 
     fn readme(&self) -> String {
@@ -118,7 +142,7 @@ impl DerivedSixAxes {
     /// The report for a student.
     pub fn document(&self) -> Document {
         let mut page = Document::new(&format!("{}: its inverse kinematics, explained", self.chain.name()));
-        EQUATIONS.iter().for_each(|line| page.say(line));
+        self.told_equations().for_each(|line| page.say(line));
         self.counts().iter().chain(&self.choices()).for_each(|line| page.say(line));
         page
     }

@@ -11,6 +11,8 @@ const SEED: u64 = 11;
 const MOST: usize = 6;
 /// The share of targets at which a formulation must be trusted.
 const LEAST: f64 = 0.1;
+/// The same for chains with two sliding joints or more, some of whose formulations find but half of the answers.
+const LEAST_OF_SLIDING: f64 = 0.25;
 /// How much worse than any miss a target counts at which the formulation is not trusted, in decades.
 const DISTRUST: f64 = 4.0;
 
@@ -39,7 +41,9 @@ fn rank(layout: &Layout, formulation: Formulation) -> Option<(f64, Formulation)>
         sum += if answers.is_trusted { answers.start.max(f64::EPSILON).log10() } else { DISTRUST };
     }
     let share = trusted as f64 / TARGETS as f64;
-    (share >= LEAST).then_some((sum / TARGETS as f64, formulation))
+    let sliding = layout.slides.iter().filter(|slides| **slides).count();
+    let least = if sliding > 1 { LEAST_OF_SLIDING } else { LEAST };
+    (share >= least).then_some((sum / TARGETS as f64, formulation))
 }
 
 /// A random number in [-1, 1).

@@ -19,13 +19,14 @@ pub(crate) struct Constants {
     pub sound_origin: f64,
     pub blurred: f64,
     pub crowded: f64,
+    pub long: f64,
+    pub stages: usize,
     pub steps: usize,
     pub exact: f64,
     pub rounding: f64,
     pub shortened: usize,
     pub longest: f64,
     pub singular: f64,
-    pub clearly: f64,
     pub weak: f64,
 }
 
@@ -47,13 +48,14 @@ impl Constants {
             sound_origin: candidates::SOUND,
             blurred: candidates::BLURRED,
             crowded: candidates::CROWDED,
+            long: solve::LONG,
+            stages: solve::STAGES,
             steps: polish::STEPS,
             exact: polish::EXACT,
             rounding: polish::ROUNDING,
             shortened: polish::SHORTENED,
             longest: polish::LONGEST,
             singular: polish::SINGULAR,
-            clearly: polish::CLEARLY,
             weak: reduce::WEAK,
         }
     }

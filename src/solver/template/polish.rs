@@ -80,10 +80,8 @@ pub(super) const EXACT: f64 = 2e-15;
 pub(super) const ROUNDING: f64 = 1e-13;
 /// How often a step may be shortened, over all steps.
 pub(super) const SHORTENED: usize = 12;
-/// A pivot of the Jacobian below this share of the greatest one is none.
+/// A column of the Jacobian of which no more than this share is across the columns behind it depends on them.
 pub(super) const SINGULAR: f64 = 1e-6;
-/// How much greater a pivot is than one that stands before it.
-pub(super) const CLEARLY: f64 = 1.0 + 1e-6;
 /// A step that moves a joint by more than this is shortened.
 pub(super) const LONGEST: f64 = 0.5;
 
@@ -161,22 +159,24 @@ impl Links {
         (start, size(&miss))
     }
 
-    /// Joints that others make up for, to first order: those that are left where the Jacobian has no pivot any more.
+    /// Joints that joints behind them make up for, to first order: their columns of the Jacobian depend on those of the joints behind.
     pub fn free(&self, q: &[f64; 6]) -> [bool; 6] {
-        let mut matrix = self.jacobian(&self.reach(q));
-        let (mut free, mut greatest) = ([true; 6], 0.0_f64);
-        for k in 0..6 {
-            let (size, row, column) = greatest_entry(&matrix[k..], &free);
-            greatest = greatest.max(size);
-            if size <= SINGULAR * greatest {
-                return free;
+        let matrix = self.jacobian(&self.reach(q));
+        let (mut kept, mut count, mut free) = ([[0.0; 6]; 6], 0, [false; 6]);
+        for joint in (0..6).rev() {
+            let mut column = matrix.map(|row| row[joint]);
+            let whole = length(&column);
+            for _ in 0..2 {
+                for direction in &kept[..count] {
+                    let share = direction.iter().zip(&column).map(|(a, b)| a * b).sum::<f64>();
+                    column.iter_mut().zip(direction).for_each(|(entry, over)| *entry -= share * over);
+                }
             }
-            matrix.swap(k, k + row);
-            free[column] = false;
-            let pivot = matrix[k];
-            for row in &mut matrix[k + 1..] {
-                let factor = row[column] / pivot[column];
-                row.iter_mut().zip(&pivot).for_each(|(entry, over)| *entry -= factor * over);
+            let left = length(&column);
+            free[joint] = left <= SINGULAR * whole;
+            if !free[joint] {
+                kept[count] = column.map(|entry| entry / left);
+                count += 1;
             }
         }
         free
@@ -209,17 +209,8 @@ impl Links {
     }
 }
 
-/// The greatest entry in columns that are left, with its row and column: of columns that are about equal the first.
-fn greatest_entry(rows: &[[f64; 6]], left: &[bool; 6]) -> (f64, usize, usize) {
-    let mut found = (0.0, 0, 0);
-    for joint in (0..6).filter(|joint| left[*joint]) {
-        for (index, row) in rows.iter().enumerate() {
-            if row[joint].abs() > found.0 * CLEARLY {
-                found = (row[joint].abs(), index, joint);
-            }
-        }
-    }
-    found
+fn length(v: &[f64; 6]) -> f64 {
+    v.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
 fn size(miss: &[f64; 6]) -> f64 {

@@ -60,7 +60,7 @@ impl<T: Scalar> Rows<T> {
                 Factor::TwoSquares => row.map(|entry| (entry + entry) * square),
                 Factor::Constant => std::array::from_fn(|column| match column {
                     0 => -(square + square),
-                    _ => square - square,
+                    _ => square + -square,
                 }),
             }
         };

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::formulation::Formulation;
 use super::polish::Rigid;
 use super::screw::Line;
-use super::solve::{Answer, Layout, Template};
+use super::solve::{Answer, Answers, Layout, Template};
 use crate::solver::{JointValue, Operand};
 use crate::{Error, ErrorKind, Result};
 
@@ -65,14 +65,15 @@ impl SixAxes {
         &self.parts
     }
 
-    /// The answers at a target, which is its position, then its rotation matrix by rows. In ascending order of their joints.
-    pub(crate) fn solve(&self, target: &[f64; 12]) -> Vec<Answer> {
+    /// The answers at a target, which is its position, then its rotation matrix by rows, in ascending order of their joints; and
+    /// candidates to start from once more ([`Answers::lost`]).
+    pub(crate) fn solve(&self, target: &[f64; 12]) -> (Vec<Answer>, Answers) {
         let rotation = std::array::from_fn(|i| std::array::from_fn(|j| target[3 + 3 * i + j]));
         let pose = Rigid { rotation, translation: [target[0], target[1], target[2]] };
         let answers = self.solver.solve(&pose.after(&self.back));
         let mut found = answers.as_slice().to_vec();
         found.sort_by(|a, b| a.q.partial_cmp(&b.q).unwrap_or(std::cmp::Ordering::Equal));
-        found
+        (found, answers)
     }
 
     /// What is computed once, and the base seen from the tip at zero.

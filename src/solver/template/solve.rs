@@ -30,10 +30,14 @@ pub(super) const OFF: f64 = 1e3;
 /// Below it, it is tried.
 pub(super) const FAR_OFF: f64 = 1e7;
 /// Formulations, or origins of one, that are run at most.
-const MOST_RUNS: usize = 6;
+const MOST_RUNS: usize = 8;
 /// How far aside the target is put for each of them: where solutions share a hidden angle, or a family of solutions stands at the same
 /// target, the eigenvectors of isolated ones are only found next to it.
-pub(super) const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-3];
+pub(super) const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3];
+/// A way of so many length scales stands for an infinite one.
+pub(super) const LONG: f64 = 1e4;
+/// Stages in which a candidate next to the target is led to it.
+pub(super) const STAGES: usize = 20;
 /// The axis of these small turns.
 pub(super) const DIRECTION: [f64; 3] = [0.48, 0.6, 0.64];
 
@@ -64,6 +68,8 @@ pub struct Answer {
 pub struct Answers {
     list: [Answer; ROOM],
     count: usize,
+    lost: [[f64; 6]; ROOM],
+    lost_count: usize,
     /// How many formulations were run.
     pub runs: usize,
     /// Whether the last of them could be trusted.
@@ -87,12 +93,26 @@ pub struct Template {
 impl Answers {
     fn none() -> Self {
         let none = Answer { q: [0.0; 6], free: [false; 6], residual: 0.0 };
-        Answers { list: [none; ROOM], count: 0, runs: 0, is_trusted: false, start: 0.0 }
+        let lost = [[0.0; 6]; ROOM];
+        Answers { list: [none; ROOM], count: 0, lost, lost_count: 0, runs: 0, is_trusted: false, start: 0.0 }
     }
 
     /// The answers.
     pub fn as_slice(&self) -> &[Answer] {
         &self.list[..self.count]
+    }
+
+    /// Candidates that polishing led nowhere, at most [`ROOM`], where the runs could not be trusted: next to a family of solutions some
+    /// isolated answer may be near them.
+    pub fn lost(&self) -> &[[f64; 6]] {
+        if self.is_trusted { &[] } else { &self.lost[..self.lost_count] }
+    }
+
+    fn lose(&mut self, q: [f64; 6]) {
+        if self.lost_count < ROOM && q.iter().all(|value| value.is_finite()) {
+            self.lost[self.lost_count] = q;
+            self.lost_count += 1;
+        }
     }
 
     fn keep(&mut self, answer: Answer, slides: &[bool; 6]) {
@@ -175,23 +195,28 @@ impl Template {
         let target = displacement.after(&self.last);
         let mut answers = Answers::none();
         for (attempt, size) in DISTURBANCES.into_iter().enumerate().take(most) {
-            let aside = aside(size, attempt).after(&displacement);
             answers.runs += 1;
-            if self.run(attempt, &aside, &target, &mut answers) {
+            answers.lost_count = if size > 0.0 && DISTURBANCES[attempt - 1] == 0.0 { 0 } else { answers.lost_count };
+            if self.run(attempt, size, &displacement, &target, &mut answers) {
                 answers.is_trusted = true;
                 break;
             }
         }
         for answer in &mut answers.list[..answers.count] {
-            answer.free = self.links.free(&answer.q);
+            // A run that can be trusted at once has seen no family.
+            answer.free = if answers.runs > 1 { self.links.free(&answer.q) } else { [false; 6] };
             answer.q = self.scaled(&answer.q, self.scale);
+        }
+        for q in &mut answers.lost[..answers.lost_count] {
+            *q = self.scaled(q, self.scale);
         }
         answers
     }
 
     /// Adds the answers of one formulation, solved for a displacement that may be a little aside from the target and then led to it;
     /// whether it can be trusted to have found all.
-    fn run(&self, attempt: usize, displacement: &Rigid, target: &Rigid, answers: &mut Answers) -> bool {
+    fn run(&self, attempt: usize, size: f64, goal: &Rigid, target: &Rigid, answers: &mut Answers) -> bool {
+        let displacement = &aside(size, attempt).after(goal);
         let formulation = self.formulations[attempt % self.formulations.len()];
         let back = displacement.inverse();
         let carried = |motion: &Rigid| self.figures.map(|figure| carried(motion, &figure));
@@ -202,15 +227,20 @@ impl Template {
         let (near, mut lost, mut worst) = (displacement.after(&self.last), 0, 0.0_f64);
         let (known, mut own) = (answers.count, Answers::none());
         for candidate in &candidates.list[..candidates.count] {
-            if candidate.depth * candidate.depth > FAR_OFF * worst.max(UNKNOWN) {
+            if candidate.depth * candidate.depth > FAR_OFF * worst.max(UNKNOWN) || self.is_infinite(&candidate.q) {
                 continue;
             }
             let mut q = candidate.q;
             let missing = formulation.joint(3);
             q[missing] = self.links.closing(&q, missing, &near);
             let (start, mut residual) = self.links.polish(&mut q, &near);
-            if DISTURBANCES[attempt] > 0.0 {
+            let mut last = q;
+            if size > 0.0 {
                 residual = self.links.polish(&mut q, target).1;
+                if residual > ACCEPT {
+                    q = last;
+                    (last, residual) = self.led(attempt, size, goal, &mut q);
+                }
             }
             if residual <= ACCEPT {
                 worst = if candidate.depth == 0.0 { worst.max(start) } else { worst };
@@ -220,14 +250,39 @@ impl Template {
                 own.keep(answer, slides);
             } else if candidate.depth * candidate.depth <= OFF * worst.max(UNKNOWN) {
                 lost += 1;
+                answers.lose(last);
             }
         }
         answers.start = answers.start.max(worst);
         let is_unreachable = candidates.count == 0 && candidates.conditioning >= CLEAR;
         let is_clear = lost == 0 && answers.count.is_multiple_of(2) && !candidates.is_crowded;
         let is_clear = is_clear && (answers.count > 0 || is_unreachable);
-        let is_confirmed = attempt > 0 && known == answers.count && own.count == answers.count;
-        is_clear && (is_confirmed || worst <= ACCURATE && candidates.conditioning >= SOUND)
+        let is_confirmed =
+            attempt > 0 && known == answers.count && own.count == answers.count && answers.lost_count == 0;
+        let is_sound = worst <= ACCURATE && candidates.conditioning >= SOUND;
+        is_clear && (is_confirmed || is_sound && (size == 0.0 || answers.lost_count == 0))
+    }
+
+    /// Whether a way is so long that it stands for an infinite one, which chains with two sliding joints have among their eigenvalues.
+    fn is_infinite(&self, q: &[f64; 6]) -> bool {
+        q.iter().zip(&self.links.slides).any(|(way, slides)| *slides && (way.is_nan() || way.abs() > LONG))
+    }
+
+    /// Leads joints that reach a displacement aside from the goal to it in stages, each a quarter of the way from the goal that the one
+    /// before was: next to a family of solutions it is as flat as the target is near, and a step must be no longer. The joints of the last
+    /// stage that succeeded, and the residual at the goal.
+    fn led(&self, attempt: usize, mut size: f64, goal: &Rigid, q: &mut [f64; 6]) -> ([f64; 6], f64) {
+        let (mut last, mut residual) = (*q, 1.0);
+        for stage in 0..STAGES {
+            size = if stage + 1 < STAGES { 0.25 * size } else { 0.0 };
+            let target = aside(size, attempt).after(goal).after(&self.last);
+            residual = self.links.polish(q, &target).1;
+            if residual > ACCEPT {
+                break;
+            }
+            last = *q;
+        }
+        (last, residual)
     }
 }
 
