@@ -8,9 +8,7 @@ use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{
-    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, DOUBLINGS, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES,
-};
+use super::{ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, DOUBLINGS, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
 
 /// A solution with the largest share of an equation's value in its scale.
 struct Answer {
@@ -264,10 +262,10 @@ impl<'a> Answers<'a> {
         }
     }
 
-    /// Whether the equations hold too, within `bound` or a small share of the way, where the joints `free` are elsewhere and the others
-    /// follow, to one side at least: to the other there may be a branching.
+    /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one
+    /// side at least: to the other there may be a branching.
     fn lies_on_family(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
-        ASIDE.into_iter().any(|way| self.leads_aside(q, free, way, bound.max(ACCEPT * way.abs())))
+        [ASIDE, -ASIDE].into_iter().any(|way| self.leads_aside(q, free, way, bound.max(ROUNDING)))
     }
 
     /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated

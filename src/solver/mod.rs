@@ -66,10 +66,9 @@ pub const POLISHED: f64 = 1e-15;
 /// A member of a family that misses the equations by no more than this share of their size, by rounding in the blocks before, is
 /// polished with its free joints held.
 pub const ADRIFT: f64 = 1e-7;
-/// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a family, first that way that
-/// tells most: a family may go round a part of the circle only, and to one side there may be a branching.
-pub const ASIDE: [f64; 4] = [0.1, -0.1, 0.01, -0.01];
-/// In how many stages it is moved so far, each twice as far as the one before.
+/// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a family.
+pub const ASIDE: f64 = 0.1;
+/// In how many stages, each twice as far as the one before.
 pub const DOUBLINGS: usize = 8;
 /// Half of the farthest (rad) that an angle is moved in search of the two roots of a double one, where it hardly matters to the
 /// equations.

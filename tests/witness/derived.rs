@@ -129,6 +129,68 @@ fn a_family_leaves_the_isolated_answers_next_to_it() {
     }
 }
 
+/// Isolated answers 0.001 to 0.02 rad beside a family of NAO's arm, for which they were taken, and a branching of a family within a tenth of
+/// a radian, which hid it: as many answers and families as by screws, whose families may be told by several members.
+#[test]
+fn answers_beside_a_family_are_told_from_it() {
+    let (chain, derived) = named("nao_left_arm");
+    let screws = ByScrews::new(&chain).unwrap();
+    for q in [
+        [-2.1181439729666236, -1.1153124227434787, 3.054851516480267, PI, 1.3995036173656856],
+        [-2.4952264818136127, -1.712693381399061, -2.7778912204222905, 3.0028530738514303, 0.05311130956628407],
+        [2.497871718673305, 1.4288992721907323, -0.41289268101423593, -2.4555539814107243, 1.7957857342835857],
+        [-0.12385353081924944, -1.712693381399061, 0.8613016489776131, PI, 2.4270131098555385],
+    ] {
+        let target = derived.reached(&q).unwrap();
+        let found = derived.program.solve(&target).unwrap();
+        let expected = screws.solve(&target).unwrap();
+        let isolated = |list: &[Solution]| list.iter().filter(|answer| answer.free.is_empty()).count();
+        assert_eq!(isolated(&found), isolated(&expected), "{q:?}: {found:?}\n{expected:?}");
+        assert!(found.iter().any(|answer| !answer.free.is_empty()), "{q:?}: {found:?}");
+    }
+}
+
+/// NAO's leg with the roll at its singular place and the knee folded to between 1e-4 and 6e-3 rad of half a turn: the hip's yaw is free in
+/// four families, as by screws, and nothing else is told but what these tell.
+#[test]
+fn a_family_next_to_a_folded_knee_is_found() {
+    let (chain, derived) = named("nao_left_leg");
+    let screws = ByScrews::new(&chain).unwrap();
+    for q in [
+        [
+            0.45451946273238164,
+            -0.7853981633974485,
+            -0.566570565825915,
+            -3.1376396298819573,
+            -0.31217450785536416,
+            -0.08460781878992085,
+        ],
+        [
+            -1.5988854446896346,
+            2.356194490192345,
+            -2.6959322579491696,
+            -3.141485438630129,
+            -2.402020018497936,
+            -1.7903819881030252,
+        ],
+        [
+            -2.184116102085869,
+            2.356194490192345,
+            -1.4068132846963755,
+            -3.1358444088963315,
+            -2.0587161296542122,
+            2.688899054666499,
+        ],
+    ] {
+        let target = derived.reached(&q).unwrap();
+        let found = derived.program.solve(&target).unwrap();
+        let expected = screws.solve(&target).unwrap();
+        let families = |list: &[Solution]| list.iter().filter(|answer| answer.free == [0]).count();
+        assert!(families(&found) >= families(&expected).min(4), "{q:?}: {found:?}\n{expected:?}");
+        assert!(found.iter().all(|answer| answer.free == [0]), "{q:?}: {found:?}");
+    }
+}
+
 /// Where the last axis is parallel to those of the arm, the wrist turns along a part of the circle only, as far as the elbow reaches: from
 /// the first of these joint values on to either side, from the second, the arm stretched, to one.
 #[test]
