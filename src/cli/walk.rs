@@ -20,7 +20,7 @@ const FOOTSTEPS_LIMIT: u64 = 4_000_000;
 const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
   groebot walk nao --steps 8 --length 0 --turn 40 -o turn.csv
-  groebot walk nao --steps 8 --length 0 --aside 0.02
+  groebot walk nao --steps 8 --length 0 --aside 0.02 --amplitude 0.04
   groebot walk nao --steps 12 --gait preview -o dynamic.csv
   groebot walk nao --footsteps steps.csv -o curve.json
   groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --thesis joints.csv

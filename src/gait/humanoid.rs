@@ -68,7 +68,7 @@ impl Humanoid {
     /// The humanoid of a whole robot, with soles of the given outline.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for masses that no body has.
+    /// [`crate::ErrorKind::BadValue`] for masses that no body has.
     pub fn new(whole: &Whole, outline: Outline) -> Result<Self> {
         let base = Body { base_from_link: Pose::identity(), inertia: inertia(&whole.base)? };
         let limb = |link: &crate::robots::WholeLink| {

@@ -1,5 +1,5 @@
-//! Walking on two legs: the way of the feet, the centre of mass above them, joint angles by the derived solver, and the proof that the
-//! walk does not fall. NAO 6.4 and 6.8; RH0 3.1.1.
+//! Walking on two legs, of NAO, RH0 and TEO: the way of the feet, the centre of mass above them, joint angles by the derived solvers, and the
+//! proof that the walk does not fall. NAO 6.4 and 6.8; RH0 3.1 to 3.5.
 //!
 //! A [`Route`] of footprints becomes a [`Schedule`] of phases, that becomes a [`Reference`] for feet and centre of mass at each sample,
 //! that becomes a [`Motion`] of joint angles and its [`Balance`]. [`plan`] goes this way and slows down or refuses what would fall; its
