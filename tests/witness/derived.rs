@@ -23,7 +23,16 @@ use super::read;
 const OTHER_WAYS: [&str; 3] = ["irb4600_rounded", "nao_arm_planar", "nao_leg_sagittal"];
 
 /// Folders of chains that have no order of joints: `tests/template`.
-const TOGETHER: [&str; 6] = ["booster_leg_like", "crx_like", "general_6r", "jaco_like", "ur5_calibrated", "xarm6_like"];
+const TOGETHER: [&str; 8] = [
+    "booster_leg_like",
+    "crx_like",
+    "general_4r2p",
+    "general_5r1p",
+    "general_6r",
+    "jaco_like",
+    "ur5_calibrated",
+    "xarm6_like",
+];
 
 /// All chains that are committed, by the names of their folders.
 fn chains() -> Vec<(String, Chain)> {
