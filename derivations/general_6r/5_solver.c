@@ -2374,8 +2374,8 @@ static void six_reflect(SixMatrix *h, size_t low, size_t high, size_t top, size_
     if (greatest == 0.0) {
         return;
     }
-    double u[3];
-    double w[3];
+    double u[3] = {0.0, 0.0, 0.0};
+    double w[3] = {0.0, 0.0, 0.0};
     double square = 0.0;
     for (size_t k = 0; k < count; k++) {
         u[k] = column[k] / greatest;
@@ -2392,24 +2392,36 @@ static void six_reflect(SixMatrix *h, size_t low, size_t high, size_t top, size_
             h->at[top + k][top - 1] = 0.0;
         }
     }
-    for (size_t i = top; i <= high; i++) {
-        double share = 0.0;
-        for (size_t k = 0; k < count; k++) {
-            share += w[k] * h->at[top + k][i];
-        }
-        for (size_t k = 0; k < count; k++) {
-            h->at[top + k][i] -= share * u[k];
-        }
-    }
+    double *first = h->at[top];
+    double *second = h->at[top + 1];
+    double *third = h->at[count == 3 ? top + 2 : top];
     const size_t last = top + 3 < high ? top + 3 : high;
+    if (count == 3) {
+        for (size_t i = top; i <= high; i++) {
+            const double share = w[0] * first[i] + w[1] * second[i] + w[2] * third[i];
+            first[i] -= share * u[0];
+            second[i] -= share * u[1];
+            third[i] -= share * u[2];
+        }
+        for (size_t row = low; row <= last; row++) {
+            double *entry = h->at[row] + top;
+            const double share = w[0] * entry[0] + w[1] * entry[1] + w[2] * entry[2];
+            entry[0] -= share * u[0];
+            entry[1] -= share * u[1];
+            entry[2] -= share * u[2];
+        }
+        return;
+    }
+    for (size_t i = top; i <= high; i++) {
+        const double share = w[0] * first[i] + w[1] * second[i];
+        first[i] -= share * u[0];
+        second[i] -= share * u[1];
+    }
     for (size_t row = low; row <= last; row++) {
-        double share = 0.0;
-        for (size_t k = 0; k < count; k++) {
-            share += w[k] * h->at[row][top + k];
-        }
-        for (size_t k = 0; k < count; k++) {
-            h->at[row][top + k] -= share * u[k];
-        }
+        double *entry = h->at[row] + top;
+        const double share = w[0] * entry[0] + w[1] * entry[1];
+        entry[0] -= share * u[0];
+        entry[1] -= share * u[1];
     }
 }
 
@@ -3115,6 +3127,7 @@ static void six_solve(const SixChain *chain, const double *target, SixAnswers *a
     const SixRigid end = six_after(&displacement, &chain->last);
     answers->count = 0;
     answers->lost_count = 0;
+    bool is_trusted = false;
     for (size_t attempt = 0; attempt < SIX_RUNS; attempt++) {
         const double size = SIX_DISTURBANCES[attempt];
         if (size > 0.0 && !(SIX_DISTURBANCES[attempt - 1] > 0.0)) {
@@ -3122,12 +3135,15 @@ static void six_solve(const SixChain *chain, const double *target, SixAnswers *a
         }
         if (six_run(chain, attempt, size, &displacement, &end, answers)) {
             answers->lost_count = 0;
+            is_trusted = attempt == 0;
             break;
         }
     }
     for (size_t k = 0; k < answers->count; k++) {
         SixAnswer answer = answers->list[k];
-        six_free(chain, answer.q, answer.free);
+        if (!is_trusted) {
+            six_free(chain, answer.q, answer.free);
+        }
         for (size_t joint = 0; joint < 6; joint++) {
             answer.q[joint] = chain->slides[joint] ? answer.q[joint] * chain->length : answer.q[joint];
         }

@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::printer::{Language, number};
-use crate::roots::EIGEN_STEPS;
 use crate::solver::template::{Constants, ROOM, Rigid, SixAxes};
 use crate::solver::{Program, Step};
 
@@ -111,11 +110,10 @@ fn numbers(values: &[f64]) -> Vec<String> {
 
 impl Kernel {
     fn new(constants: &Constants, chains: &[&SixAxes]) -> Self {
-        let [max_steps, rounds] = EIGEN_STEPS;
         Kernel {
             room: ROOM,
-            max_steps,
-            rounds,
+            max_steps: constants.max_steps,
+            rounds: constants.rounds,
             merge: number(constants.merge),
             accept: number(constants.accept),
             sound: number(constants.sound),

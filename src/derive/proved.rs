@@ -15,7 +15,7 @@ pub enum Proved {
     Equations(Box<Derivation>),
     /// Of a chain, one joint at a time.
     Chain(Box<Derived>),
-    /// Of six revolute joints in any place, all together.
+    /// Of six joints in any place, all together.
     SixAxes(Box<DerivedSixAxes>),
     /// Of limbs that share motors, one limb after the other.
     Limbs(Box<DerivedLimbs>),

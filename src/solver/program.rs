@@ -151,7 +151,7 @@ pub enum Step {
         /// The values.
         values: Vec<f64>,
     },
-    /// The angles of six revolute joints are each solution in turn; the steps behind run once for each.
+    /// The values of six joints are each solution in turn; the steps behind run once for each.
     SixAxes(Box<SixAxes>),
 }
 

@@ -101,11 +101,10 @@ pub fn first_angles(lines: &[Line<f64>; 6], target: &Dual) -> Option<Vec<f64>> {
     for equation in 0..4 {
         for multiplier in 0..6 {
             let row = 6 * equation + multiplier;
-            for product in 0..8 {
+            for (product, (under, over)) in m[equation].iter().zip(&m[4 + equation]).enumerate() {
                 let (six, five, four) = (product >> 2 & 1, product >> 1 & 1, product & 1);
                 let column = 12 * six + 4 * (five + multiplier / 3) + four + multiplier % 3;
-                constant[row][column] = m[4 + equation][product];
-                linear[row][column] = m[equation][product];
+                (constant[row][column], linear[row][column]) = (*over, *under);
             }
         }
     }

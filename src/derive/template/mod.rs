@@ -90,7 +90,7 @@ pub fn layout(chain: &Chain) -> Layout {
 /// The solver of `chain`, its best regular formulations in order.
 ///
 /// # Errors
-/// As [`ranked`].
+/// As [`formulations`]; [`ErrorKind::Unsupported`] when no formulation is regular and accurate.
 pub fn solver(chain: &Chain) -> Result<Template> {
     let best = ranked(chain)?.into_iter().map(|regular| regular.formulation).collect();
     Ok(Template::new(&layout(chain), best))

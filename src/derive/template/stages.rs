@@ -53,7 +53,7 @@ impl DerivedSixAxes {
     }
 
     fn equations_text(&self) -> String {
-        let mut text = format!("{}: the equations of any six revolute joints\n", self.chain.name());
+        let mut text = format!("{}: the equations of any six joints\n", self.chain.name());
         for (number, line) in self.told_equations().enumerate() {
             let _ = write!(text, "\n({}) {line}\n", number + 1);
         }

@@ -1,6 +1,7 @@
 //! The numbers that the solver decides by, for those who print it ([`Constants`]).
 
 use super::{candidates, polish, reduce, solve};
+use crate::roots::EIGEN_STEPS;
 
 /// What the modules beside this one define.
 #[derive(Clone, Debug)]
@@ -28,12 +29,19 @@ pub(crate) struct Constants {
     pub longest: f64,
     pub singular: f64,
     pub weak: f64,
+    /// QR steps for one deflation.
+    pub max_steps: usize,
+    /// Rounds of inverse iteration.
+    pub rounds: usize,
 }
 
 impl Constants {
     /// Those of doubles.
     pub fn new() -> Self {
+        let [max_steps, rounds] = EIGEN_STEPS;
         Constants {
+            max_steps,
+            rounds,
             merge: solve::MERGE,
             accept: solve::ACCEPT,
             sound: solve::SOUND,
