@@ -67,7 +67,11 @@ impl Solution {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Error {
     /// A number of the target is infinite or not a number.
-    BadTarget,
+    NotFinite,
+    /// The rotation of the target is off by more than `CONSISTENT`.
+    NotRotation,
+    /// The direction of the target is not of length one within `CONSISTENT`.
+    NotUnit,
     /// The target lies on this stratum, which could not be derived.
     OpenStratum(&'static str),
 }
@@ -75,10 +79,10 @@ pub enum Error {
 /// Writes all solutions for `target` to the front of `out`, by branch, and returns their number: 0 when it is out of reach.
 ///
 /// # Errors
-/// [`Error::BadTarget`], or [`Error::OpenStratum`]; the content of `out` has no meaning then.
+/// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     if !target.iter().all(|value| value.is_finite()) {
-        return Err(Error::BadTarget);
+        return Err(Error::NotFinite);
     }
     let p = &parameters(target);
     let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0 };
@@ -590,9 +594,6 @@ struct Rated {
 
 /// Whether two answers are one.
 fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if is_isolated(&a.answer) && is_isolated(&b.answer) && !close(&a.answer, &b.answer, BLUR) {
-        return false;
-    }
     if close(&a.answer, &b.answer, MERGE) {
         return true;
     }
@@ -652,15 +653,24 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
     (0..JOINTS).all(|i| a.free[i] || b.free[i] || difference[i].abs() <= limit[i])
 }
 
-/// Whether two answers near one another are one at a singular configuration: half-way between them, on a way that may be bent, the
-/// equations hold as well as at the worse of the two, or within rounding.
+/// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
+/// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let way = differences(&a.answer.q, &b.answer.q);
-    let mut middle = b.answer.q;
+    let bound = f64::max(a.relative, b.relative);
+    are_joined(p, &a.answer.q, &b.answer.q, bound)
+}
+
+/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound` or rounding.
+fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64) -> bool {
+    if farthest(a, b) > BLUR {
+        return false;
+    }
+    let way = differences(a, b);
+    let mut middle = *b;
     for i in 0..JOINTS {
         middle[i] += 0.5 * way[i];
     }
-    let bound = f64::max(f64::max(RESOLUTION, a.relative), b.relative);
+    let bound = f64::max(bound, RESOLUTION);
     let mut fit = measure(p, &middle);
     for _ in 0..RETURNS {
         if fit.relative <= bound {

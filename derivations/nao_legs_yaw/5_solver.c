@@ -68,10 +68,14 @@
 #define NAO_LEGS_YAW_JOINTS 14
 /* The most solutions that a target can have. */
 #define NAO_LEGS_YAW_CAPACITY 270
-/* A number of the target is infinite or not a number, or the target misses a condition. */
-#define NAO_LEGS_YAW_BAD_TARGET (-1)
+/* A number of the target is infinite or not a number. */
+#define NAO_LEGS_YAW_NOT_FINITE (-1)
 /* The target lies on a stratum that could not be derived. */
 #define NAO_LEGS_YAW_OPEN_STRATUM (-2)
+/* The rotation of the target is off by more than CONSISTENT. */
+#define NAO_LEGS_YAW_NOT_ROTATION (-3)
+/* The direction of the target is not of length one within CONSISTENT. */
+#define NAO_LEGS_YAW_NOT_UNIT (-4)
 
 /* One answer. */
 typedef struct {
@@ -95,7 +99,7 @@ extern const char *const nao_legs_yaw_joint_names[NAO_LEGS_YAW_JOINTS];
 extern const double nao_legs_yaw_limits[2 * NAO_LEGS_YAW_JOINTS];
 
 /* Writes all solutions for the target (NAO_LEGS_YAW_INPUTS numbers) to the front of out (NAO_LEGS_YAW_CAPACITY places), by branch, and
- * returns their number, 0 when it is out of reach; or NAO_LEGS_YAW_BAD_TARGET or NAO_LEGS_YAW_OPEN_STRATUM. */
+ * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_legs_yaw_solve(const double *target, nao_legs_yaw_solution *out);
 
 /* Writes the target (NAO_LEGS_YAW_INPUTS numbers) that joint values q (NAO_LEGS_YAW_JOINTS numbers) reach. */
@@ -176,6 +180,8 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define ALONE 1e-13
 /* How far a free joint is moved to see whether an answer lies on a family. */
 #define ASIDE 0.1
+/* In how many stages, each twice as far as the one before. */
+#define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
 #define ARRIVED 0.001
 /* In how many stages a family is followed from one member to another. */
@@ -1056,6 +1062,7 @@ static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
     return true;
 }
 
+/* Whether no joint is free. */
 static bool is_isolated(const bool *free)
 {
     for (size_t i = 0; i < JOINTS; i++) {
@@ -1405,22 +1412,24 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether two answers near one another, with their relative residuals, are one at a singular configuration: half-way between them, on a
- * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
-static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+static bool are_joined(const Parameters *p, const double *a, const double *b, double bound, const bool *held)
 {
-    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
-    differences(a->q, b->q, way);
-    for (size_t i = 0; i < JOINTS; i++) {
-        middle[i] = b->q[i] + 0.5 * way[i];
+    if (farthest_of(a, b) > BLUR) {
+        return false;
     }
-    const double bound = fmax(fmax(RESOLUTION, a_relative), b_relative);
+    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
+    differences(a, b, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        middle[i] = b[i] + 0.5 * way[i];
+    }
+    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
             return true;
         }
-        if (!newton_step(p, middle, STIFF, NONE_FREE, back)) {
+        if (!newton_step(p, middle, STIFF, held, back)) {
             return false;
         }
         stepped(middle, back, next);
@@ -1428,6 +1437,13 @@ static bool blurred(const Parameters *p, const Solution *a, double a_relative, c
         fit = measure(p, middle);
     }
     return fit.relative <= bound;
+}
+
+/* Whether two answers next to each other, with their relative residuals, are one at a singular configuration, where the equations leave
+ * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
+static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+{
+    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative), NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1438,52 +1454,79 @@ static Fit follow(const Parameters *p, double *q, const bool *free)
     return fit;
 }
 
-/* Whether the equations hold too, within a bound or rounding, where the free joints are a little elsewhere and the others follow, and
- * back again: an isolated answer may be led to a family next to it, but not back. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+/* The joints beyond b on the line from a, by ahead times their distance. */
+static void beyond(const double *a, const double *b, double ahead, double *end)
 {
-    double at[JOINTS], next[JOINTS], difference[JOINTS], limit[JOINTS];
+    double way[JOINTS];
+    differences(b, a, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        end[i] = b[i] + ahead * way[i];
+    }
+}
+
+/* Whether the joints come back to q on along the line from far through close_by. */
+static bool leads_back(const Parameters *p, const double *q, const bool *free, const double *close_by, const double *far, double bound)
+{
+    double back[JOINTS];
+    beyond(far, close_by, 1.0, back);
+    for (size_t i = 0; i < JOINTS; i++) {
+        back[i] = free[i] ? q[i] : back[i];
+    }
+    const Fit fit = follow(p, back, free);
+    return fit.accepted && are_joined(p, back, q, bound, free);
+}
+
+/* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
+{
+    double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
+    double share = 1.0;
+    copy(q, before);
     copy(q, at);
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (free[i]) {
-            move(at, i, ASIDE, next);
-            at[i] = next[i];
+    for (int stage = 1; stage < DOUBLINGS; stage++) {
+        share *= 0.5;
+    }
+    for (int stage = 0; stage < DOUBLINGS; stage++) {
+        beyond(before, at, stage == 1 ? 1.0 : 2.0, next);
+        for (size_t i = 0; i < JOINTS; i++) {
+            if (free[i]) {
+                move(q, i, share * way, displaced);
+                next[i] = displaced[i];
+            }
         }
-    }
-    if (follow(p, at, free).relative > fmax(bound, RESOLUTION)) {
-        return false;
-    }
-    for (size_t i = 0; i < JOINTS; i++) {
-        at[i] = free[i] ? q[i] : at[i];
-    }
-    const Fit fit = follow(p, at, free);
-    differences(at, q, difference);
-    spans(at, BLUR, limit);
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (!(fabs(difference[i]) <= limit[i])) {
+        if (follow(p, next, free).relative > bound || (stage == 1 && !leads_back(p, q, free, at, next, bound))) {
             return false;
         }
+        copy(at, before);
+        copy(next, at);
+        share *= 2.0;
     }
-    return fit.accepted;
+    return true;
+}
+
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. */
+static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+{
+    bound = fmax(bound, RESOLUTION);
+    return leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound);
 }
 
 /* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
-    Solution end = *a, member = *b;
+    double q[JOINTS];
     bool accepted = false;
+    copy(a->q, q);
     for (int stages = STAGES; stages > 0; stages--) {
         double way[JOINTS];
-        differences(b->q, end.q, way);
+        differences(b->q, q, way);
         for (size_t i = 0; i < JOINTS; i++) {
-            end.q[i] += b->free[i] ? way[i] / (double)stages : 0.0;
+            q[i] += b->free[i] ? way[i] / (double)stages : 0.0;
         }
-        accepted = follow(p, end.q, b->free).accepted;
+        accepted = follow(p, q, b->free).accepted;
     }
-    for (size_t i = 0; i < JOINTS; i++) {
-        end.free[i] = member.free[i] = false;
-    }
-    return accepted && is_close(&end, &member, ARRIVED);
+    return accepted && is_within(q, b->q, ARRIVED);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -1511,13 +1554,10 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
-    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
-        return false;
-    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1709,8 +1749,12 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
 {
+    if (!is_isolated(free) || close) {
+        refine(p, branch, last, q, free, answers);
+        return;
+    }
     const Fit fit = measure_at(p, at, q);
-    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1991,7 +2035,7 @@ typedef struct {
 INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
-    if (!is_away(r98, 10000.0 * (r99 + r99))) {
+    if (!is_away(r98, 16.0 * (r99 + r99))) {
         return;
     }
     const double r105 = shared->r77 * shared->r92 - (0.0 - shared->r89 * shared->r91);
@@ -2089,7 +2133,7 @@ typedef struct {
  */
 INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    if (!is_away(shared->r80 - shared->r78, 10000.0 * shared->r84)) {
+    if (!is_away(shared->r80 - shared->r78, 16.0 * shared->r84)) {
         return;
     }
     const double right_c9 = 0.0, right_s9 = 0.0, q13 = angle(right_c9, right_s9);
@@ -2110,7 +2154,7 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
 {
     const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68;
     const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 10000.0 * r91))) {
+    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 16.0 * r91))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, sqrt(fmax(r91, 0.0)));
@@ -2160,7 +2204,7 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
 static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 27380000.0))) {
+    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 43808.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
@@ -2403,7 +2447,7 @@ typedef struct {
 INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
-    if (!is_away(r98, 10000.0 * (r99 + r99))) {
+    if (!is_away(r98, 16.0 * (r99 + r99))) {
         return;
     }
     const double r104 = shared->r77 * shared->r92 - shared->r89 * shared->r91;
@@ -2500,7 +2544,7 @@ typedef struct {
  */
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    if (!is_away(shared->r79 - shared->r78, 10000.0 * shared->r83)) {
+    if (!is_away(shared->r79 - shared->r78, 16.0 * shared->r83)) {
         return;
     }
     const double left_c9 = 0.0, left_s9 = 0.0, q8 = angle(left_c9, left_s9);
@@ -2521,7 +2565,7 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
 {
     const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68;
     const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 10000.0 * r90))) {
+    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 16.0 * r90))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, sqrt(fmax(r90, 0.0)));
@@ -2571,7 +2615,7 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
 static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 27380000.0))) {
+    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 43808.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
@@ -2716,7 +2760,7 @@ typedef struct {
  */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    if (!is_away(shared->r139 + shared->r141, 10000.0 * shared->r144)) {
+    if (!is_away(shared->r139 + shared->r141, 16.0 * shared->r144)) {
         return;
     }
     const double left_c4 = 0.0, left_s4 = 0.0, q3 = angle(left_c4, left_s4);
@@ -2737,7 +2781,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 {
     const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 10000.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 16.0 * r151))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
@@ -2788,7 +2832,7 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
 {
     const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 10000.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 16.0 * r151))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
@@ -3363,20 +3407,31 @@ static bool all_finite(const double *target)
     return true;
 }
 
-/* The target moved onto its conditions, which it may miss by a little; false when a number is not finite or it misses them by more. */
-static bool conform(const double *given, double *target)
+/* Moves the target onto its conditions, which it may miss by a little; 0, or what is wrong when a number is not finite or it misses them by
+ * more. */
+static int conform(const double *given, double *target)
 {
+    if (!all_finite(given)) {
+        return NAO_LEGS_YAW_NOT_FINITE;
+    }
     for (size_t i = 0; i < INPUTS; i++) {
         target[i] = given[i];
     }
-    return all_finite(target) && make_rotation(target + 3) && make_rotation(target + 17);
+    if (!make_rotation(target + 3)) {
+        return NAO_LEGS_YAW_NOT_ROTATION;
+    }
+    if (!make_rotation(target + 17)) {
+        return NAO_LEGS_YAW_NOT_ROTATION;
+    }
+    return 0;
 }
 
 int nao_legs_yaw_solve(const double *given, nao_legs_yaw_solution *out)
 {
     double target[INPUTS];
-    if (!conform(given, target)) {
-        return NAO_LEGS_YAW_BAD_TARGET;
+    const int fault = conform(given, target);
+    if (fault != 0) {
+        return fault;
     }
     const Parameters p = parameters(target);
     Answers answers;
@@ -3423,7 +3478,7 @@ void nao_legs_yaw_forward(const double *q, double *target)
 double nao_legs_yaw_residual(const double *given, const double *q)
 {
     double target[INPUTS];
-    if (!conform(given, target)) {
+    if (conform(given, target) != 0) {
         return NAN;
     }
     const Parameters p = parameters(target);
@@ -3543,7 +3598,7 @@ int nao_legs_yaw_solve_within(const double *given, const double *limits, Solutio
 {
     const int count = nao_legs_yaw_solve(given, out);
     double target[INPUTS];
-    if (!conform(given, target)) {
+    if (conform(given, target) != 0) {
         return count;
     }
     const Parameters p = parameters(target);

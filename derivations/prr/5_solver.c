@@ -35,9 +35,13 @@
 /* The most solutions that a target can have. */
 #define PRR_CAPACITY 7
 /* A number of the target is infinite or not a number. */
-#define PRR_BAD_TARGET (-1)
+#define PRR_NOT_FINITE (-1)
 /* The target lies on a stratum that could not be derived. */
 #define PRR_OPEN_STRATUM (-2)
+/* The rotation of the target is off by more than CONSISTENT. */
+#define PRR_NOT_ROTATION (-3)
+/* The direction of the target is not of length one within CONSISTENT. */
+#define PRR_NOT_UNIT (-4)
 
 /* One answer. */
 typedef struct {
@@ -61,7 +65,7 @@ extern const char *const prr_joint_names[PRR_JOINTS];
 extern const double prr_limits[2 * PRR_JOINTS];
 
 /* Writes all solutions for the target (PRR_INPUTS numbers) to the front of out (PRR_CAPACITY places), by branch, and
- * returns their number, 0 when it is out of reach; or PRR_BAD_TARGET or PRR_OPEN_STRATUM. */
+ * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int prr_solve(const double *target, prr_solution *out);
 
 /* Writes the target (PRR_INPUTS numbers) that joint values q (PRR_JOINTS numbers) reach. */
@@ -419,6 +423,17 @@ static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
     return true;
 }
 
+/* Whether no joint is free. */
+static bool is_isolated(const bool *free)
+{
+    for (size_t i = 0; i < JOINTS; i++) {
+        if (free[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
 static bool newton_step(const Parameters *p, const double *q, double damping, double *step)
 {
@@ -680,16 +695,18 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether two answers near one another, with their relative residuals, are one at a singular configuration: half-way between them, on a
- * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
-static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+static bool are_joined(const Parameters *p, const double *a, const double *b, double bound)
 {
-    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
-    differences(a->q, b->q, way);
-    for (size_t i = 0; i < JOINTS; i++) {
-        middle[i] = b->q[i] + 0.5 * way[i];
+    if (farthest_of(a, b) > BLUR) {
+        return false;
     }
-    const double bound = fmax(fmax(RESOLUTION, a_relative), b_relative);
+    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
+    differences(a, b, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        middle[i] = b[i] + 0.5 * way[i];
+    }
+    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
@@ -705,12 +722,16 @@ static bool blurred(const Parameters *p, const Solution *a, double a_relative, c
     return fit.relative <= bound;
 }
 
+/* Whether two answers next to each other, with their relative residuals, are one at a singular configuration, where the equations leave
+ * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
+static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+{
+    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative));
+}
+
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    if (!is_close(a, b, BLUR)) {
-        return false;
-    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
@@ -850,8 +871,12 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
 {
+    if (close) {
+        refine(p, branch, last, q, free, answers);
+        return;
+    }
     const Fit fit = measure_at(p, at, q);
-    if (!(!close && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -869,17 +894,6 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
     }
 }
 
-/* Whether no joint of an answer is free. */
-static bool is_single(const Solution *answer)
-{
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (answer->free[i]) {
-            return false;
-        }
-    }
-    return true;
-}
-
 /* Of the two isolated answers nearest to each other the one that holds less well, the later of equals. */
 static size_t doubled(const Answers *answers)
 {
@@ -888,7 +902,7 @@ static size_t doubled(const Answers *answers)
     for (size_t second = 0; second < answers->count; second++) {
         for (size_t first = 0; first < second; first++) {
             const Solution *a = &answers->out[first], *b = &answers->out[second];
-            if (is_single(a) && is_single(b) && farthest_of(a->q, b->q) < least) {
+            if (is_isolated(a->free) && is_isolated(b->free) && farthest_of(a->q, b->q) < least) {
                 least = farthest_of(a->q, b->q);
                 worse = answers->relative[first] > answers->relative[second] ? first : second;
             }
@@ -904,7 +918,7 @@ static void unite(Answers *answers)
     for (;;) {
         size_t isolated = 0;
         for (size_t i = 0; i < answers->count; i++) {
-            isolated += is_single(&answers->out[i]) ? 1 : 0;
+            isolated += is_isolated(answers->out[i].free) ? 1 : 0;
         }
         if (isolated <= 2) {
             return;
@@ -1048,7 +1062,7 @@ static bool all_finite(const double *target)
 int prr_solve(const double *target, prr_solution *out)
 {
     if (!all_finite(target)) {
-        return PRR_BAD_TARGET;
+        return PRR_NOT_FINITE;
     }
     const Parameters p = parameters(target);
     Answers answers;

@@ -80,8 +80,12 @@ impl Solution {
 #[allow(dead_code)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Error {
-    /// A number of the target is infinite or not a number, or the target misses a condition.
-    BadTarget,
+    /// A number of the target is infinite or not a number.
+    NotFinite,
+    /// The rotation of the target is off by more than `CONSISTENT`.
+    NotRotation,
+    /// The direction of the target is not of length one within `CONSISTENT`.
+    NotUnit,
     /// The target lies on this stratum, which could not be derived.
     OpenStratum(&'static str),
 }
@@ -89,10 +93,9 @@ pub enum Error {
 /// Writes all solutions for `target` to the front of `out`, by branch, and returns their number: 0 when it is out of reach.
 ///
 /// # Errors
-/// [`Error::BadTarget`], or [`Error::OpenStratum`]; the content of `out` has no meaning then.
+/// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let Some(target) = conform(target) else { return Err(Error::BadTarget) };
-    let p = &parameters(&target);
+    let p = &parameters(&conform(target)?);
     let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0 };
     block_1(p, &mut answers);
     answers.unite();
@@ -104,7 +107,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
 /// Not a number when a number of the target is not finite, a condition does not hold or an equation's value is not a number.
 #[allow(dead_code)]
 pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
-    let Some(target) = &conform(target) else { return f64::NAN };
+    let Ok(target) = &conform(target) else { return f64::NAN };
     let mut largest = 0.0;
     for value in equations(&parameters(target), &place(q)).value {
         if value.is_nan() {
@@ -184,7 +187,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 #[allow(dead_code)]
 pub fn solve_within(target: &[f64; INPUTS], limits: &[[f64; 2]; JOINTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let count = solve(target, out)?;
-    let Some(target) = &conform(target) else { return Err(Error::BadTarget) };
+    let target = &conform(target)?;
     let p = &parameters(target);
     let mut kept = 0;
     for k in 0..count {
@@ -324,6 +327,8 @@ const ADRIFT: f64 = 1e-7;
 const ALONE: f64 = 1e-13;
 /// How far a free joint is moved to see whether an answer lies on a family.
 const ASIDE: f64 = 0.1;
+/// In how many stages, each twice as far as the one before.
+const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
 const ARRIVED: f64 = 0.001;
 /// In how many stages a family is followed from one member to another.
@@ -337,11 +342,16 @@ const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 
 /// The target moved onto its conditions, which it may miss by a little; none when a number is not finite or it misses them by more.
-fn conform(target: &[f64; INPUTS]) -> Option<[f64; INPUTS]> {
+fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
+    if !target.iter().all(|value| value.is_finite()) {
+        return Err(Error::NotFinite);
+    }
     let mut target = *target;
-    let mut good = target.iter().all(|value| value.is_finite());
-    good = good && make_rotation(&mut target[3..12]);
-    if good { Some(target) } else { None }
+    if !make_rotation(&mut target[3..12]) {
+        return Err(Error::NotRotation);
+    }
+    Ok(target)
+}
 }
 
 /// One Newton step towards the nearest rotation of a matrix by rows; false when that is far, or it is a reflection.
@@ -475,7 +485,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r7 = shared.r3 * shared.r3;
     let r9 = shared.r5 * shared.r5;
     let r10 = r9 + r9;
-    if !is_away(r6 + r7, 10000.0 * r10) {
+    if !is_away(r6 + r7, 16.0 * r10) {
         return;
     }
     let f1 = 1.0;
@@ -578,7 +588,7 @@ struct Shared3 {
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r20 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
-    if !is_away(r20, 259228.80000000002) {
+    if !is_away(r20, 414.76608000000004) {
         return;
     }
     let f2 = 1.0;
@@ -640,7 +650,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13;
     let r16 = shared.r14 * shared.r14;
-    if !is_away(r15 + r16, 4240000.0) {
+    if !is_away(r15 + r16, 6784.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, known.f2 * (20.591260281974 * known.f1));
@@ -1204,13 +1214,10 @@ struct Rated {
 
 /// Whether two answers are one.
 fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if is_isolated(&a.answer) && is_isolated(&b.answer) && !close(&a.answer, &b.answer, BLUR) {
-        return false;
-    }
     if close(&a.answer, &b.answer, MERGE) {
         return true;
     }
-    match (a.answer.free == NONE_FREE, b.answer.free == NONE_FREE) {
+    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
         (true, true) => blurred(p, a, b),
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
@@ -1223,7 +1230,7 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
 /// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
-    match (a.answer.free == NONE_FREE, b.answer.free == NONE_FREE) {
+    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
         (true, false) if b.relative <= RESOLUTION => return false,
         (false, _) if a.relative <= RESOLUTION => return true,
         _ => {}
@@ -1231,23 +1238,53 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
     a.relative <= b.relative
 }
 
-/// Whether the equations hold too, within `bound` or rounding, where the joints `free` are a little elsewhere and the others follow, and
-/// back again: an isolated answer may be led to a family next to it, but not back.
+/// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
+/// least: to the other there may be a branching.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
-    let mut aside = *q;
-    for i in (0..JOINTS).filter(|&i| free[i]) {
-        aside = moved(&aside, i, ASIDE);
+    let bound = f64::max(bound, RESOLUTION);
+    leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound)
+}
+
+/// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
+/// may be led to a family next to it, but not back.
+fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
+    let (mut before, mut at) = (*q, *q);
+    let mut share = 1.0;
+    for _ in 1..DOUBLINGS {
+        share *= 0.5;
     }
-    let (mut back, fit) = follow(p, aside, free);
-    if fit.relative > f64::max(bound, RESOLUTION) {
-        return false;
+    for stage in 0..DOUBLINGS {
+        let mut next = beyond(&before, &at, if stage == 1 { 1.0 } else { 2.0 });
+        for i in (0..JOINTS).filter(|&i| free[i]) {
+            next[i] = moved(q, i, share * way)[i];
+        }
+        let (next, fit) = follow(p, next, free);
+        if fit.relative > bound || (stage == 1 && !leads_back(p, q, free, &at, &next, bound)) {
+            return false;
+        }
+        (before, at) = (at, next);
+        share *= 2.0;
     }
+    true
+}
+
+/// Whether the joints come back to `q` on along the line from `far` through `close_by`.
+fn leads_back(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], close_by: &[f64; JOINTS], far: &[f64; JOINTS], bound: f64) -> bool {
+    let mut back = beyond(far, close_by, 1.0);
     for i in (0..JOINTS).filter(|&i| free[i]) {
         back[i] = q[i];
     }
     let (back, fit) = follow(p, back, free);
-    let (difference, limit) = (differences(&back, q), spans(&back, BLUR));
-    fit.accepted && (0..JOINTS).all(|i| difference[i].abs() <= limit[i])
+    fit.accepted && are_joined(p, &back, q, bound, free)
+}
+
+/// The joints beyond `b` on the line from `a`, by `ahead` times their distance.
+fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
+    let (mut beyond, way) = (*b, differences(b, a));
+    for i in 0..JOINTS {
+        beyond[i] += ahead * way[i];
+    }
+    beyond
 }
 
 /// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
@@ -1262,7 +1299,7 @@ fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
         let end = follow(p, q, &b.free);
         (q, accepted) = (end.0, end.1.accepted);
     }
-    accepted && close(&Solution { q, free: NONE_FREE, ..*a }, &Solution { free: NONE_FREE, ..*b }, ARRIVED)
+    accepted && is_within(&q, &b.q, ARRIVED)
 }
 
 /// Polishes joints of which `free` ones stay where they are.
@@ -1330,21 +1367,30 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
     (0..JOINTS).all(|i| a.free[i] || b.free[i] || difference[i].abs() <= limit[i])
 }
 
-/// Whether two answers near one another are one at a singular configuration: half-way between them, on a way that may be bent, the
-/// equations hold as well as at the worse of the two, or within rounding.
+/// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
+/// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let way = differences(&a.answer.q, &b.answer.q);
-    let mut middle = b.answer.q;
+    let bound = f64::max(a.relative, b.relative);
+    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+}
+
+/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound` or rounding.
+fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, held: &[bool; JOINTS]) -> bool {
+    if farthest(a, b) > BLUR {
+        return false;
+    }
+    let way = differences(a, b);
+    let mut middle = *b;
     for i in 0..JOINTS {
         middle[i] += 0.5 * way[i];
     }
-    let bound = f64::max(f64::max(RESOLUTION, a.relative), b.relative);
+    let bound = f64::max(bound, RESOLUTION);
     let mut fit = measure(p, &middle);
     for _ in 0..RETURNS {
         if fit.relative <= bound {
             return true;
         }
-        let Some(back) = newton_step(p, &middle, STIFF, &NONE_FREE) else { return false };
+        let Some(back) = newton_step(p, &middle, STIFF, held) else { return false };
         middle = stepped(&middle, &back);
         fit = measure(p, &middle);
     }

@@ -58,10 +58,14 @@ static const int WRIST_ROTATION_INPUTS = 9;
 static const int WRIST_ROTATION_JOINTS = 3;
 /* The most solutions that a target can have. */
 static const int WRIST_ROTATION_CAPACITY = 7;
-/* A number of the target is infinite or not a number, or the target misses a condition. */
-static const int WRIST_ROTATION_BAD_TARGET = (-1);
+/* A number of the target is infinite or not a number. */
+static const int WRIST_ROTATION_NOT_FINITE = (-1);
 /* The target lies on a stratum that could not be derived. */
 static const int WRIST_ROTATION_OPEN_STRATUM = (-2);
+/* The rotation of the target is off by more than CONSISTENT. */
+static const int WRIST_ROTATION_NOT_ROTATION = (-3);
+/* The direction of the target is not of length one within CONSISTENT. */
+static const int WRIST_ROTATION_NOT_UNIT = (-4);
 
 /* One answer. */
 typedef struct {
@@ -79,7 +83,7 @@ typedef struct {
 
 
 /* Writes all solutions for the target (WRIST_ROTATION_INPUTS numbers) to the front of out (WRIST_ROTATION_CAPACITY places), by branch, and
- * returns their number, 0 when it is out of reach; or WRIST_ROTATION_BAD_TARGET or WRIST_ROTATION_OPEN_STRATUM. */
+ * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int wrist_rotation_solve(const double *target, wrist_rotation_solution *out);
 
 /* Writes the target (WRIST_ROTATION_INPUTS numbers) that joint values q (WRIST_ROTATION_JOINTS numbers) reach. */
@@ -119,6 +123,8 @@ static const double ADRIFT = 1e-7;
 static const double ALONE = 1e-13;
 /* How far a free joint is moved to see whether an answer lies on a family. */
 static const double ASIDE = 0.1;
+/* In how many stages, each twice as far as the one before. */
+static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
 static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
@@ -432,6 +438,7 @@ static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
     return true;
 }
 
+/* Whether no joint is free. */
 static bool is_isolated(const bool *free)
 {
     for (size_t i = 0; i < JOINTS; i++) {
@@ -704,22 +711,24 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether two answers near one another, with their relative residuals, are one at a singular configuration: half-way between them, on a
- * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
-static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+static bool are_joined(const Parameters *p, const double *a, const double *b, double bound, const bool *held)
 {
-    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
-    differences(a->q, b->q, way);
-    for (size_t i = 0; i < JOINTS; i++) {
-        middle[i] = b->q[i] + 0.5 * way[i];
+    if (farthest_of(a, b) > BLUR) {
+        return false;
     }
-    const double bound = fmax(fmax(RESOLUTION, a_relative), b_relative);
+    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
+    differences(a, b, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        middle[i] = b[i] + 0.5 * way[i];
+    }
+    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
             return true;
         }
-        if (!newton_step(p, middle, STIFF, NONE_FREE, back)) {
+        if (!newton_step(p, middle, STIFF, held, back)) {
             return false;
         }
         stepped(middle, back, next);
@@ -727,6 +736,13 @@ static bool blurred(const Parameters *p, const Solution *a, double a_relative, c
         fit = measure(p, middle);
     }
     return fit.relative <= bound;
+}
+
+/* Whether two answers next to each other, with their relative residuals, are one at a singular configuration, where the equations leave
+ * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
+static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+{
+    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative), NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -737,52 +753,79 @@ static Fit follow(const Parameters *p, double *q, const bool *free)
     return fit;
 }
 
-/* Whether the equations hold too, within a bound or rounding, where the free joints are a little elsewhere and the others follow, and
- * back again: an isolated answer may be led to a family next to it, but not back. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+/* The joints beyond b on the line from a, by ahead times their distance. */
+static void beyond(const double *a, const double *b, double ahead, double *end)
 {
-    double at[JOINTS], next[JOINTS], difference[JOINTS], limit[JOINTS];
+    double way[JOINTS];
+    differences(b, a, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        end[i] = b[i] + ahead * way[i];
+    }
+}
+
+/* Whether the joints come back to q on along the line from far through close_by. */
+static bool leads_back(const Parameters *p, const double *q, const bool *free, const double *close_by, const double *far, double bound)
+{
+    double back[JOINTS];
+    beyond(far, close_by, 1.0, back);
+    for (size_t i = 0; i < JOINTS; i++) {
+        back[i] = free[i] ? q[i] : back[i];
+    }
+    const Fit fit = follow(p, back, free);
+    return fit.accepted && are_joined(p, back, q, bound, free);
+}
+
+/* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
+{
+    double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
+    double share = 1.0;
+    copy(q, before);
     copy(q, at);
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (free[i]) {
-            move(at, i, ASIDE, next);
-            at[i] = next[i];
+    for (int stage = 1; stage < DOUBLINGS; stage++) {
+        share *= 0.5;
+    }
+    for (int stage = 0; stage < DOUBLINGS; stage++) {
+        beyond(before, at, stage == 1 ? 1.0 : 2.0, next);
+        for (size_t i = 0; i < JOINTS; i++) {
+            if (free[i]) {
+                move(q, i, share * way, displaced);
+                next[i] = displaced[i];
+            }
         }
-    }
-    if (follow(p, at, free).relative > fmax(bound, RESOLUTION)) {
-        return false;
-    }
-    for (size_t i = 0; i < JOINTS; i++) {
-        at[i] = free[i] ? q[i] : at[i];
-    }
-    const Fit fit = follow(p, at, free);
-    differences(at, q, difference);
-    spans(at, BLUR, limit);
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (!(fabs(difference[i]) <= limit[i])) {
+        if (follow(p, next, free).relative > bound || (stage == 1 && !leads_back(p, q, free, at, next, bound))) {
             return false;
         }
+        copy(at, before);
+        copy(next, at);
+        share *= 2.0;
     }
-    return fit.accepted;
+    return true;
+}
+
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. */
+static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+{
+    bound = fmax(bound, RESOLUTION);
+    return leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound);
 }
 
 /* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
-    Solution end = *a, member = *b;
+    double q[JOINTS];
     bool accepted = false;
+    copy(a->q, q);
     for (int stages = STAGES; stages > 0; stages--) {
         double way[JOINTS];
-        differences(b->q, end.q, way);
+        differences(b->q, q, way);
         for (size_t i = 0; i < JOINTS; i++) {
-            end.q[i] += b->free[i] ? way[i] / (double)stages : 0.0;
+            q[i] += b->free[i] ? way[i] / (double)stages : 0.0;
         }
-        accepted = follow(p, end.q, b->free).accepted;
+        accepted = follow(p, q, b->free).accepted;
     }
-    for (size_t i = 0; i < JOINTS; i++) {
-        end.free[i] = member.free[i] = false;
-    }
-    return accepted && is_close(&end, &member, ARRIVED);
+    return accepted && is_within(q, b->q, ARRIVED);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -810,13 +853,10 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
-    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
-        return false;
-    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1008,8 +1048,12 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
 {
+    if (!is_isolated(free) || close) {
+        refine(p, branch, last, q, free, answers);
+        return;
+    }
     const Fit fit = measure_at(p, at, q);
-    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1027,17 +1071,6 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
     }
 }
 
-/* Whether no joint of an answer is free. */
-static bool is_single(const Solution *answer)
-{
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (answer->free[i]) {
-            return false;
-        }
-    }
-    return true;
-}
-
 /* Of the two isolated answers nearest to each other the one that holds less well, the later of equals. */
 static size_t doubled(const Answers *answers)
 {
@@ -1046,7 +1079,7 @@ static size_t doubled(const Answers *answers)
     for (size_t second = 0; second < answers->count; second++) {
         for (size_t first = 0; first < second; first++) {
             const Solution *a = &answers->out[first], *b = &answers->out[second];
-            if (is_single(a) && is_single(b) && farthest_of(a->q, b->q) < least) {
+            if (is_isolated(a->free) && is_isolated(b->free) && farthest_of(a->q, b->q) < least) {
                 least = farthest_of(a->q, b->q);
                 worse = answers->relative[first] > answers->relative[second] ? first : second;
             }
@@ -1062,7 +1095,7 @@ static void unite(Answers *answers)
     for (;;) {
         size_t isolated = 0;
         for (size_t i = 0; i < answers->count; i++) {
-            isolated += is_single(&answers->out[i]) ? 1 : 0;
+            isolated += is_isolated(answers->out[i].free) ? 1 : 0;
         }
         if (isolated <= 2) {
             return;
@@ -1201,7 +1234,7 @@ static void again_2(const Parameters *p, const Known *known, Answers *answers)
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->r21_ * p->r21_, r1 = p->r11_ * p->r11_;
-    if (!is_away(r0 + r1, 20000.0)) {
+    if (!is_away(r0 + r1, 32.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);
@@ -1291,20 +1324,28 @@ static bool all_finite(const double *target)
     return true;
 }
 
-/* The target moved onto its conditions, which it may miss by a little; false when a number is not finite or it misses them by more. */
-static bool conform(const double *given, double *target)
+/* Moves the target onto its conditions, which it may miss by a little; 0, or what is wrong when a number is not finite or it misses them by
+ * more. */
+static int conform(const double *given, double *target)
 {
+    if (!all_finite(given)) {
+        return WRIST_ROTATION_NOT_FINITE;
+    }
     for (size_t i = 0; i < INPUTS; i++) {
         target[i] = given[i];
     }
-    return all_finite(target) && make_rotation(target + 0);
+    if (!make_rotation(target + 0)) {
+        return WRIST_ROTATION_NOT_ROTATION;
+    }
+    return 0;
 }
 
 int wrist_rotation_solve(const double *given, wrist_rotation_solution *out)
 {
     double target[INPUTS];
-    if (!conform(given, target)) {
-        return WRIST_ROTATION_BAD_TARGET;
+    const int fault = conform(given, target);
+    if (fault != 0) {
+        return fault;
     }
     const Parameters p = parameters(target);
     Answers answers;
