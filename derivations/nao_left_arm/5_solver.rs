@@ -325,7 +325,6 @@ fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
     }
     Ok(target)
 }
-}
 
 /// One Newton step towards the nearest unit vector; false when that is far.
 fn make_unit(v: &mut [f64]) -> bool {

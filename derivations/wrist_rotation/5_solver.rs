@@ -326,7 +326,6 @@ fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
     }
     Ok(target)
 }
-}
 
 /// One Newton step towards the nearest rotation of a matrix by rows; false when that is far, or it is a reflection.
 fn make_rotation(r: &mut [f64]) -> bool {
