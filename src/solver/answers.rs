@@ -8,20 +8,20 @@ use super::frame::Frame;
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, DOUBLINGS, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, STAGES};
+use super::{ADRIFT, ALONE, APART, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING};
 
 /// A solution with the largest share of an equation's value in its scale.
-struct Answer {
-    solution: Solution,
+pub(super) struct Answer {
+    pub(super) solution: Solution,
     relative: f64,
 }
 
 /// The answers so far.
 pub(super) struct Answers<'a> {
-    program: &'a Program,
+    pub(super) program: &'a Program,
     /// Holds what the equations read.
-    frame: Frame<'a>,
-    list: Vec<Answer>,
+    pub(super) frame: Frame<'a>,
+    pub(super) list: Vec<Answer>,
     /// The candidate that missed the equations by the least share of their size.
     nearest: Option<Nearest>,
 }
@@ -262,71 +262,8 @@ impl<'a> Answers<'a> {
         }
     }
 
-    /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one
-    /// side at least: to the other there may be a branching.
-    fn lies_on_family(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
-        [ASIDE, -ASIDE].into_iter().any(|way| self.leads_aside(q, free, way, bound.max(ROUNDING)))
-    }
-
-    /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated
-    /// answer may be led to a family next to it, but not back.
-    fn leads_aside(&mut self, q: &[f64], free: &[usize], way: f64, bound: f64) -> bool {
-        let mut at = [0.0; MAX_JOINTS];
-        at[..q.len()].copy_from_slice(q);
-        let mut before = at;
-        for stage in 0..DOUBLINGS {
-            let share = 0.5_f64.powi((DOUBLINGS - 1 - stage) as i32);
-            let mut next = self.beyond(&before, &at, if stage == 1 { 1.0 } else { 2.0 });
-            free.iter().for_each(|&joint| next[joint] = self.displaced(q[joint], joint, share * way));
-            if self.follow(&mut next, free).relative > bound
-                || (stage == 1 && !self.leads_back(q, free, &at, &next, bound))
-            {
-                return false;
-            }
-            (before, at) = (at, next);
-        }
-        true
-    }
-
-    /// Whether the joints come back to `q` on along the line from `far` through `near`.
-    fn leads_back(&mut self, q: &[f64], free: &[usize], near: &Joints, far: &Joints, bound: f64) -> bool {
-        let mut back = self.beyond(far, near, 1.0);
-        free.iter().for_each(|&joint| back[joint] = q[joint]);
-        self.follow(&mut back, free).accepted && self.are_joined(&back, q, bound, &held(free))
-    }
-
-    /// The joints beyond `b` on the line from `a`, by `ahead` times their distance.
-    fn beyond(&self, a: &Joints, b: &Joints, ahead: f64) -> Joints {
-        let mut beyond = *b;
-        for (joint, slot) in beyond.iter_mut().enumerate().take(self.program.joints.len()) {
-            *slot += ahead * difference(self.program, joint, b, a);
-        }
-        beyond
-    }
-
-    /// Whether the family of the answer with this index has `member`, another with the same free joints: as these move there in
-    /// stages, the other joints follow.
-    fn leads_to(&mut self, other: usize, member: &Solution) -> bool {
-        let family = &self.list[other].solution;
-        let (mut q, count) = ([0.0; MAX_JOINTS], family.q.len());
-        q[..count].copy_from_slice(&family.q);
-        let mut accepted = false;
-        for stages in (1..=STAGES).rev() {
-            for &joint in &member.free {
-                q[joint] += difference(self.program, joint, &member.q, &q) / stages as f64;
-            }
-            accepted = self.follow(&mut q, &member.free).accepted;
-        }
-        accepted && self.are_near(&q, &member.q, ARRIVED)
-    }
-
-    /// Polishes joints of which `free` ones stay where they are.
-    fn follow(&mut self, q: &mut Joints, free: &[usize]) -> Fit {
-        refine::polished(self.program, q, &held(free), &mut self.frame)
-    }
-
     /// The value of a joint moved by `way`: an angle by that, a length by that share of its size.
-    fn displaced(&self, value: f64, joint: usize, way: f64) -> f64 {
+    pub(super) fn displaced(&self, value: f64, joint: usize, way: f64) -> f64 {
         let moved = value + way * self.size(joint, value);
         match self.program.joints[joint].value {
             JointValue::Angle { .. } => refine::wrap(moved),
@@ -343,7 +280,7 @@ impl<'a> Answers<'a> {
     }
 
     /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound` or rounding.
-    fn are_joined(&mut self, a: &[f64], b: &[f64], bound: f64, held: &[bool; MAX_JOINTS]) -> bool {
+    pub(super) fn are_joined(&mut self, a: &[f64], b: &[f64], bound: f64, held: &[bool; MAX_JOINTS]) -> bool {
         if self.way(a, b) > BLUR {
             return false;
         }
@@ -354,7 +291,7 @@ impl<'a> Answers<'a> {
         refine::nearly_holds(self.program, &middle, bound.max(ROUNDING), held, &mut self.frame)
     }
 
-    fn are_near(&self, a: &[f64], b: &[f64], tolerance: f64) -> bool {
+    pub(super) fn are_near(&self, a: &[f64], b: &[f64], tolerance: f64) -> bool {
         (0..self.program.joints.len()).all(|joint| self.is_near(joint, a, b, tolerance))
     }
 
@@ -388,15 +325,8 @@ impl Answer {
     }
 }
 
-/// By joint whether it is among `joints`.
-fn held(joints: &[usize]) -> [bool; MAX_JOINTS] {
-    let mut held = NONE_FREE;
-    joints.iter().for_each(|&joint| held[joint] = true);
-    held
-}
-
 /// `a - b` for one joint, for an angle by the shorter way round.
-fn difference(program: &Program, joint: usize, a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn difference(program: &Program, joint: usize, a: &[f64], b: &[f64]) -> f64 {
     let difference = a[joint] - b[joint];
     match program.joints[joint].value {
         JointValue::Angle { .. } if difference > PI => difference - TAU,

@@ -9,6 +9,7 @@ mod batch;
 mod compose;
 mod condition;
 mod evaluate;
+mod families;
 mod forward;
 mod frame;
 mod instruction;
