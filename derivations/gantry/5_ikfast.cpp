@@ -1289,7 +1289,7 @@ static void again_5(const Parameters *p, const Known *known, Answers *answers)
 static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = p->r23_ * p->r23_, r1 = p->r13_ * p->r13_;
-    if (!is_away(r0 + r1, 32.0)) {
+    if (!is_away(r0 + r1, 20000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);

@@ -523,7 +523,7 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 fn chart_4_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = p.r23_ * p.r23_;
     let r1 = p.r13_ * p.r13_;
-    if !is_away(r0 + r1, 32.0) {
+    if !is_away(r0 + r1, 20000.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);

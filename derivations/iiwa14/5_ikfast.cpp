@@ -1389,7 +1389,7 @@ typedef struct {
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r21 = shared->r19 * shared->r19, r22 = shared->r20 * shared->r20;
-    if (!is_away(r21 + r22, 28240.0)) {
+    if (!is_away(r21 + r22, 17650000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r21 - r22, known->f2 * (42.01190307520001 * known->f1));
@@ -1468,7 +1468,7 @@ typedef struct {
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r21 = shared->r8 * shared->r8 + shared->r9 * shared->r9;
-    if (!is_away(r21, 1667.8719999999998)) {
+    if (!is_away(r21, 1042419.9999999999)) {
         return;
     }
     const double f2 = 1.0, r25 = shared->r8 * shared->r13 - (0.0 - shared->r9 * shared->r12);
@@ -1547,7 +1547,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double r9 = shared->r2 * shared->r2, r10 = shared->r4 * shared->r4, r12 = shared->r8 * shared->r8;
     const double r13 = r12 + r12;
-    if (!is_away(r9 + r10, 16.0 * r13)) {
+    if (!is_away(r9 + r10, 10000.0 * r13)) {
         return;
     }
     const double f1 = 1.0;

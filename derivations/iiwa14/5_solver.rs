@@ -546,7 +546,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     let r10 = shared.r4 * shared.r4;
     let r12 = shared.r8 * shared.r8;
     let r13 = r12 + r12;
-    if !is_away(r9 + r10, 16.0 * r13) {
+    if !is_away(r9 + r10, 10000.0 * r13) {
         return;
     }
     let f1 = 1.0;
@@ -616,7 +616,7 @@ struct Shared4 {
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r21 = shared.r8 * shared.r8 + shared.r9 * shared.r9;
-    if !is_away(r21, 1667.8719999999998) {
+    if !is_away(r21, 1042419.9999999999) {
         return;
     }
     let f2 = 1.0;
@@ -680,7 +680,7 @@ struct Shared5 {
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r21 = shared.r19 * shared.r19;
     let r22 = shared.r20 * shared.r20;
-    if !is_away(r21 + r22, 28240.0) {
+    if !is_away(r21 + r22, 17650000.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r21 - r22, known.f2 * (42.01190307520001 * known.f1));

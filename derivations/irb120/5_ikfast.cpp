@@ -1365,7 +1365,7 @@ typedef struct {
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14;
-    if (!is_away(r15 + r16, 6784.0)) {
+    if (!is_away(r15 + r16, 4240000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r15 - r16, known->f2 * (20.591260281974 * known->f1));
@@ -1443,7 +1443,7 @@ typedef struct {
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r24 = shared->r9 * shared->r9 + shared->r12 * shared->r12;
-    if (!is_away(r24, 123.37644800000001)) {
+    if (!is_away(r24, 77110.28000000001)) {
         return;
     }
     const double f2 = 1.0, r27 = shared->r9 * shared->r16 - shared->r12 * shared->r15;
@@ -1559,7 +1559,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
     const double r10 = r9 + r9;
-    if (!is_away(r6 + r7, 16.0 * r10)) {
+    if (!is_away(r6 + r7, 10000.0 * r10)) {
         return;
     }
     const double f1 = 1.0;

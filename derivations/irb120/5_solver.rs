@@ -484,7 +484,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r7 = shared.r3 * shared.r3;
     let r9 = shared.r5 * shared.r5;
     let r10 = r9 + r9;
-    if !is_away(r6 + r7, 16.0 * r10) {
+    if !is_away(r6 + r7, 10000.0 * r10) {
         return;
     }
     let f1 = 1.0;
@@ -587,7 +587,7 @@ struct Shared3 {
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r24 = shared.r9 * shared.r9 + shared.r12 * shared.r12;
-    if !is_away(r24, 123.37644800000001) {
+    if !is_away(r24, 77110.28000000001) {
         return;
     }
     let f2 = 1.0;
@@ -649,7 +649,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13;
     let r16 = shared.r14 * shared.r14;
-    if !is_away(r15 + r16, 6784.0) {
+    if !is_away(r15 + r16, 4240000.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, known.f2 * (20.591260281974 * known.f1));

@@ -1185,7 +1185,7 @@ COLD static void again_2(const Parameters *p, const Known *known, Answers *answe
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->dy * p->dy, r1 = p->dx * p->dx;
-    if (!is_away(r0 + r1, 32.0)) {
+    if (!is_away(r0 + r1, 20000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);

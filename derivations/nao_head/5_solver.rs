@@ -391,7 +391,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r0 = p.dy * p.dy;
     let r1 = p.dx * p.dx;
-    if !is_away(r0 + r1, 32.0) {
+    if !is_away(r0 + r1, 20000.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);

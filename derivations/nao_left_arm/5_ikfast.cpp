@@ -1323,7 +1323,7 @@ typedef struct {
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8;
-    if (!is_away(r9 + r10, 976.0)) {
+    if (!is_away(r9 + r10, 610000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r9 - r10, known->f1 * (7.810249675906654 * known->fr));
@@ -1436,7 +1436,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double r21 = shared->r10 * shared->r10, r22 = shared->r16 * shared->r16;
     const double r26 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
-    if (!is_away(r21 + r22, 16.0 * r26)) {
+    if (!is_away(r21 + r22, 10000.0 * r26)) {
         return;
     }
     const double f1 = 1.0;
@@ -1522,7 +1522,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 {
     const double r70 = shared->r26 * shared->r26, r71 = shared->r35 * shared->r35;
     const double r75 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
-    if (!is_away(r70 + r71, 16.0 * r75)) {
+    if (!is_away(r70 + r71, 10000.0 * r75)) {
         return;
     }
     const double fr = 1.0;

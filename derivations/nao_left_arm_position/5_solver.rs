@@ -407,7 +407,7 @@ struct Shared2 {
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r13 = shared.r3 * shared.r3;
-    if !is_away(r13 + 0.0005701111289999999, 32.0) {
+    if !is_away(r13 + 0.0005701111289999999, 20000.0) {
         return;
     }
     let f4 = 1.0;
@@ -473,7 +473,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     let r7 = shared.r1 * shared.r1;
     let r8 = p.px * p.px;
     let r12 = shared.r6 * shared.r6 + p.magnitude * p.magnitude;
-    if !is_away(r7 + r8, 16.0 * r12) {
+    if !is_away(r7 + r8, 10000.0 * r12) {
         return;
     }
     let roots0 = square_roots(shared.r4 * shared.r4 - r7 - r8, known.f4 * f64::max(r12, 0.0).sqrt());
@@ -541,7 +541,7 @@ struct Shared4 {
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r19 = shared.r7 * shared.r7 + shared.r9 * shared.r9;
-    if !is_away(r19, 139.93004580640002) {
+    if !is_away(r19, 87456.27862900001) {
         return;
     }
     let r23 = shared.r7 * shared.r11 - (0.0 - shared.r9 * shared.r10);

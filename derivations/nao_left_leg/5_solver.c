@@ -1449,7 +1449,7 @@ typedef struct {
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10;
-    if (!is_away(r11 + r12, 191.99999999999997)) {
+    if (!is_away(r11 + r12, 119999.99999999999)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r11 - r12, known->f5 * (3.4641016151377544 * known->f6));
@@ -1529,7 +1529,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!is_away(r88, 16.0 * r91)) {
+    if (!is_away(r88, 10000.0 * r91)) {
         return;
     }
     const double f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
@@ -1620,7 +1620,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 {
     const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    if (!is_away(r24 + r25, 16.0 * r29)) {
+    if (!is_away(r24 + r25, 10000.0 * r29)) {
         return;
     }
     const double f6 = 1.0;

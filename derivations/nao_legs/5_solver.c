@@ -1654,7 +1654,7 @@ typedef struct {
 INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r34 = shared->r32 * shared->r32, r35 = shared->r33 * shared->r33;
-    if (!is_away(r34 + r35, 36992.0)) {
+    if (!is_away(r34 + r35, 23120000.0)) {
         return;
     }
     const double r40 = known->right_f3 * (48.08326112068523 * known->right_f2);
@@ -1739,7 +1739,7 @@ typedef struct {
 INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r50 = shared->r36 * shared->r36 + shared->r38 * shared->r38;
-    if (!is_away(r50, 12.40855712)) {
+    if (!is_away(r50, 7755.348199999999)) {
         return;
     }
     const double right_f3 = 1.0, r53 = shared->r38 * shared->r40 + shared->r36 * shared->r41;
@@ -1865,7 +1865,7 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
 {
     const double r31 = shared->r22 * shared->r22, r32 = shared->r25 * shared->r25;
     const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
-    if (!is_away(r31 + r32, 16.0 * r36)) {
+    if (!is_away(r31 + r32, 10000.0 * r36)) {
         return;
     }
     const double right_f2 = 1.0;
@@ -2103,7 +2103,7 @@ typedef struct {
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10;
-    if (!is_away(r11 + r12, 191.99999999999997)) {
+    if (!is_away(r11 + r12, 119999.99999999999)) {
         return;
     }
     const double r17 = known->left_f5 * (3.4641016151377544 * known->left_f6);
@@ -2185,7 +2185,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!is_away(r88, 16.0 * r91)) {
+    if (!is_away(r88, 10000.0 * r91)) {
         return;
     }
     const double left_f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
@@ -2281,7 +2281,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 {
     const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    if (!is_away(r24 + r25, 16.0 * r29)) {
+    if (!is_away(r24 + r25, 10000.0 * r29)) {
         return;
     }
     const double left_f6 = 1.0;

@@ -564,7 +564,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r24 = shared.r11 * shared.r11;
     let r25 = shared.r18 * shared.r18;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
-    if !is_away(r24 + r25, 16.0 * r29) {
+    if !is_away(r24 + r25, 10000.0 * r29) {
         return;
     }
     let left_f6 = 1.0;
@@ -658,7 +658,7 @@ struct Shared3 {
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !is_away(r88, 16.0 * r91) {
+    if !is_away(r88, 10000.0 * r91) {
         return;
     }
     let left_f5 = 1.0;
@@ -720,7 +720,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r11 = shared.r6 * shared.r6;
     let r12 = shared.r10 * shared.r10;
-    if !is_away(r11 + r12, 191.99999999999997) {
+    if !is_away(r11 + r12, 119999.99999999999) {
         return;
     }
     let r17 = known.left_f5 * (3.4641016151377544 * known.left_f6);
@@ -923,7 +923,7 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
     let r31 = shared.r22 * shared.r22;
     let r32 = shared.r25 * shared.r25;
     let r36 = shared.r29 * shared.r29 + shared.r30 * shared.r30;
-    if !is_away(r31 + r32, 16.0 * r36) {
+    if !is_away(r31 + r32, 10000.0 * r36) {
         return;
     }
     let right_f2 = 1.0;
@@ -1043,7 +1043,7 @@ struct Shared10 {
 #[inline(always)]
 fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
     let r50 = shared.r36 * shared.r36 + shared.r38 * shared.r38;
-    if !is_away(r50, 12.40855712) {
+    if !is_away(r50, 7755.348199999999) {
         return;
     }
     let right_f3 = 1.0;
@@ -1111,7 +1111,7 @@ struct Shared11 {
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r34 = shared.r32 * shared.r32;
     let r35 = shared.r33 * shared.r33;
-    if !is_away(r34 + r35, 36992.0) {
+    if !is_away(r34 + r35, 23120000.0) {
         return;
     }
     let r40 = known.right_f3 * (48.08326112068523 * known.right_f2);

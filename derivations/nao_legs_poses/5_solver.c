@@ -1674,7 +1674,7 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!is_away(r88, 16.0 * r91)) {
+    if (!is_away(r88, 10000.0 * r91)) {
         return;
     }
     const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
@@ -1772,7 +1772,7 @@ typedef struct {
  */
 INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    if (!is_away(shared->r36 - shared->r34, 16.0 * shared->r40)) {
+    if (!is_away(shared->r36 - shared->r34, 10000.0 * shared->r40)) {
         return;
     }
     const double right_c6 = 0.0, right_s6 = 0.0, q10 = angle(right_c6, right_s6);
@@ -1793,7 +1793,7 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
 {
     const double r42 = shared->r17 * shared->r17, r43 = shared->r24 * shared->r24;
     const double r47 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 16.0 * r47))) {
+    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 10000.0 * r47))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r42 - r43, sqrt(fmax(r47, 0.0)));
@@ -1843,7 +1843,7 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
 static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     const double r42 = shared->r26 * shared->r26, r43 = shared->r28 * shared->r28;
-    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 288.0))) {
+    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 180000.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r42 - r43, 4.242640687119285);
@@ -2058,7 +2058,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!is_away(r88, 16.0 * r91)) {
+    if (!is_away(r88, 10000.0 * r91)) {
         return;
     }
     const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
@@ -2156,7 +2156,7 @@ typedef struct {
  */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    if (!is_away(shared->r35 - shared->r34, 16.0 * shared->r39)) {
+    if (!is_away(shared->r35 - shared->r34, 10000.0 * shared->r39)) {
         return;
     }
     const double left_c6 = 0.0, left_s6 = 0.0, q5 = angle(left_c6, left_s6);
@@ -2177,7 +2177,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double r41 = shared->r17 * shared->r17, r42 = shared->r24 * shared->r24;
     const double r46 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 16.0 * r46))) {
+    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 10000.0 * r46))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r41 - r42, sqrt(fmax(r46, 0.0)));
@@ -2227,7 +2227,7 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
 static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r41 = shared->r26 * shared->r26, r42 = shared->r28 * shared->r28;
-    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 288.0))) {
+    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 180000.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r41 - r42, 4.242640687119285);
@@ -2359,7 +2359,7 @@ typedef struct {
  */
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    if (!is_away(shared->r63 - shared->r61, 16.0 * shared->r66)) {
+    if (!is_away(shared->r63 - shared->r61, 10000.0 * shared->r66)) {
         return;
     }
     const double left_c1 = 0.0, left_s1 = 0.0, q0 = angle(left_c1, left_s1);
@@ -2380,7 +2380,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double r68 = shared->r19 * shared->r19, r69 = shared->r32 * shared->r32;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 16.0 * r73))) {
+    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 10000.0 * r73))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));
@@ -2431,7 +2431,7 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double r68 = shared->r41 * shared->r41, r69 = shared->r54 * shared->r54;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 16.0 * r73))) {
+    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 10000.0 * r73))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));

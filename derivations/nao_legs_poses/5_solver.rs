@@ -551,7 +551,7 @@ struct Shared1 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    if !is_away(shared.r63 - shared.r61, 16.0 * shared.r66) {
+    if !is_away(shared.r63 - shared.r61, 10000.0 * shared.r66) {
         return;
     }
     let left_c1 = 0.0;
@@ -567,7 +567,7 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r68 = shared.r19 * shared.r19;
     let r69 = shared.r32 * shared.r32;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 16.0 * r73)) {
+    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 10000.0 * r73)) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
@@ -605,7 +605,7 @@ fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r68 = shared.r41 * shared.r41;
     let r69 = shared.r54 * shared.r54;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 16.0 * r73)) {
+    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 10000.0 * r73)) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
@@ -728,7 +728,7 @@ struct Shared3 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    if !is_away(shared.r35 - shared.r34, 16.0 * shared.r39) {
+    if !is_away(shared.r35 - shared.r34, 10000.0 * shared.r39) {
         return;
     }
     let left_c6 = 0.0;
@@ -744,7 +744,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     let r41 = shared.r17 * shared.r17;
     let r42 = shared.r24 * shared.r24;
     let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 16.0 * r46)) {
+    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 10000.0 * r46)) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, f64::max(r46, 0.0).sqrt());
@@ -781,7 +781,7 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r41 = shared.r26 * shared.r26;
     let r42 = shared.r28 * shared.r28;
-    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 288.0)) {
+    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 180000.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, 4.242640687119285);
@@ -872,7 +872,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !is_away(r88, 16.0 * r91) {
+    if !is_away(r88, 10000.0 * r91) {
         return;
     }
     let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
@@ -1073,7 +1073,7 @@ struct Shared8 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    if !is_away(shared.r36 - shared.r34, 16.0 * shared.r40) {
+    if !is_away(shared.r36 - shared.r34, 10000.0 * shared.r40) {
         return;
     }
     let right_c6 = 0.0;
@@ -1089,7 +1089,7 @@ fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
     let r42 = shared.r17 * shared.r17;
     let r43 = shared.r24 * shared.r24;
     let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 16.0 * r47)) {
+    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 10000.0 * r47)) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, f64::max(r47, 0.0).sqrt());
@@ -1126,7 +1126,7 @@ fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     let r42 = shared.r26 * shared.r26;
     let r43 = shared.r28 * shared.r28;
-    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 288.0)) {
+    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 180000.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, 4.242640687119285);
@@ -1217,7 +1217,7 @@ struct Shared9 {
 fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !is_away(r88, 16.0 * r91) {
+    if !is_away(r88, 10000.0 * r91) {
         return;
     }
     let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);

@@ -2035,7 +2035,7 @@ typedef struct {
 INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
-    if (!is_away(r98, 16.0 * (r99 + r99))) {
+    if (!is_away(r98, 10000.0 * (r99 + r99))) {
         return;
     }
     const double r105 = shared->r77 * shared->r92 - (0.0 - shared->r89 * shared->r91);
@@ -2133,7 +2133,7 @@ typedef struct {
  */
 INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    if (!is_away(shared->r80 - shared->r78, 16.0 * shared->r84)) {
+    if (!is_away(shared->r80 - shared->r78, 10000.0 * shared->r84)) {
         return;
     }
     const double right_c9 = 0.0, right_s9 = 0.0, q13 = angle(right_c9, right_s9);
@@ -2154,7 +2154,7 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
 {
     const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68;
     const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 16.0 * r91))) {
+    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 10000.0 * r91))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, sqrt(fmax(r91, 0.0)));
@@ -2204,7 +2204,7 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
 static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 43808.0))) {
+    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 27380000.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
@@ -2447,7 +2447,7 @@ typedef struct {
 INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
-    if (!is_away(r98, 16.0 * (r99 + r99))) {
+    if (!is_away(r98, 10000.0 * (r99 + r99))) {
         return;
     }
     const double r104 = shared->r77 * shared->r92 - shared->r89 * shared->r91;
@@ -2544,7 +2544,7 @@ typedef struct {
  */
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    if (!is_away(shared->r79 - shared->r78, 16.0 * shared->r83)) {
+    if (!is_away(shared->r79 - shared->r78, 10000.0 * shared->r83)) {
         return;
     }
     const double left_c9 = 0.0, left_s9 = 0.0, q8 = angle(left_c9, left_s9);
@@ -2565,7 +2565,7 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
 {
     const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68;
     const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 16.0 * r90))) {
+    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 10000.0 * r90))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, sqrt(fmax(r90, 0.0)));
@@ -2615,7 +2615,7 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
 static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 43808.0))) {
+    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 27380000.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
@@ -2760,7 +2760,7 @@ typedef struct {
  */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    if (!is_away(shared->r139 + shared->r141, 16.0 * shared->r144)) {
+    if (!is_away(shared->r139 + shared->r141, 10000.0 * shared->r144)) {
         return;
     }
     const double left_c4 = 0.0, left_s4 = 0.0, q3 = angle(left_c4, left_s4);
@@ -2781,7 +2781,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 {
     const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 16.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 10000.0 * r151))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
@@ -2832,7 +2832,7 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
 {
     const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 16.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 10000.0 * r151))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));

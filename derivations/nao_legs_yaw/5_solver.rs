@@ -1024,7 +1024,7 @@ struct Shared4 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    if !is_away(shared.r139 + shared.r141, 16.0 * shared.r144) {
+    if !is_away(shared.r139 + shared.r141, 10000.0 * shared.r144) {
         return;
     }
     let left_c4 = 0.0;
@@ -1040,7 +1040,7 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     let r146 = shared.r98 * shared.r98;
     let r147 = shared.r110 * shared.r110;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 16.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 10000.0 * r151)) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
@@ -1079,7 +1079,7 @@ fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     let r146 = shared.r120 * shared.r120;
     let r147 = shared.r132 * shared.r132;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 16.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 10000.0 * r151)) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
@@ -1224,7 +1224,7 @@ struct Shared6 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    if !is_away(shared.r79 - shared.r78, 16.0 * shared.r83) {
+    if !is_away(shared.r79 - shared.r78, 10000.0 * shared.r83) {
         return;
     }
     let left_c9 = 0.0;
@@ -1240,7 +1240,7 @@ fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
     let r85 = shared.r57 * shared.r57;
     let r86 = shared.r68 * shared.r68;
     let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 16.0 * r90)) {
+    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 10000.0 * r90)) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, f64::max(r90, 0.0).sqrt());
@@ -1277,7 +1277,7 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r85 = shared.r70 * shared.r70;
     let r86 = shared.r72 * shared.r72;
-    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 43808.0)) {
+    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 27380000.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
@@ -1365,7 +1365,7 @@ struct Shared7 {
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
     let r99 = shared.r95 * shared.r95;
-    if !is_away(r98, 16.0 * (r99 + r99)) {
+    if !is_away(r98, 10000.0 * (r99 + r99)) {
         return;
     }
     let r104 = shared.r77 * shared.r92 - shared.r89 * shared.r91;
@@ -1606,7 +1606,7 @@ struct Shared11 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    if !is_away(shared.r80 - shared.r78, 16.0 * shared.r84) {
+    if !is_away(shared.r80 - shared.r78, 10000.0 * shared.r84) {
         return;
     }
     let right_c9 = 0.0;
@@ -1622,7 +1622,7 @@ fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
     let r86 = shared.r57 * shared.r57;
     let r87 = shared.r68 * shared.r68;
     let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 16.0 * r91)) {
+    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 10000.0 * r91)) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, f64::max(r91, 0.0).sqrt());
@@ -1659,7 +1659,7 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r86 = shared.r70 * shared.r70;
     let r87 = shared.r72 * shared.r72;
-    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 43808.0)) {
+    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 27380000.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
@@ -1753,7 +1753,7 @@ struct Shared12 {
 fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
     let r99 = shared.r95 * shared.r95;
-    if !is_away(r98, 16.0 * (r99 + r99)) {
+    if !is_away(r98, 10000.0 * (r99 + r99)) {
         return;
     }
     let r105 = shared.r77 * shared.r92 - (0.0 - shared.r89 * shared.r91);

@@ -525,7 +525,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r70 = shared.r26 * shared.r26;
     let r71 = shared.r35 * shared.r35;
     let r75 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
-    if !is_away(r70 + r71, 16.0 * r75) {
+    if !is_away(r70 + r71, 10000.0 * r75) {
         return;
     }
     let fr = 1.0;
@@ -593,7 +593,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     let r21 = shared.r10 * shared.r10;
     let r22 = shared.r16 * shared.r16;
     let r26 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
-    if !is_away(r21 + r22, 16.0 * r26) {
+    if !is_away(r21 + r22, 10000.0 * r26) {
         return;
     }
     let f1 = 1.0;
@@ -690,7 +690,7 @@ struct Shared5 {
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r9 = shared.r7 * shared.r7;
     let r10 = shared.r8 * shared.r8;
-    if !is_away(r9 + r10, 976.0) {
+    if !is_away(r9 + r10, 610000.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r9 - r10, known.f1 * (7.810249675906654 * known.fr));

@@ -1219,7 +1219,7 @@ typedef struct {
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r19 = shared->r7 * shared->r7 + shared->r9 * shared->r9;
-    if (!is_away(r19, 139.93004580640002)) {
+    if (!is_away(r19, 87456.27862900001)) {
         return;
     }
     const double r23 = shared->r7 * shared->r11 - (0.0 - shared->r9 * shared->r10);
@@ -1300,7 +1300,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 {
     const double r7 = shared->r1 * shared->r1, r8 = p->px * p->px;
     const double r12 = shared->r6 * shared->r6 + p->magnitude * p->magnitude;
-    if (!is_away(r7 + r8, 16.0 * r12)) {
+    if (!is_away(r7 + r8, 10000.0 * r12)) {
         return;
     }
     const Roots roots0 = square_roots(shared->r4 * shared->r4 - r7 - r8, known->f4 * sqrt(fmax(r12, 0.0)));
@@ -1373,7 +1373,7 @@ typedef struct {
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r13 = shared->r3 * shared->r3;
-    if (!is_away(r13 + 0.0005701111289999999, 32.0)) {
+    if (!is_away(r13 + 0.0005701111289999999, 20000.0)) {
         return;
     }
     const double f4 = 1.0, r16 = shared->r12 * shared->r12 - 0.0005701111289999999;

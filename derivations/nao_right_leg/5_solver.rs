@@ -522,7 +522,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r24 = shared.r11 * shared.r11;
     let r25 = shared.r18 * shared.r18;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
-    if !is_away(r24 + r25, 16.0 * r29) {
+    if !is_away(r24 + r25, 10000.0 * r29) {
         return;
     }
     let f6 = 1.0;
@@ -612,7 +612,7 @@ struct Shared3 {
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !is_away(r88, 16.0 * r91) {
+    if !is_away(r88, 10000.0 * r91) {
         return;
     }
     let f5 = 1.0;
@@ -673,7 +673,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r11 = shared.r6 * shared.r6;
     let r12 = shared.r10 * shared.r10;
-    if !is_away(r11 + r12, 191.99999999999997) {
+    if !is_away(r11 + r12, 119999.99999999999) {
         return;
     }
     let roots0 = square_roots(0.0 - r11 - r12, known.f5 * (3.4641016151377544 * known.f6));

@@ -1158,7 +1158,7 @@ typedef struct {
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r7 = shared->r0 * shared->r0 + shared->r2 * shared->r2;
-    if (!is_away(r7, 89.11999999999999)) {
+    if (!is_away(r7, 55699.99999999999)) {
         return;
     }
     const double r10 = p->py * shared->r2 - p->px * shared->r0;

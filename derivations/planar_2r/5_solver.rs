@@ -406,7 +406,7 @@ struct Shared2 {
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r7 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
-    if !is_away(r7, 89.11999999999999) {
+    if !is_away(r7, 55699.99999999999) {
         return;
     }
     let r10 = p.py * shared.r2 - p.px * shared.r0;

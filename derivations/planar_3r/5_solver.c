@@ -1224,7 +1224,7 @@ typedef struct {
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r11 = shared->r0 * shared->r0 + shared->r2 * shared->r2;
-    if (!is_away(r11, 89.11999999999999)) {
+    if (!is_away(r11, 55699.99999999999)) {
         return;
     }
     const double r15 = shared->r0 * shared->r6 - (0.0 - shared->r2 * shared->r4);

@@ -419,7 +419,7 @@ struct Shared2 {
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r11 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
-    if !is_away(r11, 89.11999999999999) {
+    if !is_away(r11, 55699.99999999999) {
         return;
     }
     let r15 = shared.r0 * shared.r6 - (0.0 - shared.r2 * shared.r4);

@@ -1237,7 +1237,7 @@ typedef struct {
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r21 = shared->r8 * shared->r8 + shared->r10 * shared->r10;
-    if (!is_away(r21, 191.08)) {
+    if (!is_away(r21, 119425.00000000001)) {
         return;
     }
     const double r25 = shared->r8 * shared->r13 - (0.0 - shared->r10 * shared->r11);

@@ -452,7 +452,7 @@ struct Shared3 {
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r21 = shared.r8 * shared.r8 + shared.r10 * shared.r10;
-    if !is_away(r21, 191.08) {
+    if !is_away(r21, 119425.00000000001) {
         return;
     }
     let r25 = shared.r8 * shared.r13 - (0.0 - shared.r10 * shared.r11);

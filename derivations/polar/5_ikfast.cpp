@@ -1182,7 +1182,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 {
     const double r9 = shared->r2 * shared->r2, r10 = shared->r3 * shared->r3;
     const double r14 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
-    if (!is_away(r9 + r10, 16.0 * r14)) {
+    if (!is_away(r9 + r10, 10000.0 * r14)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r9 - r10, known->f1 * sqrt(fmax(r14, 0.0)));
@@ -1249,7 +1249,7 @@ static void again_2(const Parameters *p, const Known *known, Answers *answers)
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->pz * p->pz, r1 = p->px * p->px, r3 = p->magnitude * p->magnitude, r4 = r3 + r3;
-    if (!is_away(r0 + r1, 16.0 * r4)) {
+    if (!is_away(r0 + r1, 10000.0 * r4)) {
         return;
     }
     const double f1 = 1.0;

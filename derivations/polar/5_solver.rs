@@ -375,7 +375,7 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r1 = p.px * p.px;
     let r3 = p.magnitude * p.magnitude;
     let r4 = r3 + r3;
-    if !is_away(r0 + r1, 16.0 * r4) {
+    if !is_away(r0 + r1, 10000.0 * r4) {
         return;
     }
     let f1 = 1.0;
@@ -442,7 +442,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r9 = shared.r2 * shared.r2;
     let r10 = shared.r3 * shared.r3;
     let r14 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
-    if !is_away(r9 + r10, 16.0 * r14) {
+    if !is_away(r9 + r10, 10000.0 * r14) {
         return;
     }
     let roots0 = square_roots(0.0 - r9 - r10, known.f1 * f64::max(r14, 0.0).sqrt());

@@ -1359,7 +1359,7 @@ typedef struct {
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14;
-    if (!is_away(r15 + r16, 6784.0)) {
+    if (!is_away(r15 + r16, 4240000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r15 - r16, known->f2 * (20.591260281974 * known->f1));
@@ -1437,7 +1437,7 @@ typedef struct {
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r20 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
-    if (!is_away(r20, 414.76608000000004)) {
+    if (!is_away(r20, 259228.80000000002)) {
         return;
     }
     const double f2 = 1.0, r23 = shared->r7 * shared->r12 - shared->r8 * shared->r11;
@@ -1551,7 +1551,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
     const double r10 = r9 + r9;
-    if (!is_away(r6 + r7, 16.0 * r10)) {
+    if (!is_away(r6 + r7, 10000.0 * r10)) {
         return;
     }
     const double f1 = 1.0;

@@ -1397,7 +1397,7 @@ typedef struct {
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14;
-    if (!is_away(r15 + r16, 6784.0)) {
+    if (!is_away(r15 + r16, 4240000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r15 - r16, 20.591260281974 * known->f2);
@@ -1475,7 +1475,7 @@ typedef struct {
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r18 = shared->r4 * shared->r4 + shared->r8 * shared->r8;
-    if (!is_away(r18, 76.55716384000002)) {
+    if (!is_away(r18, 47848.22740000001)) {
         return;
     }
     const double f2 = 1.0, r21 = p->pz * shared->r8 - shared->r4 * shared->r9;
@@ -1579,7 +1579,7 @@ typedef struct {
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r2 = p->py * p->py, r3 = p->px * p->px, r5 = shared->r1 * shared->r1, r6 = r5 + r5;
-    if (!is_away(r2 + r3, 16.0 * r6)) {
+    if (!is_away(r2 + r3, 10000.0 * r6)) {
         return;
     }
     const Roots roots0 = square_roots(0.022515002499999996 - r2 - r3, sqrt(fmax(r6, 0.0)));

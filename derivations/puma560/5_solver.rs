@@ -478,7 +478,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r3 = p.px * p.px;
     let r5 = shared.r1 * shared.r1;
     let r6 = r5 + r5;
-    if !is_away(r2 + r3, 16.0 * r6) {
+    if !is_away(r2 + r3, 10000.0 * r6) {
         return;
     }
     let roots0 = square_roots(0.022515002499999996 - r2 - r3, f64::max(r6, 0.0).sqrt());
@@ -553,7 +553,7 @@ struct Shared3 {
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r18 = shared.r4 * shared.r4 + shared.r8 * shared.r8;
-    if !is_away(r18, 76.55716384000002) {
+    if !is_away(r18, 47848.22740000001) {
         return;
     }
     let f2 = 1.0;
@@ -615,7 +615,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13;
     let r16 = shared.r14 * shared.r14;
-    if !is_away(r15 + r16, 6784.0) {
+    if !is_away(r15 + r16, 4240000.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, 20.591260281974 * known.f2);

@@ -1182,7 +1182,7 @@ typedef struct {
  */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    if (!is_away(shared->r4 * shared->r4, 47.110400000000006)) {
+    if (!is_away(shared->r4 * shared->r4, 29444.000000000004)) {
         return;
     }
     const double r13 = shared->r4 * shared->r5, r14 = shared->r4 * shared->r6;
@@ -1243,7 +1243,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 {
     const double r5 = p->pz * p->pz, r6 = shared->r0 * shared->r0;
     const double r10 = p->magnitude * p->magnitude + shared->r4 * shared->r4;
-    if (!is_away(r5 + r6, 16.0 * r10)) {
+    if (!is_away(r5 + r6, 10000.0 * r10)) {
         return;
     }
     const Roots roots0 = square_roots(shared->r1 * shared->r1 - r5 - r6, sqrt(fmax(r10, 0.0)));

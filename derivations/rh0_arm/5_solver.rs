@@ -416,7 +416,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r5 = p.pz * p.pz;
     let r6 = shared.r0 * shared.r0;
     let r10 = p.magnitude * p.magnitude + shared.r4 * shared.r4;
-    if !is_away(r5 + r6, 16.0 * r10) {
+    if !is_away(r5 + r6, 10000.0 * r10) {
         return;
     }
     let roots0 = square_roots(shared.r1 * shared.r1 - r5 - r6, f64::max(r10, 0.0).sqrt());
@@ -480,7 +480,7 @@ struct Shared3 {
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    if !is_away(shared.r4 * shared.r4, 47.110400000000006) {
+    if !is_away(shared.r4 * shared.r4, 29444.000000000004) {
         return;
     }
     let r13 = shared.r4 * shared.r5;

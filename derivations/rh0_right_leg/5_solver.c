@@ -1403,7 +1403,7 @@ typedef struct {
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14;
-    if (!is_away(r15 + r16, 3200.0)) {
+    if (!is_away(r15 + r16, 2000000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r15 - r16, known->f2 * (14.142135623730951 * known->f1));
@@ -1480,7 +1480,7 @@ typedef struct {
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r26 = shared->r11 * shared->r11 + shared->r13 * shared->r13;
-    if (!is_away(r26, 31.36)) {
+    if (!is_away(r26, 19600.0)) {
         return;
     }
     const double f2 = 1.0, r30 = shared->r11 * shared->r18 - (0.0 - shared->r13 * shared->r17);
@@ -1598,7 +1598,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 {
     const double r13 = shared->r4 * shared->r4, r14 = shared->r8 * shared->r8;
     const double r18 = shared->r11 * shared->r11 + shared->r12 * shared->r12;
-    if (!is_away(r13 + r14, 16.0 * r18)) {
+    if (!is_away(r13 + r14, 10000.0 * r18)) {
         return;
     }
     const double f1 = 1.0;

@@ -485,7 +485,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r13 = shared.r4 * shared.r4;
     let r14 = shared.r8 * shared.r8;
     let r18 = shared.r11 * shared.r11 + shared.r12 * shared.r12;
-    if !is_away(r13 + r14, 16.0 * r18) {
+    if !is_away(r13 + r14, 10000.0 * r18) {
         return;
     }
     let f1 = 1.0;
@@ -591,7 +591,7 @@ struct Shared3 {
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r26 = shared.r11 * shared.r11 + shared.r13 * shared.r13;
-    if !is_away(r26, 31.36) {
+    if !is_away(r26, 19600.0) {
         return;
     }
     let f2 = 1.0;
@@ -653,7 +653,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13;
     let r16 = shared.r14 * shared.r14;
-    if !is_away(r15 + r16, 3200.0) {
+    if !is_away(r15 + r16, 2000000.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, known.f2 * (14.142135623730951 * known.f1));

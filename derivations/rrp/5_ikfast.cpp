@@ -1151,7 +1151,7 @@ typedef struct {
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r7 = shared->r2 * shared->r2 + 0.0025000000000000005;
-    if (!is_away(r7, 32.0)) {
+    if (!is_away(r7, 20000.0)) {
         return;
     }
     const double r10 = 0.05 * shared->r5 - shared->r2 * shared->r3;
@@ -1229,7 +1229,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->py * p->py, r1 = p->px * p->px, r3 = p->magnitude * p->magnitude, r4 = r3 + r3;
-    if (!is_away(r0 + r1, 16.0 * r4)) {
+    if (!is_away(r0 + r1, 10000.0 * r4)) {
         return;
     }
     const Roots roots0 = square_roots(0.010000000000000002 - r0 - r1, sqrt(fmax(r4, 0.0)));

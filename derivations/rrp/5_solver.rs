@@ -371,7 +371,7 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r1 = p.px * p.px;
     let r3 = p.magnitude * p.magnitude;
     let r4 = r3 + r3;
-    if !is_away(r0 + r1, 16.0 * r4) {
+    if !is_away(r0 + r1, 10000.0 * r4) {
         return;
     }
     let roots0 = square_roots(0.010000000000000002 - r0 - r1, f64::max(r4, 0.0).sqrt());
@@ -436,7 +436,7 @@ struct Shared3 {
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r7 = shared.r2 * shared.r2 + 0.0025000000000000005;
-    if !is_away(r7, 32.0) {
+    if !is_away(r7, 20000.0) {
         return;
     }
     let r10 = 0.05 * shared.r5 - shared.r2 * shared.r3;

@@ -1203,7 +1203,7 @@ typedef struct {
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r8 = shared->r0 * shared->r0 + shared->r2 * shared->r2;
-    if (!is_away(r8, 38.69)) {
+    if (!is_away(r8, 24181.25)) {
         return;
     }
     const double r11 = p->py * shared->r2 - p->px * shared->r0;

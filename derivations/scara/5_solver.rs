@@ -522,7 +522,7 @@ struct Shared3 {
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r8 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
-    if !is_away(r8, 38.69) {
+    if !is_away(r8, 24181.25) {
         return;
     }
     let r11 = p.py * shared.r2 - p.px * shared.r0;

@@ -2196,7 +2196,7 @@ typedef struct {
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r211 = shared->r199 * shared->r199, r212 = shared->r210 * shared->r210;
-    if (!is_away(r211 + r212, 711231.7843257814)) {
+    if (!is_away(r211 + r212, 444519865.2036134)) {
         return;
     }
     const double r218 = known->f2 * (known->f1 * (210.83639752272694 * known->f3));
@@ -2327,7 +2327,7 @@ typedef struct {
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r57 = shared->r19 * shared->r19 + shared->r23 * shared->r23;
-    if (!is_away(r57, 4959.93558445298)) {
+    if (!is_away(r57, 3099959.7402831125)) {
         return;
     }
     const double f2 = 1.0, r60 = shared->r23 * shared->r32 + shared->r19 * shared->r48;
@@ -2419,7 +2419,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 {
     const double r110 = shared->r38 * shared->r38 + shared->r53 * shared->r53;
     const double r113 = shared->r104 * shared->r104 + shared->r105 * shared->r105;
-    if (!is_away(r110, 16.0 * r113)) {
+    if (!is_away(r110, 10000.0 * r113)) {
         return;
     }
     const double f1 = 1.0, r118 = shared->r38 * shared->r90 - (0.0 - shared->r53 * shared->r65);

@@ -824,7 +824,7 @@ struct Shared2 {
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r110 = shared.r38 * shared.r38 + shared.r53 * shared.r53;
     let r113 = shared.r104 * shared.r104 + shared.r105 * shared.r105;
-    if !is_away(r110, 16.0 * r113) {
+    if !is_away(r110, 10000.0 * r113) {
         return;
     }
     let f1 = 1.0;
@@ -903,7 +903,7 @@ struct Shared3 {
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r57 = shared.r19 * shared.r19 + shared.r23 * shared.r23;
-    if !is_away(r57, 4959.93558445298) {
+    if !is_away(r57, 3099959.7402831125) {
         return;
     }
     let f2 = 1.0;
@@ -1032,7 +1032,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r211 = shared.r199 * shared.r199;
     let r212 = shared.r210 * shared.r210;
-    if !is_away(r211 + r212, 711231.7843257814) {
+    if !is_away(r211 + r212, 444519865.2036134) {
         return;
     }
     let r218 = known.f2 * (known.f1 * (210.83639752272694 * known.f3));

@@ -1339,7 +1339,7 @@ typedef struct {
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8;
-    if (!is_away(r9 + r10, 976.0)) {
+    if (!is_away(r9 + r10, 610000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r9 - r10, known->f2 * (7.810249675906654 * known->f1));
@@ -1442,7 +1442,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 {
     const double r16 = shared->r6 * shared->r6, r17 = shared->r9 * shared->r9;
     const double r21 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
-    if (!is_away(r16 + r17, 16.0 * r21)) {
+    if (!is_away(r16 + r17, 10000.0 * r21)) {
         return;
     }
     const double f2 = 1.0;
@@ -1522,7 +1522,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
     const double r10 = r9 + r9;
-    if (!is_away(r6 + r7, 16.0 * r10)) {
+    if (!is_away(r6 + r7, 10000.0 * r10)) {
         return;
     }
     const double f1 = 1.0;

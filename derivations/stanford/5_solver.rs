@@ -482,7 +482,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r7 = shared.r3 * shared.r3;
     let r9 = shared.r5 * shared.r5;
     let r10 = r9 + r9;
-    if !is_away(r6 + r7, 16.0 * r10) {
+    if !is_away(r6 + r7, 10000.0 * r10) {
         return;
     }
     let f1 = 1.0;
@@ -550,7 +550,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r16 = shared.r6 * shared.r6;
     let r17 = shared.r9 * shared.r9;
     let r21 = shared.r14 * shared.r14 + shared.r15 * shared.r15;
-    if !is_away(r16 + r17, 16.0 * r21) {
+    if !is_away(r16 + r17, 10000.0 * r21) {
         return;
     }
     let f2 = 1.0;
@@ -637,7 +637,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r9 = shared.r7 * shared.r7;
     let r10 = shared.r8 * shared.r8;
-    if !is_away(r9 + r10, 976.0) {
+    if !is_away(r9 + r10, 610000.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r9 - r10, known.f2 * (7.810249675906654 * known.f1));

@@ -1363,7 +1363,7 @@ typedef struct {
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5;
-    if (!is_away(r6 + r7, 128.0)) {
+    if (!is_away(r6 + r7, 80000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903 * known->f5);
@@ -1432,7 +1432,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double r33 = shared->r13 * shared->r13 + shared->r20 * shared->r20;
     const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
-    if (!is_away(r33, 16.0 * r36)) {
+    if (!is_away(r33, 10000.0 * r36)) {
         return;
     }
     const double r40 = 0.0175 * shared->r20 - shared->r13 * shared->r25;
@@ -1484,7 +1484,7 @@ typedef struct {
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r15 = shared->r3 * shared->r3, r16 = shared->r5 * shared->r5;
-    if (!is_away(r15 + r16, 48.210559999999994)) {
+    if (!is_away(r15 + r16, 30131.599999999995)) {
         return;
     }
     const double f5 = 1.0;

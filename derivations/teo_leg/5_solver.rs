@@ -517,7 +517,7 @@ struct Shared2 {
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r15 = shared.r3 * shared.r3;
     let r16 = shared.r5 * shared.r5;
-    if !is_away(r15 + r16, 48.210559999999994) {
+    if !is_away(r15 + r16, 30131.599999999995) {
         return;
     }
     let f5 = 1.0;
@@ -588,7 +588,7 @@ struct Shared3 {
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r33 = shared.r13 * shared.r13 + shared.r20 * shared.r20;
     let r36 = shared.r29 * shared.r29 + shared.r30 * shared.r30;
-    if !is_away(r33, 16.0 * r36) {
+    if !is_away(r33, 10000.0 * r36) {
         return;
     }
     let r40 = 0.0175 * shared.r20 - shared.r13 * shared.r25;
@@ -623,7 +623,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r6 = shared.r4 * shared.r4;
     let r7 = shared.r5 * shared.r5;
-    if !is_away(r6 + r7, 128.0) {
+    if !is_away(r6 + r7, 80000.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903 * known.f5);

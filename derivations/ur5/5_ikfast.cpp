@@ -1330,7 +1330,7 @@ typedef struct {
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r39 = shared->r20 * shared->r20 + shared->r22 * shared->r22;
-    if (!is_away(r39, 95.40092293792)) {
+    if (!is_away(r39, 59625.5768362)) {
         return;
     }
     const double r42 = shared->r20 * shared->r30 - shared->r22 * shared->r29;
@@ -1480,7 +1480,7 @@ typedef struct {
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5;
-    if (!is_away(r6 + r7, 128.0)) {
+    if (!is_away(r6 + r7, 80000.0)) {
         return;
     }
     const double f6 = 1.0;
@@ -1551,7 +1551,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
     const double r10 = r9 + r9;
-    if (!is_away(r6 + r7, 16.0 * r10)) {
+    if (!is_away(r6 + r7, 10000.0 * r10)) {
         return;
     }
     const Roots roots0 = square_roots(0.0119137225 - r6 - r7, sqrt(fmax(r10, 0.0)));

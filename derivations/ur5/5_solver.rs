@@ -482,7 +482,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r7 = shared.r3 * shared.r3;
     let r9 = shared.r5 * shared.r5;
     let r10 = r9 + r9;
-    if !is_away(r6 + r7, 16.0 * r10) {
+    if !is_away(r6 + r7, 10000.0 * r10) {
         return;
     }
     let roots0 = square_roots(0.0119137225 - r6 - r7, f64::max(r10, 0.0).sqrt());
@@ -520,7 +520,7 @@ struct Shared2 {
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r6 = shared.r4 * shared.r4;
     let r7 = shared.r5 * shared.r5;
-    if !is_away(r6 + r7, 128.0) {
+    if !is_away(r6 + r7, 80000.0) {
         return;
     }
     let f6 = 1.0;
@@ -661,7 +661,7 @@ struct Shared5 {
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r39 = shared.r20 * shared.r20 + shared.r22 * shared.r22;
-    if !is_away(r39, 95.40092293792) {
+    if !is_away(r39, 59625.5768362) {
         return;
     }
     let r42 = shared.r20 * shared.r30 - shared.r22 * shared.r29;

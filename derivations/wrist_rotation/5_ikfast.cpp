@@ -1234,7 +1234,7 @@ static void again_2(const Parameters *p, const Known *known, Answers *answers)
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->r21_ * p->r21_, r1 = p->r11_ * p->r11_;
-    if (!is_away(r0 + r1, 32.0)) {
+    if (!is_away(r0 + r1, 20000.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);
