@@ -13,7 +13,7 @@ use groebot::derive::{Ends, InputFile, Proved};
 use groebot::kinematics::Chain;
 use groebot::solver::Solution;
 use groebot::witness::chain::{ByScrews, Check, Solver};
-use groebot::witness::{Kind, Options, Report};
+use groebot::witness::{Options, Report};
 use groebot::{Result, Watch};
 
 use super::read;
@@ -78,8 +78,7 @@ fn every_chain_passes_some_of_its_checks() {
             report.summary(),
             told(&report, 6)
         );
-        // At 10^-9 from singular what is lost is told, here and in the derivation's README.
-        if report.failures().any(|row| row.kind != Kind::Near(9)) {
+        if report.failures().count() > 0 {
             failed.push(name);
         }
     }
@@ -189,6 +188,24 @@ fn a_family_next_to_a_folded_knee_is_found() {
         assert!(families(&found) >= families(&expected).min(4), "{q:?}: {found:?}\n{expected:?}");
         assert!(found.iter().all(|answer| answer.free == [0]), "{q:?}: {found:?}");
     }
+}
+
+/// The arm stretched and the wrist parallel to it: families that go round 0.046 and 0.006 rad of the last joint's circle, which were told
+/// by several isolated answers, none of them the joint values that made the target.
+#[test]
+fn a_family_on_a_small_part_of_the_circle_is_found() {
+    let (chain, derived) = named("ur5");
+    for q in [
+        [1.7831333503075366, 1.7935589547926682, 0.0, -1.596449081918493, PI, 2.6668881695581392],
+        [1.9718164955569466, 2.150909511394738, 0.0, -1.574327778109324, PI, -2.0946209055636196],
+    ] {
+        let found = derived.program.solve(&derived.reached(&q).unwrap()).unwrap();
+        assert!(found.iter().any(|answer| answer.free == [5]), "{q:?}: {found:?}");
+        let beside = |a: &Solution| a.free.is_empty() && (a.q[4].abs() - PI).abs() < 1e-6;
+        assert!(!found.iter().any(beside), "{q:?}: {found:?}");
+    }
+    let report = check(&chain, &derived, &Options { targets: 700, oracle: 0, exact: 0, seed: 9 }).unwrap();
+    assert_eq!(report.failures().count(), 0, "{}", told(&report, 6));
 }
 
 /// Where the last axis is parallel to those of the arm, the wrist turns along a part of the circle only, as far as the elbow reaches: from
