@@ -5,7 +5,8 @@ use serde::Serialize;
 use super::printer::number;
 use crate::solver::{
     ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, LEVER, MERGE, NARROWS, NEAR,
-    OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REST, RETURNS, ROUNDING, SERIES, SINGULAR, STAGES, STIFF, TINY,
+    OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES, SINGULAR, STAGES,
+    STIFF, TINY,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -44,6 +45,7 @@ pub(super) struct Tolerances {
     aside: String,
     narrows: usize,
     singular: String,
+    regular: String,
     doublings: usize,
     apart: String,
     arrived: String,
@@ -79,6 +81,7 @@ impl Tolerances {
             aside: number(ASIDE),
             narrows: NARROWS,
             singular: number(SINGULAR),
+            regular: number(REGULAR),
             doublings: DOUBLINGS,
             apart: number(APART),
             arrived: number(ARRIVED),
@@ -108,6 +111,7 @@ impl Tolerances {
             adrift: number(1e-3),
             // Shorter ways are lost in rounding.
             narrows: 1,
+            regular: number(1e-2),
             consistent: number(1e-4),
             negligible: number(1e-30),
             tangent: number(1e-4),

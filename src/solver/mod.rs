@@ -69,8 +69,10 @@ pub const POLISHED: f64 = 1e-15;
 pub const ADRIFT: f64 = 1e-7;
 /// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a family.
 pub const ASIDE: f64 = 0.1;
-/// A row of a triangle whose pivot is this share of the largest or less is but rounding.
+/// A pivot of a Jacobian's triangle that is this share of the largest or less is but rounding.
 pub const SINGULAR: f64 = 1e-13;
+/// Where each pivot is more than this share of the largest, an answer is no member of a family.
+pub const REGULAR: f64 = 1e-6;
 /// How many ways aside are tried, each an eighth of the one before.
 pub const NARROWS: usize = 3;
 /// In how many stages, each twice as far as the one before.

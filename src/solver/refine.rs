@@ -4,8 +4,7 @@ use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Checks, JointValue, Program};
 use super::{
-    ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, SINGULAR,
-    STIFF,
+    ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, STIFF,
 };
 
 /// Joint values; places behind the program's joints are zero.
@@ -266,16 +265,16 @@ fn newton_step(program: &Program, damping: f64, held: &[bool; MAX_JOINTS], frame
     substituted(&triangle(program, damping, held, frame))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-/// Where the least singular value is more than rounding, no row is.
-pub(super) fn is_singular(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double. No pivot is less than the least singular value.
+pub(super) fn regularity(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> f64 {
     measure(program, q, frame);
     let columns = triangle(program, 0.0, &NONE_FREE, frame);
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for (row, column) in columns.iter().enumerate().take(program.joints.len()) {
         (least, most) = (least.min(column[row].abs()), most.max(column[row].abs()));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.
