@@ -154,11 +154,16 @@ impl Language for C99 {
         lines
     }
 
-    fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String> {
-        let mut lines = vec![format!("for (size_t i{depth} = 0; i{depth} < roots{depth}.count; i{depth}++) {{")];
+    fn open_loop(&self, depth: usize, name: Option<&str>, first: bool) -> Vec<String> {
+        let most = if first { format!(" && i{depth} < 1") } else { String::new() };
+        let mut lines = vec![format!("for (size_t i{depth} = 0; i{depth} < roots{depth}.count{most}; i{depth}++) {{")];
         let value = format!("roots{depth}.values[i{depth}]");
         lines.extend(name.map(|name| format!("{INDENT}{}", self.declare(name, &value))));
         lines
+    }
+
+    fn only_if(&self, condition: &str) -> String {
+        format!("if ({condition}) {{")
     }
 
     fn leave_unless(&self, condition: &str) -> Vec<String> {
@@ -230,6 +235,7 @@ impl Language for C99 {
             format!("next.last = {last};"),
             format!("next.close = {};", state.close),
         ];
+        lines.extend(state.pair.iter().map(|pair| format!("next.pair = {pair};")));
         let is_usual = |free: &str| free == "false" || free.starts_with("known->") && !free.contains(' ');
         let free = state.free.iter().enumerate().filter(|(_, free)| !is_usual(free));
         lines.extend(free.map(|(joint, free)| format!("next.free[{joint}] = {free};")));
