@@ -70,20 +70,37 @@ impl Samples {
     }
 }
 
-/// Measures all contenders over `inputs` inputs a pass, writes the results under `group`, and returns them as lines of text.
-///
-/// # Errors
-/// When a file cannot be written.
-pub fn measure(group: &str, inputs: usize, mut contenders: Vec<Contender<'_>>) -> Result<String> {
+/// The median time per input \[ns\] of each contender over `inputs` inputs a pass, in so many rounds.
+pub fn medians(inputs: usize, rounds: usize, contenders: &mut [Contender<'_>]) -> Vec<f64> {
     let passes: Vec<u32> = contenders.iter_mut().map(Contender::passes).collect();
-    let mut times = vec![Vec::with_capacity(ROUNDS); contenders.len()];
-    for round in 0..ROUNDS {
+    let times = times(inputs, rounds, &passes, contenders);
+    let median = |mut times: Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    times.into_iter().map(median).collect()
+}
+
+/// By contender, its times per input \[ns\] in all rounds; they take turns.
+fn times(inputs: usize, rounds: usize, passes: &[u32], contenders: &mut [Contender<'_>]) -> Vec<Vec<f64>> {
+    let mut times = vec![Vec::with_capacity(rounds); contenders.len()];
+    for round in 0..rounds {
         for turn in 0..contenders.len() {
             let i = (round + turn) % contenders.len();
             let time = contenders[i].time(passes[i]).as_secs_f64() * 1e9;
             times[i].push(time / f64::from(passes[i]) / inputs as f64);
         }
     }
+    times
+}
+
+/// Measures all contenders over `inputs` inputs a pass, writes the results under `group`, and returns them as lines of text.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn measure(group: &str, inputs: usize, mut contenders: Vec<Contender<'_>>) -> Result<String> {
+    let passes: Vec<u32> = contenders.iter_mut().map(Contender::passes).collect();
+    let times = times(inputs, ROUNDS, &passes, &mut contenders);
     let mut text = String::new();
     for (contender, mut sorted) in contenders.iter().zip(times) {
         sorted.sort_by(f64::total_cmp);
