@@ -2657,11 +2657,16 @@ fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
 const PI: f64 = core::f64::consts::PI;
 const TAU: f64 = core::f64::consts::TAU;
 
-/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
-/// interpolates at eleven Chebyshev points.
+/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad.
 #[inline(always)]
 fn angle(cosine: f64, sine: f64) -> f64 {
-    let (across, up) = (cosine.abs(), sine.abs());
+    unfold(acute(cosine.abs(), sine.abs()), cosine, sine)
+}
+
+/// The angle in [0, pi/2] of a cosine and a sine that are not negative. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
+/// interpolates at eleven Chebyshev points.
+#[inline(always)]
+fn acute(across: f64, up: f64) -> f64 {
     let steep = up > across;
     let (low, high) = if steep { (across, up) } else { (up, across) };
     let far = low > 0.41421356237309503 * high;
@@ -2674,10 +2679,14 @@ fn angle(cosine: f64, sine: f64) -> f64 {
     if steep {
         angle = 0.5 * PI - (angle - 2.0 * REST);
     }
-    if cosine < 0.0 {
-        angle = PI - (angle - 4.0 * REST);
-    }
-    half_open(angle.copysign(sine))
+    angle
+}
+
+/// The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative.
+#[inline(always)]
+fn unfold(acute: f64, cosine: f64, sine: f64) -> f64 {
+    let angle = if cosine < 0.0 { PI - (acute - 4.0 * REST) } else { acute };
+    half_open(angle.copysign(sine)) + 0.0
 }
 
 /// What the double nearest to pi/4 lacks.

@@ -399,7 +399,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -1182,6 +1182,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double d1;
     double d2;
@@ -1194,7 +1196,7 @@ typedef struct {
     double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1235,6 +1237,28 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
     };
     const double q[JOINTS] = {at[0], at[1], at[2], known->q3, known->q4, angle(at[7], at[8])};
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->d1,
+            known->d2,
+            known->d3,
+            -known->c4,
+            -known->s4,
+            known->c5,
+            -known->s5,
+            -c6,
+            -s6,
+        };
+        const double q[JOINTS] = {
+            at[0],
+            at[1],
+            at[2],
+            angle(at[3], at[4]),
+            angle(at[5], at[6]),
+            angle(at[7], at[8]),
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 6: WristRoll. */
@@ -1293,7 +1317,7 @@ static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
         return;
     }
     const Roots roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r5 = p->r23_ * w4, r6 = p->r13_ * w4;
         const double r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0)), c4 = 0.0 - r6 * r11, s4 = 0.0 - r5 * r11;
         const double q3 = angle(c4, s4);
@@ -1301,6 +1325,7 @@ static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c4 = c4;
         next.s4 = s4;
         next.q3 = q3;

@@ -489,7 +489,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -1280,6 +1280,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c3_;
     double s3_;
@@ -1303,7 +1305,7 @@ typedef struct {
     double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1355,6 +1357,34 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
         angle(at[12], at[13]),
     };
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c1,
+            known->s1,
+            known->c2,
+            known->s2,
+            known->c3_,
+            known->s3_,
+            known->c4,
+            known->s4,
+            -known->c5,
+            -known->s5,
+            known->c6,
+            -known->s6,
+            -c7,
+            -s7,
+        };
+        const double q[JOINTS] = {
+            known->q0,
+            known->q1,
+            known->q2,
+            known->q3,
+            angle(at[8], at[9]),
+            angle(at[10], at[11]),
+            angle(at[12], at[13]),
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 7: A7. */
@@ -1434,7 +1464,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const Roots roots0 = square_roots(0.0 - r21 - r22, known->f2 * (42.01190307520001 * known->f1));
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w5 = roots0.values[i0], r28 = w5 * shared->r19, r29 = w5 * shared->r20;
         const double r34 = 1.0 / sqrt(fmax(r29 * r29 + r28 * r28, 0.0)), c5 = 0.0 - r29 * r34, s5 = r28 * r34;
         const double q4 = angle(c5, s5);
@@ -1442,6 +1472,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c5 = c5;
         next.s5 = s5;
         next.q4 = q4;

@@ -61,10 +61,14 @@ static const int IRB4600_TOOL0_INPUTS = 12;
 static const int IRB4600_TOOL0_JOINTS = 6;
 /* The most solutions that a target can have. */
 static const int IRB4600_TOOL0_CAPACITY = 22;
-/* A number of the target is infinite or not a number, or the target misses a condition. */
-static const int IRB4600_TOOL0_BAD_TARGET = (-1);
+/* A number of the target is infinite or not a number. */
+static const int IRB4600_TOOL0_NOT_FINITE = (-1);
 /* The target lies on a stratum that could not be derived. */
 static const int IRB4600_TOOL0_OPEN_STRATUM = (-2);
+/* The rotation of the target is off by more than CONSISTENT. */
+static const int IRB4600_TOOL0_NOT_ROTATION = (-3);
+/* The direction of the target is not of length one within CONSISTENT. */
+static const int IRB4600_TOOL0_NOT_UNIT = (-4);
 
 /* One answer. */
 typedef struct {
@@ -82,7 +86,7 @@ typedef struct {
 
 
 /* Writes all solutions for the target (IRB4600_TOOL0_INPUTS numbers) to the front of out (IRB4600_TOOL0_CAPACITY places), by branch, and
- * returns their number, 0 when it is out of reach; or IRB4600_TOOL0_BAD_TARGET or IRB4600_TOOL0_OPEN_STRATUM. */
+ * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int irb4600_tool0_solve(const double *target, irb4600_tool0_solution *out);
 
 /* Writes the target (IRB4600_TOOL0_INPUTS numbers) that joint values q (IRB4600_TOOL0_JOINTS numbers) reach. */
@@ -102,8 +106,10 @@ static const double BLUR = 0.05;
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
 static const int POLISH_STEPS = 32;
-/* So many steps in a row that do not halve the miss are the last. */
+/* So many steps in a row that do not halve a miss by more than rounding are the last. */
 static const int PATIENCE = 3;
+/* A step that raises the miss by no more than this may have led beyond one of two roots next to each other. */
+static const double OVERSHOT = 100.0;
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 static const double APART = 0.7;
 static const double SPLIT = 0.001;
@@ -120,6 +126,8 @@ static const double ADRIFT = 1e-7;
 static const double ALONE = 1e-13;
 /* How far a free joint is moved to see whether an answer lies on a family. */
 static const double ASIDE = 0.1;
+/* In how many stages, each twice as far as the one before. */
+static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
 static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
@@ -574,7 +582,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -634,6 +642,7 @@ static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
     return true;
 }
 
+/* Whether no joint is free. */
 static bool is_isolated(const bool *free)
 {
     for (size_t i = 0; i < JOINTS; i++) {
@@ -741,6 +750,28 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
     return false;
 }
 
+/* Newton steps on from start until the equations are missed by less than they are at q, which is where it ends then: from between two roots
+ * next to each other the first step leads beyond one of them, and from there on each quarters the miss. */
+static bool returned(const Parameters *p, const double *start, double *q, Fit *fit, const bool *held)
+{
+    double at[JOINTS], step[JOINTS], next[JOINTS];
+    copy(start, at);
+    for (int i = 0; i < RETURNS; i++) {
+        if (!newton_step(p, at, 0.0, held, step)) {
+            return false;
+        }
+        stepped(at, step, next);
+        copy(next, at);
+        const Fit next_fit = measure(p, at);
+        if (next_fit.relative < fit->relative) {
+            copy(at, q);
+            *fit = next_fit;
+            return true;
+        }
+    }
+    return false;
+}
+
 /* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
@@ -759,6 +790,10 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (next_fit.relative < enough) {
             copy(next, q);
             *fit = next_fit;
+            return true;
+        }
+        if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
+            && returned(p, next, q, fit, held)) {
             return true;
         }
         if (next_fit.relative < fit->relative && !has_fallen) {
@@ -787,7 +822,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
+        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
     }
 }
 
@@ -901,22 +936,24 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether two answers near one another, with their relative residuals, are one at a singular configuration: half-way between them, on a
- * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
-static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+static bool are_joined(const Parameters *p, const double *a, const double *b, double bound, const bool *held)
 {
-    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
-    differences(a->q, b->q, way);
-    for (size_t i = 0; i < JOINTS; i++) {
-        middle[i] = b->q[i] + 0.5 * way[i];
+    if (farthest_of(a, b) > BLUR) {
+        return false;
     }
-    const double bound = fmax(fmax(RESOLUTION, a_relative), b_relative);
+    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
+    differences(a, b, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        middle[i] = b[i] + 0.5 * way[i];
+    }
+    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
             return true;
         }
-        if (!newton_step(p, middle, STIFF, NONE_FREE, back)) {
+        if (!newton_step(p, middle, STIFF, held, back)) {
             return false;
         }
         stepped(middle, back, next);
@@ -924,6 +961,13 @@ static bool blurred(const Parameters *p, const Solution *a, double a_relative, c
         fit = measure(p, middle);
     }
     return fit.relative <= bound;
+}
+
+/* Whether two answers next to each other, with their relative residuals, are one at a singular configuration, where the equations leave
+ * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
+static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+{
+    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative), NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -934,52 +978,79 @@ static Fit follow(const Parameters *p, double *q, const bool *free)
     return fit;
 }
 
-/* Whether the equations hold too, within a bound or rounding, where the free joints are a little elsewhere and the others follow, and
- * back again: an isolated answer may be led to a family next to it, but not back. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+/* The joints beyond b on the line from a, by ahead times their distance. */
+static void beyond(const double *a, const double *b, double ahead, double *end)
 {
-    double at[JOINTS], next[JOINTS], difference[JOINTS], limit[JOINTS];
+    double way[JOINTS];
+    differences(b, a, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        end[i] = b[i] + ahead * way[i];
+    }
+}
+
+/* Whether the joints come back to q on along the line from far through close_by. */
+static bool leads_back(const Parameters *p, const double *q, const bool *free, const double *close_by, const double *far, double bound)
+{
+    double back[JOINTS];
+    beyond(far, close_by, 1.0, back);
+    for (size_t i = 0; i < JOINTS; i++) {
+        back[i] = free[i] ? q[i] : back[i];
+    }
+    const Fit fit = follow(p, back, free);
+    return fit.accepted && are_joined(p, back, q, bound, free);
+}
+
+/* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
+{
+    double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
+    double share = 1.0;
+    copy(q, before);
     copy(q, at);
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (free[i]) {
-            move(at, i, ASIDE, next);
-            at[i] = next[i];
+    for (int stage = 1; stage < DOUBLINGS; stage++) {
+        share *= 0.5;
+    }
+    for (int stage = 0; stage < DOUBLINGS; stage++) {
+        beyond(before, at, stage == 1 ? 1.0 : 2.0, next);
+        for (size_t i = 0; i < JOINTS; i++) {
+            if (free[i]) {
+                move(q, i, share * way, displaced);
+                next[i] = displaced[i];
+            }
         }
-    }
-    if (follow(p, at, free).relative > fmax(bound, RESOLUTION)) {
-        return false;
-    }
-    for (size_t i = 0; i < JOINTS; i++) {
-        at[i] = free[i] ? q[i] : at[i];
-    }
-    const Fit fit = follow(p, at, free);
-    differences(at, q, difference);
-    spans(at, BLUR, limit);
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (!(fabs(difference[i]) <= limit[i])) {
+        if (follow(p, next, free).relative > bound || (stage == 1 && !leads_back(p, q, free, at, next, bound))) {
             return false;
         }
+        copy(at, before);
+        copy(next, at);
+        share *= 2.0;
     }
-    return fit.accepted;
+    return true;
+}
+
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. */
+static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+{
+    bound = fmax(bound, RESOLUTION);
+    return leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound);
 }
 
 /* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
-    Solution end = *a, member = *b;
+    double q[JOINTS];
     bool accepted = false;
+    copy(a->q, q);
     for (int stages = STAGES; stages > 0; stages--) {
         double way[JOINTS];
-        differences(b->q, end.q, way);
+        differences(b->q, q, way);
         for (size_t i = 0; i < JOINTS; i++) {
-            end.q[i] += b->free[i] ? way[i] / (double)stages : 0.0;
+            q[i] += b->free[i] ? way[i] / (double)stages : 0.0;
         }
-        accepted = follow(p, end.q, b->free).accepted;
+        accepted = follow(p, q, b->free).accepted;
     }
-    for (size_t i = 0; i < JOINTS; i++) {
-        end.free[i] = member.free[i] = false;
-    }
-    return accepted && is_close(&end, &member, ARRIVED);
+    return accepted && is_within(q, b->q, ARRIVED);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -1007,13 +1078,10 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
-    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
-        return false;
-    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1205,8 +1273,12 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
 {
+    if (!is_isolated(free) || close) {
+        refine(p, branch, last, q, free, answers);
+        return;
+    }
     const Fit fit = measure_at(p, at, q);
-    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1256,6 +1328,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1276,7 +1350,7 @@ typedef struct {
     double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[32][2] = {
@@ -1349,6 +1423,31 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
         angle(at[10], at[11]),
     };
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c1,
+            known->s1,
+            known->c2,
+            known->s2,
+            known->c3,
+            known->s3,
+            -known->c4,
+            -known->s4,
+            known->c5,
+            -known->s5,
+            -c6,
+            -s6,
+        };
+        const double q[JOINTS] = {
+            known->q0,
+            known->q1,
+            known->q2,
+            angle(at[6], at[7]),
+            angle(at[8], at[9]),
+            angle(at[10], at[11]),
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 6: joint_6. */
@@ -1426,7 +1525,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     }
     const double r22 = 3162.2776601683795 * (known->f2 * (20.591260281974 * known->f1));
     const Roots roots0 = square_roots(0.0 - r15 - r16, r22);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r23 = w4 * shared->r13, r24 = w4 * shared->r14;
         const double r29 = 1.0 / sqrt(fmax(r24 * r24 + r23 * r23, 0.0)), c4 = r24 * r29, s4 = r23 * r29;
         const double q3 = angle(c4, s4);
@@ -1434,6 +1533,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c4 = c4;
         next.s4 = s4;
         next.q3 = q3;
@@ -1722,20 +1822,28 @@ static bool all_finite(const double *target)
     return true;
 }
 
-/* The target moved onto its conditions, which it may miss by a little; false when a number is not finite or it misses them by more. */
-static bool conform(const double *given, double *target)
+/* Moves the target onto its conditions, which it may miss by a little; 0, or what is wrong when a number is not finite or it misses them by
+ * more. */
+static int conform(const double *given, double *target)
 {
+    if (!all_finite(given)) {
+        return IRB4600_TOOL0_NOT_FINITE;
+    }
     for (size_t i = 0; i < INPUTS; i++) {
         target[i] = given[i];
     }
-    return all_finite(target) && make_rotation(target + 3);
+    if (!make_rotation(target + 3)) {
+        return IRB4600_TOOL0_NOT_ROTATION;
+    }
+    return 0;
 }
 
 int irb4600_tool0_solve(const double *given, irb4600_tool0_solution *out)
 {
     double target[INPUTS];
-    if (!conform(given, target)) {
-        return IRB4600_TOOL0_BAD_TARGET;
+    const int fault = conform(given, target);
+    if (fault != 0) {
+        return fault;
     }
     const Parameters p = parameters(target);
     Answers answers;

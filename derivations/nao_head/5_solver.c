@@ -372,7 +372,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -1128,13 +1128,15 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c1;
     double s1;
     double q0;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1162,6 +1164,11 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double at[PLACES] = {known->c1, known->s1, c2, s2};
     const double q[JOINTS] = {known->q0, angle(at[2], at[3])};
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {-known->c1, -known->s1, -c2, s2};
+        const double q[JOINTS] = {angle(at[0], at[1]), angle(at[2], at[3])};
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 2: HeadPitch. */
@@ -1189,7 +1196,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
         return;
     }
     const Roots roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w1 = roots0.values[i0], r5 = p->dy * w1, r6 = p->dx * w1;
         const double r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0)), c1 = 0.0 - r6 * r11, s1 = 0.0 - r5 * r11;
         const double q0 = angle(c1, s1);
@@ -1197,6 +1204,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
+        next.pair = roots0.count == 2;
         next.c1 = c1;
         next.s1 = s1;
         next.q0 = q0;

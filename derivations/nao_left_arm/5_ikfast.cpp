@@ -396,7 +396,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -1187,6 +1187,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double ux;
     double uy;
@@ -1212,7 +1214,7 @@ typedef struct {
     double q3;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1252,6 +1254,28 @@ static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *sh
     };
     const double q[JOINTS] = {known->q0, known->q1, known->q2, known->q3, angle(at[8], at[9])};
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c1,
+            known->s1,
+            known->c2,
+            known->s2,
+            -known->c3,
+            -known->s3,
+            known->c4,
+            -known->s4,
+            -c5,
+            -s5,
+        };
+        const double q[JOINTS] = {
+            known->q0,
+            known->q1,
+            angle(at[4], at[5]),
+            angle(at[6], at[7]),
+            angle(at[8], at[9]),
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 7: WristYaw. */
@@ -1327,7 +1351,7 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
         return;
     }
     const Roots roots0 = square_roots(0.0 - r9 - r10, known->f1 * (7.810249675906654 * known->fr));
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w3 = roots0.values[i0], r16 = w3 * shared->r7, r17 = w3 * shared->r8;
         const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c3 = 0.0 - r17 * r22;
         const double s3 = 0.0 - r16 * r22, q2 = angle(c3, s3);
@@ -1335,6 +1359,7 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c3 = c3;
         next.s3 = s3;
         next.q2 = q2;

@@ -656,7 +656,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -1489,6 +1489,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double left_c4;
     double left_s4;
@@ -1529,7 +1531,7 @@ typedef struct {
     double q10;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1585,6 +1587,46 @@ INLINE static void chart_13_1(const Parameters *p, const Known *known, Answers *
         known->q10,
     };
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->left_c1,
+            known->left_s1,
+            known->left_c2,
+            known->left_s2,
+            known->left_c3,
+            known->left_s3,
+            known->left_c4,
+            known->left_s4,
+            known->left_c5,
+            known->left_s5,
+            known->left_c6,
+            known->left_s6,
+            known->right_c2,
+            known->right_s2,
+            known->right_c3,
+            known->right_s3,
+            known->right_c4,
+            known->right_s4,
+            -known->right_c5,
+            -known->right_s5,
+            -known->right_c6,
+            known->right_s6,
+        };
+        const double q[JOINTS] = {
+            known->q0,
+            known->q1,
+            known->q2,
+            known->q3,
+            known->q4,
+            known->q5,
+            known->q6,
+            known->q7,
+            known->q8,
+            angle(at[18], at[19]),
+            angle(at[20], at[21]),
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 13: turn about the ray. */
@@ -1659,7 +1701,7 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
     }
     const double r40 = known->right_f3 * (48.08326112068523 * known->right_f2);
     const Roots roots0 = square_roots(0.0 - r34 - r35, r40);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double right_w5 = roots0.values[i0], r41 = right_w5 * shared->r32, r42 = right_w5 * shared->r33;
         const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r41 * r41, 0.0)), right_c5 = 0.0 - r42 * r47;
         const double right_s5 = r41 * r47, q9 = angle(right_c5, right_s5);
@@ -1667,6 +1709,7 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.right_c5 = right_c5;
         next.right_s5 = right_s5;
         next.q9 = q9;

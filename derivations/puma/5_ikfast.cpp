@@ -433,7 +433,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -1217,6 +1217,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1237,7 +1239,7 @@ typedef struct {
     double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1287,6 +1289,31 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
         angle(at[10], at[11]),
     };
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c1,
+            known->s1,
+            known->c2,
+            known->s2,
+            known->c3,
+            known->s3,
+            -known->c4,
+            -known->s4,
+            -known->c5,
+            known->s5,
+            -c6,
+            -s6,
+        };
+        const double q[JOINTS] = {
+            known->q0,
+            known->q1,
+            known->q2,
+            angle(at[6], at[7]),
+            angle(at[8], at[9]),
+            angle(at[10], at[11]),
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 6: WristRoll. */
@@ -1363,7 +1390,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     const Roots roots0 = square_roots(0.0 - r15 - r16, known->f2 * (20.591260281974 * known->f1));
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r22 = w4 * shared->r13, r23 = w4 * shared->r14;
         const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r22 * r22, 0.0)), c4 = 0.0 - r23 * r28, s4 = r22 * r28;
         const double q3 = angle(c4, s4);
@@ -1371,6 +1398,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c4 = c4;
         next.s4 = s4;
         next.q3 = q3;

@@ -480,7 +480,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -1264,6 +1264,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c12;
     double s12;
@@ -1284,7 +1286,7 @@ typedef struct {
     double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1334,6 +1336,31 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
         angle(at[10], at[11]),
     };
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c12,
+            known->s12,
+            known->c11,
+            known->s11,
+            known->c10,
+            known->s10,
+            -known->c9,
+            -known->s9,
+            -known->c8,
+            known->s8,
+            -c7,
+            -s7,
+        };
+        const double q[JOINTS] = {
+            known->q0,
+            known->q1,
+            known->q2,
+            angle(at[6], at[7]),
+            angle(at[8], at[9]),
+            angle(at[10], at[11]),
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 6: HipYaw. */
@@ -1410,7 +1437,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     }
     const double r21 = known->f11 * (14.142135623730951 * known->f12);
     const Roots roots0 = square_roots(0.0 - r15 - r16, r21);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w9 = roots0.values[i0], r22 = w9 * shared->r13, r23 = w9 * shared->r14;
         const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r22 * r22, 0.0)), c9 = 0.0 - r23 * r28, s9 = r22 * r28;
         const double q3 = angle(c9, s9);
@@ -1418,6 +1445,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c9 = c9;
         next.s9 = s9;
         next.q3 = q3;

@@ -421,7 +421,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -1204,6 +1204,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1222,7 +1224,7 @@ typedef struct {
     double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1271,6 +1273,30 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
         angle(at[9], at[10]),
     };
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c1,
+            known->s1,
+            known->c2,
+            known->s2,
+            known->d3,
+            -known->c4,
+            -known->s4,
+            -known->c5,
+            known->s5,
+            -c6,
+            -s6,
+        };
+        const double q[JOINTS] = {
+            known->q0,
+            known->q1,
+            at[4],
+            angle(at[5], at[6]),
+            angle(at[7], at[8]),
+            angle(at[9], at[10]),
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 6: WristRoll. */
@@ -1343,7 +1369,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     const Roots roots0 = square_roots(0.0 - r9 - r10, known->f2 * (7.810249675906654 * known->f1));
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r16 = w4 * shared->r7, r17 = w4 * shared->r8;
         const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c4 = 0.0 - r17 * r22, s4 = r16 * r22;
         const double q3 = angle(c4, s4);
@@ -1351,6 +1377,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c4 = c4;
         next.s4 = s4;
         next.q3 = q3;

@@ -440,7 +440,7 @@ static double angle(double cosine, double sine)
     if (cosine < 0.0) {
         value = PI - (value - 4.0 * REST);
     }
-    return half_open(copysign(value, sine));
+    return half_open(copysign(value, sine)) + 0.0;
 }
 
 /* The angle moved by whole turns into (-pi, pi]. */
@@ -1224,6 +1224,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c4;
     double s4;
@@ -1243,7 +1245,7 @@ typedef struct {
     double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1292,6 +1294,31 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
         known->q5,
     };
     finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            -known->c1,
+            -known->s1,
+            -known->c2,
+            known->s2,
+            -c3,
+            -s3,
+            known->c4,
+            known->s4,
+            known->c5,
+            known->s5,
+            known->c6,
+            known->s6,
+        };
+        const double q[JOINTS] = {
+            angle(at[0], at[1]),
+            angle(at[2], at[3]),
+            angle(at[4], at[5]),
+            known->q3,
+            known->q4,
+            known->q5,
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, q, known->free, answers);
+    }
 }
 
 /* Block 6: HipPitch. */
@@ -1367,7 +1394,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     const Roots roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903 * known->f5);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w1 = roots0.values[i0], r12 = w1 * shared->r4, r13 = w1 * shared->r5;
         const double r18 = 1.0 / sqrt(fmax(r13 * r13 + r12 * r12, 0.0)), c1 = 0.0 - r13 * r18, s1 = r12 * r18;
         const double q0 = angle(c1, s1);
@@ -1375,6 +1402,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c1 = c1;
         next.s1 = s1;
         next.q0 = q0;
