@@ -209,7 +209,8 @@ impl Language for C99 {
 
     fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
         let mut lines = spread("const double at[PLACES] = {", answer.at, "};");
-        lines.extend(spread("const double q[JOINTS] = {", answer.q, "};"));
+        let q = if answer.q.is_empty() { "" } else { " q," };
+        lines.extend(spread("const double q[JOINTS] = {", answer.q, "};").into_iter().filter(|_| !q.is_empty()));
         if !answer.free.is_empty() {
             lines.extend(spread("const bool free_joints[JOINTS] = {", answer.free, "};"));
         }
@@ -219,7 +220,7 @@ impl Language for C99 {
         let free = if answer.free.is_empty() { &answer.usual } else { "free_joints" };
         let extra = if answer.extra.is_empty() { "" } else { ", extra" };
         lines.push(format!(
-            "finish(p, {}, {}, at, q, {free}{extra}, answers);",
+            "finish(p, {}, {}, at,{q} {free}{extra}, answers);",
             answer.branch.join(", "),
             answer.close
         ));

@@ -10,7 +10,7 @@ use crate::solver::{Forward, JointValue, Operand, Reached};
 /// The function of the tip, and how the target follows from it.
 #[derive(Serialize)]
 pub(super) struct ForwardText {
-    pub lines: Vec<String>,
+    lines: Vec<String>,
     /// What equations compare with the target's numbers, in their order.
     pub values: Vec<String>,
     /// By input: an expression of `reached`, which holds the values, and of `q`.

@@ -48,6 +48,8 @@ pub(super) struct Outline {
     passed: Vec<String>,
     /// The joints, those that are found last first.
     last_first: Vec<usize>,
+    /// Those of them that are angles.
+    last_angles: Vec<usize>,
     blocks: Vec<BlockText>,
     /// Values at which charts put free joints.
     samples: Vec<Table>,
@@ -69,6 +71,8 @@ pub(super) struct Outline {
     room: Option<usize>,
     /// By joint: its value at the candidate with index `k`, as an expression.
     values: Vec<String>,
+    /// What the equations compare with the target, as values of any kind of number.
+    generic: Vec<String>,
     /// Whether forward kinematics has an angle.
     aims: bool,
     /// Whether a block hands pairs of candidates on as one.
@@ -165,7 +169,7 @@ impl Outline {
         let (checks, sizes) = equations(&scene, forward.as_ref(), measured);
         let jacobian: Vec<&[Operand]> = program.checks.jacobian.iter().map(Vec::as_slice).collect();
         let forward = forward.map(|forward| ForwardText::new(&scene, &forward));
-        scene.lanes = needs.answers && lanes::are_wanted(&scene, forward.as_ref(), &checks);
+        scene.lanes = needs.answers && program.compares_tip();
         let (jacobian_lines, jacobian_rows) = scene.checks(&jacobian);
         let mut unique: Vec<String> = Vec::new();
         for size in &sizes {
@@ -177,6 +181,7 @@ impl Outline {
         let size_of = sizes.iter().map(place).collect();
         let sizes = Code::new(language, checks.lines.clone(), unique);
         let name = word(&program.name);
+        let generic = forward.as_ref().map_or_else(Vec::new, |forward| lanes::generic(&forward.values));
         let aims = forward.as_ref().is_some_and(ForwardText::aims);
         Outline {
             upper: name.to_ascii_uppercase(),
@@ -209,6 +214,11 @@ impl Outline {
                 .chain(scene.passed_angles())
                 .collect(),
             last_first: scene.last_first(),
+            last_angles: scene
+                .last_first()
+                .into_iter()
+                .filter(|&joint| is_angle(program.joints[joint].value))
+                .collect(),
             samples: scene.tables.clone(),
             six_axes: six_axes::text(program, language, false),
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
@@ -220,6 +230,7 @@ impl Outline {
             circles: scene.circles(),
             stands: scene.stands(),
             values: lanes::values(&scene),
+            generic,
             aims,
             room: scene.lanes.then(|| lanes::room(program)),
             pairs: scene.mirror.as_ref().is_some_and(|mirror| mirror.block + 1 < program.blocks.len()),

@@ -22,10 +22,6 @@ pub(super) const INDENT: &str = "    ";
 pub(super) trait Language {
     /// Whether the language or its library keeps this word for itself.
     fn is_reserved(&self, word: &str) -> bool;
-    /// Whether files measure candidates by several at once.
-    fn has_lanes(&self) -> bool {
-        false
-    }
     /// A field of the parameters `p`.
     fn field(&self, name: &str) -> String;
     /// A field of what earlier blocks found.

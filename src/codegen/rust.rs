@@ -25,10 +25,6 @@ impl Language for Rust {
         RESERVED.split_whitespace().any(|reserved| reserved == word)
     }
 
-    fn has_lanes(&self) -> bool {
-        true
-    }
-
     fn field(&self, name: &str) -> String {
         format!("p.{name}")
     }
