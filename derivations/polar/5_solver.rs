@@ -87,12 +87,64 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
         return Err(Error::NotFinite);
     }
     let p = &parameters(target);
-    let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
     answers.sort();
     Ok(answers.count)
+}
+
+/// One answer by cosines and sines.
+#[allow(dead_code)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pairs {
+    /// By joint: the cosine and the sine of an angle; a length's value and zero.
+    pub joints: [[f64; 2]; JOINTS],
+    /// As in [`Solution`].
+    pub residual: f64,
+    /// As in [`Solution`].
+    pub branch: usize,
+    /// As in [`Solution`].
+    pub free: [bool; JOINTS],
+}
+
+impl Pairs {
+    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
+    #[allow(dead_code)]
+    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
+}
+
+/// As [`solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+/// two are next to each other, the cosines and sines are those of the angles that [`solve`] finds.
+///
+/// # Errors
+/// As [`solve`].
+#[allow(dead_code)]
+pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
+    if !target.iter().all(|value| value.is_finite()) {
+        return Err(Error::NotFinite);
+    }
+    let p = &parameters(target);
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    block_1(p, &mut answers);
+    answers.flush(p);
+    let count = answers.count;
+    if answers.usual && count <= 4 {
+        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
+        return Ok(count);
+    }
+    let mut list = [Solution::EMPTY; CAPACITY];
+    let count = solve(target, &mut list)?;
+    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
+        let joints = [
+            [q[0].cos() + 0.0, q[0].sin() + 0.0],
+            [q[1].cos() + 0.0, q[1].sin() + 0.0],
+            [q[2], 0.0],
+        ];
+        *pairs = Pairs { joints, residual, branch, free };
+    }
+    Ok(count)
 }
 
 /// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
@@ -592,7 +644,10 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
 
 /// Answers so far, and the largest share of an equation's value in its size for each.
 struct Answers<'a> {
-    out: &'a mut [Solution; CAPACITY],
+    out: &'a mut [Solution],
+    /// Where pairs are written instead, and whether all candidates so far can be.
+    pairs: Option<&'a mut [Pairs; CAPACITY]>,
+    usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -1401,6 +1456,9 @@ impl Answers<'_> {
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
     #[inline(never)]
     fn flush(&mut self, p: &Parameters) {
+        if self.pairs.is_some() {
+            return self.flush_pairs(p);
+        }
         let angles = angles(&self.at);
         let fits = fits(p, &self.at);
         let waiting = core::mem::take(&mut self.waiting).min(ROOM);
@@ -1425,13 +1483,43 @@ impl Answers<'_> {
         }
     }
 
+    /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
+    #[inline(never)]
+    fn flush_pairs(&mut self, p: &Parameters) {
+        let fits = fits(p, &self.at);
+        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
+        let Some(pairs) = &mut self.pairs else { return };
+        for k in 0..waiting {
+            let Found { branch, close, free, .. } = self.found[k];
+            let holds = free == NONE_FREE && !close && fits.relative[k] < RESOLUTION && fits.sound[k] > 0.0;
+            let joints = [
+                [self.at[0][k] + 0.0, self.at[1][k] + 0.0],
+                [self.at[2][k] + 0.0, self.at[3][k] + 0.0],
+                [self.at[4][k], 0.0],
+            ];
+            let is_apart = |other: &Pairs| other.branch != branch && tell_apart(&joints, &other.joints);
+            if !(self.usual && holds && self.count < CAPACITY && pairs[..self.count].iter().all(is_apart)) {
+                self.usual = false;
+                return;
+            }
+            pairs[self.count] = Pairs { joints, residual: fits.residual[k], branch, free };
+            self.count += 1;
+        }
+    }
+
     /// Whether an angle tells two candidates apart.
     #[inline(always)]
     fn are_apart(&self, k: usize, other: usize) -> bool {
-        [[2, 3], [0, 1], ].iter().any(|&[c, s]| {
+        [[2, 3], [0, 1]].iter().any(|&[c, s]| {
             self.at[c][k] * self.at[c][other] + self.at[s][k] * self.at[s][other] < FAR_APART
         })
     }
+}
+
+/// Whether an angle tells two answers apart.
+#[inline(always)]
+fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
+    [1, 0].iter().any(|&i| a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
 }
 
 /// Measures candidates.
@@ -1527,10 +1615,13 @@ impl Lanes {
 }
 
 /// What equations are computed of: one number, or several at once.
-trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {}
+trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
+}
 
-impl Number for f64 {}
-impl Number for Lanes {}
+impl Number for f64 {
+}
+impl Number for Lanes {
+}
 
 macro_rules! by_lane {
     ($($operation:ident $name:ident $sign:tt)*) => {

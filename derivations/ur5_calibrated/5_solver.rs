@@ -103,6 +103,48 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
     Ok(answers.count)
 }
 
+/// One answer by cosines and sines.
+#[allow(dead_code)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pairs {
+    /// By joint: the cosine and the sine of an angle; a length's value and zero.
+    pub joints: [[f64; 2]; JOINTS],
+    /// As in [`Solution`].
+    pub residual: f64,
+    /// As in [`Solution`].
+    pub branch: usize,
+    /// As in [`Solution`].
+    pub free: [bool; JOINTS],
+}
+
+impl Pairs {
+    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
+    #[allow(dead_code)]
+    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
+}
+
+/// As [`solve`], by cosines and sines of the angles.
+///
+/// # Errors
+/// As [`solve`].
+#[allow(dead_code)]
+pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
+    let mut list = [Solution::EMPTY; CAPACITY];
+    let count = solve(target, &mut list)?;
+    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
+        let joints = [
+            [q[0].cos() + 0.0, q[0].sin() + 0.0],
+            [q[1].cos() + 0.0, q[1].sin() + 0.0],
+            [q[2].cos() + 0.0, q[2].sin() + 0.0],
+            [q[3].cos() + 0.0, q[3].sin() + 0.0],
+            [q[4].cos() + 0.0, q[4].sin() + 0.0],
+            [q[5].cos() + 0.0, q[5].sin() + 0.0],
+        ];
+        *pairs = Pairs { joints, residual, branch, free };
+    }
+    Ok(count)
+}
+
 /// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
 /// Not a number when a number of the target is not finite, a condition does not hold or an equation's value is not a number.
 #[allow(dead_code)]
