@@ -1,5 +1,6 @@
 //! Cosines and sines of answers: those of the evaluator, to the last bit, and of the angles that it finds.
 
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -21,7 +22,7 @@ fn targets(program: &Program) -> Vec<Vec<f64>> {
     let mut next = random();
     let mut targets = odd(program.inputs.len());
     for count in 0..400 {
-        let joint = |_| if count < 300 { next(-3.0, 3.0) } else { (next(-2.0, 2.0)).round() * 1.5707963267948966 };
+        let joint = |_| if count < 300 { next(-3.0, 3.0) } else { next(-2.0, 2.0).round() * FRAC_PI_2 };
         let q: Vec<f64> = (0..program.joints.len()).map(joint).collect();
         targets.push(program.reached(&q).unwrap());
     }
@@ -92,7 +93,9 @@ fn check(program: &Program) {
 
 #[test]
 fn pairs_are_those_of_the_evaluator() {
-    ["puma", "ur5", "stanford", "planar_3r", "nao_left_leg"].map(|name| check(&stored(name)));
+    for name in ["puma", "ur5", "stanford", "planar_3r", "nao_left_leg"] {
+        check(&stored(name));
+    }
 }
 
 const RUST_DRIVER: &str = r#"
