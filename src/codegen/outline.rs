@@ -171,12 +171,7 @@ impl Outline {
         let forward = forward.map(|forward| ForwardText::new(&scene, &forward));
         scene.lanes = needs.answers && program.compares_tip();
         let (jacobian_lines, jacobian_rows) = scene.checks(&jacobian);
-        let mut unique: Vec<String> = Vec::new();
-        for size in &sizes {
-            if !unique.contains(size) {
-                unique.push(size.clone());
-            }
-        }
+        let unique = once(&sizes);
         let place = |size: &String| unique.iter().position(|other| other == size).unwrap_or(0);
         let size_of = sizes.iter().map(place).collect();
         let sizes = Code::new(language, checks.lines.clone(), unique);
@@ -240,6 +235,17 @@ impl Outline {
             needs,
         }
     }
+}
+
+/// Each text once, in the order of their first places.
+fn once(list: &[String]) -> Vec<String> {
+    let mut unique: Vec<String> = Vec::new();
+    for text in list {
+        if !unique.contains(text) {
+            unique.push(text.clone());
+        }
+    }
+    unique
 }
 
 impl Quantity {
