@@ -80,6 +80,20 @@ extern const double gantry_limits[2 * GANTRY_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int gantry_solve(const double *target, gantry_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[GANTRY_JOINTS][2];
+    /* As in gantry_solution. */
+    double residual;
+    size_t branch;
+    bool free[GANTRY_JOINTS];
+} gantry_pairs;
+
+/* As gantry_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that gantry_solve finds. */
+int gantry_solve_pairs(const double *target, gantry_pairs *out);
+
 /* Writes the target (GANTRY_INPUTS numbers) that joint values q (GANTRY_JOINTS numbers) reach. */
 void gantry_forward(const double *q, double *target);
 
@@ -423,10 +437,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -438,11 +451,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -746,6 +764,11 @@ typedef struct {
     Solution *out;
     double relative[GANTRY_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[3][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    gantry_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1158,9 +1181,92 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const gantry_pairs *a, const gantry_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[3] = {5, 4, 3};
+    for (size_t k = 0; k < 3; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == GANTRY_CAPACITY) {
+        return false;
+    }
+    gantry_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0];
+    pairs->joints[0][1] = 0.0;
+    q[0] = at[0];
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[1];
+    pairs->joints[1][1] = 0.0;
+    q[1] = at[1];
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[2];
+    pairs->joints[2][1] = 0.0;
+    q[2] = at[2];
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[3] + 0.0;
+    pairs->joints[3][1] = at[4] + 0.0;
+    pairs->free[3] = false;
+    pairs->joints[4][0] = at[5] + 0.0;
+    pairs->joints[4][1] = at[6] + 0.0;
+    pairs->free[4] = false;
+    pairs->joints[5][0] = at[7] + 0.0;
+    pairs->joints[5][1] = at[8] + 0.0;
+    pairs->free[5] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        at[0],
+        at[1],
+        at[2],
+        joint_angle(answers, 0, at[3], at[4]),
+        joint_angle(answers, 1, at[5], at[6]),
+        joint_angle(answers, 2, at[7], at[8]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1254,6 +1360,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double d1;
     double d2;
@@ -1262,11 +1370,9 @@ typedef struct {
     double s4;
     double c5;
     double s5;
-    double q3;
-    double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1305,8 +1411,21 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
         c6,
         s6,
     };
-    const double q[JOINTS] = {at[0], at[1], at[2], known->q3, known->q4, angle(at[7], at[8])};
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->d1,
+            known->d2,
+            known->d3,
+            -known->c4,
+            -known->s4,
+            known->c5,
+            -known->s5,
+            -c6,
+            -s6,
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
+    }
 }
 
 /* Block 6: WristRoll. */
@@ -1329,14 +1448,13 @@ typedef struct {
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r6 = sqrt(fmax(p->r33_ * p->r33_ + shared->r2 * shared->r2, 0.0)), r7 = 1.0 / r6;
-    const double c5 = 0.0 - p->r33_ * r7, s5 = 0.0 - shared->r2 * r7, q4 = angle(c5, s5);
+    const double c5 = 0.0 - p->r33_ * r7, s5 = 0.0 - shared->r2 * r7;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
-    next.q4 = q4;
     block_6(p, &next, answers);
 }
 
@@ -1365,17 +1483,16 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, Answers *a
         return;
     }
     const Roots roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r5 = p->r23_ * w4, r6 = p->r13_ * w4;
         const double r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0)), c4 = 0.0 - r6 * r11, s4 = 0.0 - r5 * r11;
-        const double q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         block_5(p, &next, answers);
     }
 }
@@ -1390,7 +1507,7 @@ static void chart_4_2(const Parameters *p, const Known *known, Answers *answers)
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1398,7 +1515,6 @@ static void chart_4_2(const Parameters *p, const Known *known, Answers *answers)
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -1548,7 +1664,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int gantry_solve(const double *given, gantry_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1556,14 +1673,78 @@ int gantry_solve(const double *given, gantry_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 3; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int gantry_solve(const double *target, gantry_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int gantry_solve_pairs(const double *target, gantry_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 2) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const gantry_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[GANTRY_CAPACITY];
+    const int count = gantry_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = answer->q[0];
+        out[i].joints[0][1] = 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = answer->q[1];
+        out[i].joints[1][1] = 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = answer->q[2];
+        out[i].joints[2][1] = 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
+        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
+        out[i].free[4] = answer->free[4];
+        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
+        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
+        out[i].free[5] = answer->free[5];
+    }
+    return count;
+}
+
 
 void gantry_forward(const double *q, double *target)
 {

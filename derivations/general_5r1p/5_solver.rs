@@ -103,6 +103,48 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
     Ok(answers.count)
 }
 
+/// One answer by cosines and sines.
+#[allow(dead_code)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pairs {
+    /// By joint: the cosine and the sine of an angle; a length's value and zero.
+    pub joints: [[f64; 2]; JOINTS],
+    /// As in [`Solution`].
+    pub residual: f64,
+    /// As in [`Solution`].
+    pub branch: usize,
+    /// As in [`Solution`].
+    pub free: [bool; JOINTS],
+}
+
+impl Pairs {
+    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
+    #[allow(dead_code)]
+    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
+}
+
+/// As [`solve`], by cosines and sines of the angles.
+///
+/// # Errors
+/// As [`solve`].
+#[allow(dead_code)]
+pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
+    let mut list = [Solution::EMPTY; CAPACITY];
+    let count = solve(target, &mut list)?;
+    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
+        let joints = [
+            [q[0].cos() + 0.0, q[0].sin() + 0.0],
+            [q[1].cos() + 0.0, q[1].sin() + 0.0],
+            [q[2], 0.0],
+            [q[3].cos() + 0.0, q[3].sin() + 0.0],
+            [q[4].cos() + 0.0, q[4].sin() + 0.0],
+            [q[5].cos() + 0.0, q[5].sin() + 0.0],
+        ];
+        *pairs = Pairs { joints, residual, branch, free };
+    }
+    Ok(count)
+}
+
 /// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
 /// Not a number when a number of the target is not finite, a condition does not hold or an equation's value is not a number.
 #[allow(dead_code)]
@@ -3306,11 +3348,16 @@ fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
 const PI: f64 = core::f64::consts::PI;
 const TAU: f64 = core::f64::consts::TAU;
 
-/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
-/// interpolates at eleven Chebyshev points.
+/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad.
 #[inline(always)]
 fn angle(cosine: f64, sine: f64) -> f64 {
-    let (across, up) = (cosine.abs(), sine.abs());
+    unfold(acute(cosine.abs(), sine.abs()), cosine, sine)
+}
+
+/// The angle in [0, pi/2] of a cosine and a sine that are not negative. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
+/// interpolates at eleven Chebyshev points.
+#[inline(always)]
+fn acute(across: f64, up: f64) -> f64 {
     let steep = up > across;
     let (low, high) = if steep { (across, up) } else { (up, across) };
     let far = low > 0.41421356237309503 * high;
@@ -3323,10 +3370,14 @@ fn angle(cosine: f64, sine: f64) -> f64 {
     if steep {
         angle = 0.5 * PI - (angle - 2.0 * REST);
     }
-    if cosine < 0.0 {
-        angle = PI - (angle - 4.0 * REST);
-    }
-    half_open(angle.copysign(sine))
+    angle
+}
+
+/// The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative.
+#[inline(always)]
+fn unfold(acute: f64, cosine: f64, sine: f64) -> f64 {
+    let angle = if cosine < 0.0 { PI - (acute - 4.0 * REST) } else { acute };
+    half_open(angle.copysign(sine)) + 0.0
 }
 
 /// What the double nearest to pi/4 lacks.

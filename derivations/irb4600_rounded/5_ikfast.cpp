@@ -61,10 +61,14 @@ static const int IRB4600_TOOL0_INPUTS = 12;
 static const int IRB4600_TOOL0_JOINTS = 6;
 /* The most solutions that a target can have. */
 static const int IRB4600_TOOL0_CAPACITY = 22;
-/* A number of the target is infinite or not a number, or the target misses a condition. */
-static const int IRB4600_TOOL0_BAD_TARGET = (-1);
+/* A number of the target is infinite or not a number. */
+static const int IRB4600_TOOL0_NOT_FINITE = (-1);
 /* The target lies on a stratum that could not be derived. */
 static const int IRB4600_TOOL0_OPEN_STRATUM = (-2);
+/* The rotation of the target is off by more than CONSISTENT. */
+static const int IRB4600_TOOL0_NOT_ROTATION = (-3);
+/* The direction of the target is not of length one within CONSISTENT. */
+static const int IRB4600_TOOL0_NOT_UNIT = (-4);
 
 /* One answer. */
 typedef struct {
@@ -82,7 +86,7 @@ typedef struct {
 
 
 /* Writes all solutions for the target (IRB4600_TOOL0_INPUTS numbers) to the front of out (IRB4600_TOOL0_CAPACITY places), by branch, and
- * returns their number, 0 when it is out of reach; or IRB4600_TOOL0_BAD_TARGET or IRB4600_TOOL0_OPEN_STRATUM. */
+ * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int irb4600_tool0_solve(const double *target, irb4600_tool0_solution *out);
 
 /* Writes the target (IRB4600_TOOL0_INPUTS numbers) that joint values q (IRB4600_TOOL0_JOINTS numbers) reach. */
@@ -102,8 +106,10 @@ static const double BLUR = 0.05;
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
 static const int POLISH_STEPS = 32;
-/* So many steps in a row that do not halve the miss are the last. */
+/* So many steps in a row that do not halve a miss by more than rounding are the last. */
 static const int PATIENCE = 3;
+/* A step that raises the miss by no more than this may have led beyond one of two roots next to each other. */
+static const double OVERSHOT = 100.0;
 /* A candidate that misses the equations by this share of their size at most may be a double root. */
 static const double APART = 0.7;
 static const double SPLIT = 0.001;
@@ -120,6 +126,8 @@ static const double ADRIFT = 1e-7;
 static const double ALONE = 1e-13;
 /* How far a free joint is moved to see whether an answer lies on a family. */
 static const double ASIDE = 0.1;
+/* In how many stages, each twice as far as the one before. */
+static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
 static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
@@ -556,10 +564,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -571,11 +578,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -634,6 +646,7 @@ static bool substituted(double columns[JOINTS + 1][ROWS], double *solution)
     return true;
 }
 
+/* Whether no joint is free. */
 static bool is_isolated(const bool *free)
 {
     for (size_t i = 0; i < JOINTS; i++) {
@@ -741,6 +754,28 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
     return false;
 }
 
+/* Newton steps on from start until the equations are missed by less than they are at q, which is where it ends then: from between two roots
+ * next to each other the first step leads beyond one of them, and from there on each quarters the miss. */
+static bool returned(const Parameters *p, const double *start, double *q, Fit *fit, const bool *held)
+{
+    double at[JOINTS], step[JOINTS], next[JOINTS];
+    copy(start, at);
+    for (int i = 0; i < RETURNS; i++) {
+        if (!newton_step(p, at, 0.0, held, step)) {
+            return false;
+        }
+        stepped(at, step, next);
+        copy(next, at);
+        const Fit next_fit = measure(p, at);
+        if (next_fit.relative < fit->relative) {
+            copy(at, q);
+            *fit = next_fit;
+            return true;
+        }
+    }
+    return false;
+}
+
 /* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
@@ -759,6 +794,10 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (next_fit.relative < enough) {
             copy(next, q);
             *fit = next_fit;
+            return true;
+        }
+        if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
+            && returned(p, next, q, fit, held)) {
             return true;
         }
         if (next_fit.relative < fit->relative && !has_fallen) {
@@ -787,7 +826,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= 0.5 * before ? 0 : slow + 1;
+        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
     }
 }
 
@@ -833,6 +872,8 @@ typedef struct {
     Solution *out;
     double relative[IRB4600_TOOL0_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[6][3];
 } Answers;
 
 static double shorter(double difference)
@@ -901,22 +942,24 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether two answers near one another, with their relative residuals, are one at a singular configuration: half-way between them, on a
- * way that may be bent, the equations hold as well as at the worse of the two, or within rounding. */
-static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+static bool are_joined(const Parameters *p, const double *a, const double *b, double bound, const bool *held)
 {
-    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
-    differences(a->q, b->q, way);
-    for (size_t i = 0; i < JOINTS; i++) {
-        middle[i] = b->q[i] + 0.5 * way[i];
+    if (farthest_of(a, b) > BLUR) {
+        return false;
     }
-    const double bound = fmax(fmax(RESOLUTION, a_relative), b_relative);
+    double way[JOINTS], middle[JOINTS], back[JOINTS], next[JOINTS];
+    differences(a, b, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        middle[i] = b[i] + 0.5 * way[i];
+    }
+    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
             return true;
         }
-        if (!newton_step(p, middle, STIFF, NONE_FREE, back)) {
+        if (!newton_step(p, middle, STIFF, held, back)) {
             return false;
         }
         stepped(middle, back, next);
@@ -924,6 +967,13 @@ static bool blurred(const Parameters *p, const Solution *a, double a_relative, c
         fit = measure(p, middle);
     }
     return fit.relative <= bound;
+}
+
+/* Whether two answers next to each other, with their relative residuals, are one at a singular configuration, where the equations leave
+ * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
+static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
+{
+    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative), NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -934,52 +984,79 @@ static Fit follow(const Parameters *p, double *q, const bool *free)
     return fit;
 }
 
-/* Whether the equations hold too, within a bound or rounding, where the free joints are a little elsewhere and the others follow, and
- * back again: an isolated answer may be led to a family next to it, but not back. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+/* The joints beyond b on the line from a, by ahead times their distance. */
+static void beyond(const double *a, const double *b, double ahead, double *end)
 {
-    double at[JOINTS], next[JOINTS], difference[JOINTS], limit[JOINTS];
+    double way[JOINTS];
+    differences(b, a, way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        end[i] = b[i] + ahead * way[i];
+    }
+}
+
+/* Whether the joints come back to q on along the line from far through close_by. */
+static bool leads_back(const Parameters *p, const double *q, const bool *free, const double *close_by, const double *far, double bound)
+{
+    double back[JOINTS];
+    beyond(far, close_by, 1.0, back);
+    for (size_t i = 0; i < JOINTS; i++) {
+        back[i] = free[i] ? q[i] : back[i];
+    }
+    const Fit fit = follow(p, back, free);
+    return fit.accepted && are_joined(p, back, q, bound, free);
+}
+
+/* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
+{
+    double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
+    double share = 1.0;
+    copy(q, before);
     copy(q, at);
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (free[i]) {
-            move(at, i, ASIDE, next);
-            at[i] = next[i];
+    for (int stage = 1; stage < DOUBLINGS; stage++) {
+        share *= 0.5;
+    }
+    for (int stage = 0; stage < DOUBLINGS; stage++) {
+        beyond(before, at, stage == 1 ? 1.0 : 2.0, next);
+        for (size_t i = 0; i < JOINTS; i++) {
+            if (free[i]) {
+                move(q, i, share * way, displaced);
+                next[i] = displaced[i];
+            }
         }
-    }
-    if (follow(p, at, free).relative > fmax(bound, RESOLUTION)) {
-        return false;
-    }
-    for (size_t i = 0; i < JOINTS; i++) {
-        at[i] = free[i] ? q[i] : at[i];
-    }
-    const Fit fit = follow(p, at, free);
-    differences(at, q, difference);
-    spans(at, BLUR, limit);
-    for (size_t i = 0; i < JOINTS; i++) {
-        if (!(fabs(difference[i]) <= limit[i])) {
+        if (follow(p, next, free).relative > bound || (stage == 1 && !leads_back(p, q, free, at, next, bound))) {
             return false;
         }
+        copy(at, before);
+        copy(next, at);
+        share *= 2.0;
     }
-    return fit.accepted;
+    return true;
+}
+
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. */
+static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+{
+    bound = fmax(bound, RESOLUTION);
+    return leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound);
 }
 
 /* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
-    Solution end = *a, member = *b;
+    double q[JOINTS];
     bool accepted = false;
+    copy(a->q, q);
     for (int stages = STAGES; stages > 0; stages--) {
         double way[JOINTS];
-        differences(b->q, end.q, way);
+        differences(b->q, q, way);
         for (size_t i = 0; i < JOINTS; i++) {
-            end.q[i] += b->free[i] ? way[i] / (double)stages : 0.0;
+            q[i] += b->free[i] ? way[i] / (double)stages : 0.0;
         }
-        accepted = follow(p, end.q, b->free).accepted;
+        accepted = follow(p, q, b->free).accepted;
     }
-    for (size_t i = 0; i < JOINTS; i++) {
-        end.free[i] = member.free[i] = false;
-    }
-    return accepted && is_close(&end, &member, ARRIVED);
+    return accepted && is_within(q, b->q, ARRIVED);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -1007,13 +1084,10 @@ static bool has_member(const Answers *answers, size_t branch, const bool *free)
 /* Whether two answers, with their relative residuals, are one. */
 static bool is_one(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
-    if (a_isolated && b_isolated && !is_close(a, b, BLUR)) {
-        return false;
-    }
     if (is_close(a, b, MERGE)) {
         return true;
     }
+    const bool a_isolated = is_isolated(a->free), b_isolated = is_isolated(b->free);
     if (!a_isolated && !b_isolated) {
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
@@ -1202,11 +1276,36 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+    };
+    if (!is_isolated(free) || close) {
+        refine(p, branch, last, q, free, answers);
+        return;
+    }
     const Fit fit = measure_at(p, at, q);
-    if (!(!close && is_isolated(free) && fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1256,6 +1355,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1269,14 +1370,9 @@ typedef struct {
     double s4;
     double c5;
     double s5;
-    double q0;
-    double q1;
-    double q2;
-    double q3;
-    double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[32][2] = {
@@ -1340,15 +1436,24 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
         c6,
         s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        known->q3,
-        known->q4,
-        angle(at[10], at[11]),
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c1,
+            known->s1,
+            known->c2,
+            known->s2,
+            known->c3,
+            known->s3,
+            -known->c4,
+            -known->s4,
+            known->c5,
+            -known->s5,
+            -c6,
+            -s6,
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
+    }
 }
 
 /* Block 6: joint_6. */
@@ -1379,14 +1484,13 @@ typedef struct {
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20, r25 = 1.0 / sqrt(fmax(r23, 0.0));
-    const double c5 = shared->r19 * r25, s5 = shared->r20 * r25, q4 = angle(c5, s5);
+    const double c5 = shared->r19 * r25, s5 = shared->r20 * r25;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
-    next.q4 = q4;
     block_6(p, &next, answers);
 }
 
@@ -1426,17 +1530,16 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     }
     const double r22 = 3162.2776601683795 * (known->f2 * (20.591260281974 * known->f1));
     const Roots roots0 = square_roots(0.0 - r15 - r16, r22);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r23 = w4 * shared->r13, r24 = w4 * shared->r14;
         const double r29 = 1.0 / sqrt(fmax(r24 * r24 + r23 * r23, 0.0)), c4 = r24 * r29, s4 = r23 * r29;
-        const double q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         block_5(p, &next, answers);
     }
 }
@@ -1452,7 +1555,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 32; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1460,7 +1563,6 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -1506,7 +1608,6 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double f2 = 1.0, r28 = shared->r9 * shared->r17 - shared->r12 * shared->r15;
     const double r32 = shared->r12 * shared->r17 - (0.0 - shared->r9 * shared->r15);
     const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r28 * r28, 0.0)), c2 = r32 * r37, s2 = r28 * r37;
-    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1514,7 +1615,6 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     next.c2 = c2;
     next.s2 = s2;
     next.f2 = f2;
-    next.q1 = q1;
     block_4(p, &next, answers);
 }
 
@@ -1530,7 +1630,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 32; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1539,7 +1639,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.c2 = c2;
         next.s2 = s2;
         next.f2 = f2;
-        next.q1 = q1;
         again_4(p, &next, answers);
     }
 }
@@ -1577,14 +1676,12 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double r39 = 0.3150000001485 * w3 - (0.0 - 1.7280148494671985 * shared->r30);
         const double r42 = 1.7280148494671985 * w3 - 0.3150000001485 * shared->r30;
         const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r39 * r39, 0.0)), c3 = r42 * r47, s3 = r39 * r47;
-        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
-        next.q2 = q2;
         block_3(p, &next, answers);
     }
 }
@@ -1631,7 +1728,6 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r16 = w1 * shared->r1, r17 = w1 * shared->r3;
         const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c1 = 0.0 - r17 * r22, s1 = r16 * r22;
-        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1639,7 +1735,6 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1656,7 +1751,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 32; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 2;
         next.last = 3;
@@ -1665,7 +1760,6 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         again_2(p, &next, answers);
     }
 }
@@ -1722,29 +1816,52 @@ static bool all_finite(const double *target)
     return true;
 }
 
-/* The target moved onto its conditions, which it may miss by a little; false when a number is not finite or it misses them by more. */
-static bool conform(const double *given, double *target)
+/* Moves the target onto its conditions, which it may miss by a little; 0, or what is wrong when a number is not finite or it misses them by
+ * more. */
+static int conform(const double *given, double *target)
 {
+    if (!all_finite(given)) {
+        return IRB4600_TOOL0_NOT_FINITE;
+    }
     for (size_t i = 0; i < INPUTS; i++) {
         target[i] = given[i];
     }
-    return all_finite(target) && make_rotation(target + 3);
+    if (!make_rotation(target + 3)) {
+        return IRB4600_TOOL0_NOT_ROTATION;
+    }
+    return 0;
 }
 
-int irb4600_tool0_solve(const double *given, irb4600_tool0_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
-    if (!conform(given, target)) {
-        return IRB4600_TOOL0_BAD_TARGET;
+    const int fault = conform(given, target);
+    if (fault != 0) {
+        return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 6; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int irb4600_tool0_solve(const double *target, irb4600_tool0_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void irb4600_tool0_forward(const double *q, double *target)
 {

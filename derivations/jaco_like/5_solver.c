@@ -80,6 +80,19 @@ extern const double jaco_like_limits[2 * JACO_LIKE_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int jaco_like_solve(const double *target, jaco_like_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[JACO_LIKE_JOINTS][2];
+    /* As in jaco_like_solution. */
+    double residual;
+    size_t branch;
+    bool free[JACO_LIKE_JOINTS];
+} jaco_like_pairs;
+
+/* As jaco_like_solve, by cosines and sines. */
+int jaco_like_solve_pairs(const double *target, jaco_like_pairs *out);
+
 /* Writes the target (JACO_LIKE_INPUTS numbers) that joint values q (JACO_LIKE_JOINTS numbers) reach. */
 void jaco_like_forward(const double *q, double *target);
 
@@ -518,10 +531,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -533,11 +545,22 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi]. */
+static double angle(double cosine, double sine)
+{
+    return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -3045,7 +3068,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int jaco_like_solve(const double *given, jaco_like_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -3053,14 +3077,54 @@ int jaco_like_solve(const double *given, jaco_like_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    block_1(&p, answers);
+    return 0;
+}
+
+int jaco_like_solve(const double *target, jaco_like_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int jaco_like_solve_pairs(const double *target, jaco_like_pairs *out)
+{
+    Solution list[JACO_LIKE_CAPACITY];
+    const int count = jaco_like_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
+        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
+        out[i].free[4] = answer->free[4];
+        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
+        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
+        out[i].free[5] = answer->free[5];
+    }
+    return count;
+}
+
 
 void jaco_like_forward(const double *q, double *target)
 {

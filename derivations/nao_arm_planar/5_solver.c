@@ -66,6 +66,20 @@ extern const double nao_arm_planar_limits[2 * NAO_ARM_PLANAR_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_arm_planar_solve(const double *target, nao_arm_planar_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[NAO_ARM_PLANAR_JOINTS][2];
+    /* As in nao_arm_planar_solution. */
+    double residual;
+    size_t branch;
+    bool free[NAO_ARM_PLANAR_JOINTS];
+} nao_arm_planar_pairs;
+
+/* As nao_arm_planar_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that nao_arm_planar_solve finds. */
+int nao_arm_planar_solve_pairs(const double *target, nao_arm_planar_pairs *out);
+
 /* Writes the target (NAO_ARM_PLANAR_INPUTS numbers) that joint values q (NAO_ARM_PLANAR_JOINTS numbers) reach. */
 void nao_arm_planar_forward(const double *q, double *target);
 
@@ -423,10 +437,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -438,11 +451,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -718,6 +736,11 @@ typedef struct {
     Solution *out;
     double relative[NAO_ARM_PLANAR_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[2][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    nao_arm_planar_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -947,9 +970,73 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const nao_arm_planar_pairs *a, const nao_arm_planar_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[2] = {0, 1};
+    for (size_t k = 0; k < 2; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == NAO_ARM_PLANAR_CAPACITY) {
+        return false;
+    }
+    nao_arm_planar_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+    };
     if (close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1073,8 +1160,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
         const double r37 = (p->py * (r24 - r23) + (r27 - 190269.0)) / (21000.0 * p->pz), c2 = r37;
         const double c4 = (10.0 * p->py - 1050.0 * s2) / 1137.0;
         const double at[PLACES] = {c2, s2, c4, s4};
-        const double q[JOINTS] = {angle(at[0], at[1]), angle(at[2], at[3])};
-        finish(p, i0, 2, roots0.close, at, q, NONE_FREE, answers);
+        finish(p, i0, 2, roots0.close, at, NONE_FREE, answers);
     }
 }
 
@@ -1094,8 +1180,7 @@ static void chart_1_2(const Parameters *p, Answers *answers)
         const double s4 = roots0.values[i0], c2 = 0.0 - 379.0 * s4 / 350.0;
         const double c4 = (r1 + 190269.0) / (22740.0 * p->py);
         const double at[PLACES] = {c2, s2, c4, s4};
-        const double q[JOINTS] = {angle(at[0], at[1]), angle(at[2], at[3])};
-        finish(p, 2 + i0, 4, roots0.close, at, q, NONE_FREE, answers);
+        finish(p, 2 + i0, 4, roots0.close, at, NONE_FREE, answers);
     }
 }
 
@@ -1116,21 +1201,74 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int nao_arm_planar_solve(const double *target, nao_arm_planar_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return NAO_ARM_PLANAR_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 2; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int nao_arm_planar_solve(const double *target, nao_arm_planar_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     mark_choice(&answers);
     return (int)answers.count;
 }
+
+int nao_arm_planar_solve_pairs(const double *target, nao_arm_planar_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 2) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const nao_arm_planar_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[NAO_ARM_PLANAR_CAPACITY];
+    const int count = nao_arm_planar_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+    }
+    return count;
+}
+
 
 void nao_arm_planar_forward(const double *q, double *target)
 {

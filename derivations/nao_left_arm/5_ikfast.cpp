@@ -380,10 +380,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -395,11 +394,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -699,6 +703,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEFT_ARM_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[5][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1109,9 +1115,29 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1219,6 +1245,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double ux;
     double uy;
@@ -1238,13 +1266,9 @@ typedef struct {
     double s3;
     double c4;
     double s4;
-    double q0;
-    double q1;
-    double q2;
-    double q3;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1282,8 +1306,22 @@ static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *sh
         c5,
         s5,
     };
-    const double q[JOINTS] = {known->q0, known->q1, known->q2, known->q3, angle(at[8], at[9])};
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c1,
+            known->s1,
+            known->c2,
+            known->s2,
+            -known->c3,
+            -known->s3,
+            known->c4,
+            -known->s4,
+            -c5,
+            -s5,
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
+    }
 }
 
 /* Block 7: WristYaw. */
@@ -1314,14 +1352,13 @@ typedef struct {
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14, r19 = 1.0 / sqrt(fmax(r17, 0.0));
-    const double c4 = shared->r13 * r19, s4 = shared->r14 * r19, q3 = angle(c4, s4);
+    const double c4 = shared->r13 * r19, s4 = shared->r14 * r19;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c4 = c4;
     next.s4 = s4;
-    next.q3 = q3;
     block_7(p, &next, answers);
 }
 
@@ -1359,17 +1396,17 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
         return;
     }
     const Roots roots0 = square_roots(0.0 - r9 - r10, known->f1 * (7.810249675906654 * known->fr));
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w3 = roots0.values[i0], r16 = w3 * shared->r7, r17 = w3 * shared->r8;
         const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c3 = 0.0 - r17 * r22;
-        const double s3 = 0.0 - r16 * r22, q2 = angle(c3, s3);
+        const double s3 = 0.0 - r16 * r22;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c3 = c3;
         next.s3 = s3;
-        next.q2 = q2;
         block_6(p, &next, answers);
     }
 }
@@ -1385,7 +1422,7 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1], q2 = angle(c3, s3);
+        const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1393,7 +1430,6 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         next.free[2] = true;
         next.c3 = c3;
         next.s3 = s3;
-        next.q2 = q2;
         again_6(p, &next, answers);
     }
 }
@@ -1422,14 +1458,12 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     const double r32 = 0.015 * shared->r28 - (0.0 - 0.105 * shared->r27);
     const double r35 = 0.015 * shared->r27 - 0.105 * shared->r28;
     const double r40 = 1.0 / sqrt(fmax(r35 * r35 + r32 * r32, 0.0)), c2 = r35 * r40, s2 = r32 * r40;
-    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
-    next.q1 = q1;
     block_5(p, &next, answers);
 }
 
@@ -1476,7 +1510,6 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r32 = w1 * shared->r10, r33 = w1 * shared->r16;
         const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r32 * r32, 0.0)), c1 = r33 * r38, s1 = r32 * r38;
-        const double q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1484,7 +1517,6 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -1502,7 +1534,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1511,7 +1543,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         again_4(p, &next, answers);
     }
 }
@@ -1763,7 +1794,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int nao_left_arm_solve(const double *given, nao_left_arm_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1771,14 +1803,28 @@ int nao_left_arm_solve(const double *given, nao_left_arm_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 5; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int nao_left_arm_solve(const double *target, nao_left_arm_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void nao_left_arm_forward(const double *q, double *target)
 {

@@ -362,10 +362,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -377,11 +376,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -677,6 +681,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEFT_ARM_POSITION_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[4][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1084,9 +1090,28 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1188,12 +1213,9 @@ typedef struct {
     double f4;
     double c1;
     double s1;
-    double q0;
-    double q2;
-    double q3;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1239,8 +1261,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         known->c4,
         known->s4,
     };
-    const double q[JOINTS] = {known->q0, angle(at[2], at[3]), known->q2, known->q3};
-    finish(p, 2 * known->branch, 2 * known->last, known->close, at, q, known->free, answers);
+    finish(p, 2 * known->branch, 2 * known->last, known->close, at, known->free, answers);
 }
 
 /* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
@@ -1265,9 +1286,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
             known->c4,
             known->s4,
         };
-        const double q[JOINTS] = {known->q0, angle(at[2], at[3]), known->q2, known->q3};
         const bool free_joints[JOINTS] = {known->free[0], true, known->free[2], known->free[3]};
-        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, q, free_joints, answers);
+        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, free_joints, answers);
     }
 }
 
@@ -1312,14 +1332,12 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         const double w1 = roots0.values[i0], r22 = w1 * shared->r1 - (0.0 - p->px * shared->r4);
         const double r25 = p->px * w1 - shared->r1 * shared->r4;
         const double r30 = 1.0 / sqrt(fmax(r25 * r25 + r22 * r22, 0.0)), c1 = r25 * r30, s1 = r22 * r30;
-        const double q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -1335,7 +1353,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1343,7 +1361,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         again_4(p, &next, answers);
     }
 }
@@ -1386,7 +1403,6 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w4 = roots0.values[i0], r20 = 0.023877 * w4 - shared->r3 * shared->r12;
         const double r23 = w4 * shared->r3 + 0.023877 * shared->r12;
         const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r20 * r20, 0.0)), c4 = 0.0 - r23 * r28, s4 = r20 * r28;
-        const double q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1394,7 +1410,6 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         next.c4 = c4;
         next.s4 = s4;
         next.f4 = f4;
-        next.q3 = q3;
         block_3(p, &next, answers);
     }
 }
@@ -1411,7 +1426,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f4 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1420,7 +1435,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.c4 = c4;
         next.s4 = s4;
         next.f4 = f4;
-        next.q3 = q3;
         again_3(p, &next, answers);
     }
 }
@@ -1440,14 +1454,13 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
  */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double c3_ = p->c3, s3_ = p->s3, q2 = angle(c3_, s3_);
+    const double c3_ = p->c3, s3_ = p->s3;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
     next.close = false;
     next.c3_ = c3_;
     next.s3_ = s3_;
-    next.q2 = q2;
     block_2(p, &next, answers);
 }
 
@@ -1467,20 +1480,35 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int nao_left_arm_position_solve(const double *target, nao_left_arm_position_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return NAO_LEFT_ARM_POSITION_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 4; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int nao_left_arm_position_solve(const double *target, nao_left_arm_position_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void nao_left_arm_position_forward(const double *q, double *target)
 {

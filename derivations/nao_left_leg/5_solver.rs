@@ -96,11 +96,64 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
+    answers.flush(p);
     answers.unite();
     answers.sort();
     Ok(answers.count)
+}
+
+/// One answer by cosines and sines.
+#[allow(dead_code)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pairs {
+    /// By joint: the cosine and the sine of an angle; a length's value and zero.
+    pub joints: [[f64; 2]; JOINTS],
+    /// As in [`Solution`].
+    pub residual: f64,
+    /// As in [`Solution`].
+    pub branch: usize,
+    /// As in [`Solution`].
+    pub free: [bool; JOINTS],
+}
+
+impl Pairs {
+    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
+    #[allow(dead_code)]
+    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
+}
+
+/// As [`solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+/// two are next to each other, the cosines and sines are those of the angles that [`solve`] finds.
+///
+/// # Errors
+/// As [`solve`].
+#[allow(dead_code)]
+pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
+    let p = &parameters(&conform(target)?);
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    block_1(p, &mut answers);
+    answers.flush(p);
+    let count = answers.count;
+    if answers.usual && count <= 8 {
+        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
+        return Ok(count);
+    }
+    let mut list = [Solution::EMPTY; CAPACITY];
+    let count = solve(target, &mut list)?;
+    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
+        let joints = [
+            [q[0].cos() + 0.0, q[0].sin() + 0.0],
+            [q[1].cos() + 0.0, q[1].sin() + 0.0],
+            [q[2].cos() + 0.0, q[2].sin() + 0.0],
+            [q[3].cos() + 0.0, q[3].sin() + 0.0],
+            [q[4].cos() + 0.0, q[4].sin() + 0.0],
+            [q[5].cos() + 0.0, q[5].sin() + 0.0],
+        ];
+        *pairs = Pairs { joints, residual, branch, free };
+    }
+    Ok(count)
 }
 
 /// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
@@ -440,14 +493,9 @@ struct Known {
     s1: f64,
     c2: f64,
     s2: f64,
-    q0: f64,
-    q1: f64,
-    q3: f64,
-    q4: f64,
-    q5: f64,
 }
 
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c4: 0.0, s4: 0.0, c6: 0.0, s6: 0.0, f6: 0.0, c5: 0.0, s5: 0.0, f5: 0.0, c1: 0.0, s1: 0.0, c2: 0.0, s2: 0.0, q0: 0.0, q1: 0.0, q3: 0.0, q4: 0.0, q5: 0.0 };
+const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c4: 0.0, s4: 0.0, c6: 0.0, s6: 0.0, f6: 0.0, c5: 0.0, s5: 0.0, f5: 0.0, c1: 0.0, s1: 0.0, c2: 0.0, s2: 0.0 };
 
 /// Where charts put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
@@ -488,8 +536,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         let r37 = 1.0 / f64::max(r32 * r32 + r31 * r31, 0.0).sqrt();
         let c4 = 0.0 - r32 * r37;
         let s4 = r31 * r37;
-        let q3 = angle(c4, s4);
-        let next = Known { branch: i0, last: 2, close: roots0.close, c4, s4, q3, ..NOTHING_KNOWN };
+        let next = Known { branch: i0, last: 2, close: roots0.close, c4, s4, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
 }
@@ -535,8 +582,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
         let r40 = 1.0 / f64::max(r35 * r35 + r34 * r34, 0.0).sqrt();
         let c6 = 0.0 - r35 * r40;
         let s6 = r34 * r40;
-        let q5 = angle(c6, s6);
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c6, s6, f6, q5, ..*known };
+        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c6, s6, f6, ..*known };
         block_3(p, &next, answers);
     }
 }
@@ -552,8 +598,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
     let f6 = 1000000.0;
     for [c6, s6] in SAMPLES_1 {
-        let q5 = angle(c6, s6);
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], true], c6, s6, f6, q5, ..*known };
+        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], true], c6, s6, f6, ..*known };
         again_3(p, &next, answers);
     }
 }
@@ -623,8 +668,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt();
     let c5 = r99 * r104;
     let s5 = r96 * r104;
-    let q4 = angle(c5, s5);
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c5, s5, f5, q4, ..*known };
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c5, s5, f5, ..*known };
     block_4(p, &next, answers);
 }
 
@@ -639,8 +683,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
     let f5 = 1000000.0;
     for [c5, s5] in SAMPLES_1 {
-        let q4 = angle(c5, s5);
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], true, known.free[5]], c5, s5, f5, q4, ..*known };
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], true, known.free[5]], c5, s5, f5, ..*known };
         again_4(p, &next, answers);
     }
 }
@@ -685,8 +728,7 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         let r24 = 1.0 / f64::max(r19 * r19 + r18 * r18, 0.0).sqrt();
         let c1 = 0.0 - r19 * r24;
         let s1 = r18 * r24;
-        let q0 = angle(c1, s1);
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, q0, ..*known };
+        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, ..*known };
         block_5(p, &next, answers);
     }
 }
@@ -700,8 +742,7 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         return;
     }
     for [c1, s1] in SAMPLES_1 {
-        let q0 = angle(c1, s1);
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5]], c1, s1, q0, ..*known };
+        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5]], c1, s1, ..*known };
         again_5(p, &next, answers);
     }
 }
@@ -744,8 +785,7 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
     let r34 = 1.0 / f64::max(r32, 0.0).sqrt();
     let c2 = shared.r29 * r34;
     let s2 = shared.r26 * r34;
-    let q1 = angle(c2, s2);
-    let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, q1, ..*known };
+    let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, ..*known };
     block_6(p, &next, answers);
 }
 
@@ -799,15 +839,18 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
         known.c6,
         known.s6,
     ];
-    let q = [known.q0, known.q1, angle(at[4], at[5]), known.q3, known.q4, known.q5];
-    answers.finish(p, known.branch, known.last, known.close, &at, q, known.free);
+    answers.finish(p, known.branch, known.last, known.close, &at, known.free);
 }
 
 /// What the equations compare with the target.
 const TIP: usize = 12;
 
 /// The tip, as the equations compare it.
-fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
+#[inline(always)]
+fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP]
+where
+    f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T>,
+{
     let c1 = at[0];
     let s1 = at[1];
     let c2 = at[2];
@@ -920,28 +963,37 @@ const SIZES: usize = 2;
 /// Which of the sizes is that of each equation.
 const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1];
 
-fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
+/// The equations' values.
+#[inline(always)]
+fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS]
+where
+    f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T>,
+{
     let reached = tip(at);
-    Equations {
-        value: [
-            reached[0] - p.px,
-            reached[1] - p.py,
-            reached[2] - p.pz,
-            reached[3] - p.r11_,
-            reached[4] - p.r21_,
-            reached[5] - p.r31_,
-            reached[6] - p.r12_,
-            reached[7] - p.r22_,
-            reached[8] - p.r32_,
-            reached[9] - p.r13_,
-            reached[10] - p.r23_,
-            reached[11] - p.r33_,
-        ],
-        size: [
-            0.3467054146165801,
-            1.0,
-        ],
-    }
+    [
+        reached[0] - p.px,
+        reached[1] - p.py,
+        reached[2] - p.pz,
+        reached[3] - p.r11_,
+        reached[4] - p.r21_,
+        reached[5] - p.r31_,
+        reached[6] - p.r12_,
+        reached[7] - p.r22_,
+        reached[8] - p.r32_,
+        reached[9] - p.r13_,
+        reached[10] - p.r23_,
+        reached[11] - p.r33_,
+    ]
+}
+
+/// The sizes of equations.
+#[inline(always)]
+fn sizes(_p: &Parameters, _at: &[f64; PLACES]) -> [f64; SIZES] {
+    [0.3467054146165801, 1.0]
+}
+
+fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
+    Equations { value: values(p, at), size: sizes(p, at) }
 }
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
@@ -1103,24 +1155,20 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
 
 /// Answers so far, and the largest share of an equation's value in its size for each.
 struct Answers<'a> {
-    out: &'a mut [Solution; CAPACITY],
+    out: &'a mut [Solution],
+    /// Where pairs are written instead, and whether all candidates so far can be.
+    pairs: Option<&'a mut [Pairs; CAPACITY]>,
+    usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// By place: the numbers of candidates that wait to be measured.
+    at: [[f64; ROOM]; PLACES],
+    /// How each was found.
+    found: [Found; ROOM],
+    waiting: usize,
 }
 
 impl Answers<'_> {
-    /// Keeps a candidate that solves the equations within rounding, and refines others.
-    #[inline(always)]
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], q: [f64; JOINTS], free: [bool; JOINTS]) {
-        if free == NONE_FREE && !close {
-            let fit = measure_at(p, at, &q);
-            if fit.accepted && fit.relative < RESOLUTION && is_round(at) {
-                return self.keep(p, branch, last, (q, fit), free);
-            }
-        }
-        self.refine(p, branch, last, q, free);
-    }
-
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1542,16 +1590,6 @@ fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
     fit
 }
 
-/// Whether the cosines and sines of all angles are on the circle.
-fn is_round(at: &[f64; PLACES]) -> bool {
-    (at[0] * at[0] + at[1] * at[1] - 1.0).abs() < RESOLUTION
-    && (at[2] * at[2] + at[3] * at[3] - 1.0).abs() < RESOLUTION
-    && (at[4] * at[4] + at[5] * at[5] - 1.0).abs() < RESOLUTION
-    && (at[6] * at[6] + at[7] * at[7] - 1.0).abs() < RESOLUTION
-    && (at[8] * at[8] + at[9] * at[9] - 1.0).abs() < RESOLUTION
-    && (at[10] * at[10] + at[11] * at[11] - 1.0).abs() < RESOLUTION
-}
-
 /// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
 /// after a leap.
 /// Joints that are `held` stay.
@@ -1777,11 +1815,10 @@ fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
 const PI: f64 = core::f64::consts::PI;
 const TAU: f64 = core::f64::consts::TAU;
 
-/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
+/// The angle in [0, pi/2] of a cosine and a sine that are not negative. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
 /// interpolates at eleven Chebyshev points.
 #[inline(always)]
-fn angle(cosine: f64, sine: f64) -> f64 {
-    let (across, up) = (cosine.abs(), sine.abs());
+fn acute(across: f64, up: f64) -> f64 {
     let steep = up > across;
     let (low, high) = if steep { (across, up) } else { (up, across) };
     let far = low > 0.41421356237309503 * high;
@@ -1794,10 +1831,14 @@ fn angle(cosine: f64, sine: f64) -> f64 {
     if steep {
         angle = 0.5 * PI - (angle - 2.0 * REST);
     }
-    if cosine < 0.0 {
-        angle = PI - (angle - 4.0 * REST);
-    }
-    half_open(angle.copysign(sine))
+    angle
+}
+
+/// The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative.
+#[inline(always)]
+fn unfold(acute: f64, cosine: f64, sine: f64) -> f64 {
+    let angle = if cosine < 0.0 { PI - (acute - 4.0 * REST) } else { acute };
+    half_open(angle.copysign(sine)) + 0.0
 }
 
 /// What the double nearest to pi/4 lacks.
@@ -1925,3 +1966,249 @@ impl Math for f64 {
         libm::ceil(self)
     }
 }
+
+use core::ops::{Add, Div, Mul, Sub};
+
+/// How many candidates are measured together, and how many of them an operation takes at once.
+const ROOM: usize = 8;
+const LANES: usize = 2;
+/// By angle: where its cosine and its sine stand among the places.
+const ANGLES: usize = 6;
+const CIRCLES: [[usize; 2]; ANGLES] = [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9], [10, 11]];
+/// Angles differ by more than `BLUR` where their difference has a cosine below this.
+const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
+
+/// How a candidate was found.
+#[derive(Clone, Copy)]
+struct Found {
+    branch: usize,
+    last: usize,
+    close: bool,
+    free: [bool; JOINTS],
+}
+
+const NOT_FOUND: Found = Found { branch: 0, last: 0, close: false, free: NONE_FREE };
+
+/// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
+struct Fits {
+    residual: [f64; ROOM],
+    relative: [f64; ROOM],
+    sound: [f64; ROOM],
+}
+
+impl Answers<'_> {
+    /// Takes in a candidate, which waits to be measured together with others.
+    #[inline(always)]
+    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], free: [bool; JOINTS]) {
+        if self.waiting >= ROOM {
+            self.flush(p);
+        }
+        let k = self.waiting % ROOM;
+        for i in 0..PLACES {
+            self.at[i][k] = at[i];
+        }
+        self.found[k] = Found { branch, last, close, free };
+        self.waiting = k + 1;
+    }
+
+    /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
+    #[inline(never)]
+    fn flush(&mut self, p: &Parameters) {
+        if self.pairs.is_some() {
+            return self.flush_pairs(p);
+        }
+        let angles = angles(&self.at);
+        let fits = fits(p, &self.at);
+        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
+        let mut usual = self.count == 0;
+        for k in 0..waiting {
+            let Found { branch, last, close, free } = self.found[k];
+            let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
+            let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
+            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
+            if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
+                self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
+                self.relative[self.count] = fit.relative;
+                self.count += 1;
+                continue;
+            }
+            usual = false;
+            if holds {
+                self.keep(p, branch, last, (q, fit), free);
+            } else {
+                self.refine(p, branch, last, q, free);
+            }
+        }
+    }
+
+    /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
+    #[inline(never)]
+    fn flush_pairs(&mut self, p: &Parameters) {
+        let fits = fits(p, &self.at);
+        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
+        let Some(pairs) = &mut self.pairs else { return };
+        for k in 0..waiting {
+            let Found { branch, close, free, .. } = self.found[k];
+            let holds = free == NONE_FREE && !close && fits.relative[k] < RESOLUTION && fits.sound[k] > 0.0;
+            let joints = [
+                [self.at[0][k] + 0.0, self.at[1][k] + 0.0],
+                [self.at[2][k] + 0.0, self.at[3][k] + 0.0],
+                [self.at[4][k] + 0.0, self.at[5][k] + 0.0],
+                [self.at[6][k] + 0.0, self.at[7][k] + 0.0],
+                [self.at[8][k] + 0.0, self.at[9][k] + 0.0],
+                [self.at[10][k] + 0.0, self.at[11][k] + 0.0],
+            ];
+            let is_apart = |other: &Pairs| other.branch != branch && tell_apart(&joints, &other.joints);
+            if !(self.usual && holds && self.count < CAPACITY && pairs[..self.count].iter().all(is_apart)) {
+                self.usual = false;
+                return;
+            }
+            pairs[self.count] = Pairs { joints, residual: fits.residual[k], branch, free };
+            self.count += 1;
+        }
+    }
+
+    /// Whether an angle tells two candidates apart.
+    #[inline(always)]
+    fn are_apart(&self, k: usize, other: usize) -> bool {
+        [[4, 5], [2, 3], [0, 1], [8, 9], [10, 11], [6, 7]].iter().any(|&[c, s]| {
+            self.at[c][k] * self.at[c][other] + self.at[s][k] * self.at[s][other] < FAR_APART
+        })
+    }
+}
+
+/// Whether an angle tells two answers apart.
+#[inline(always)]
+fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
+    [2, 1, 0, 4, 5, 3].iter().any(|&i| a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
+}
+
+/// Measures candidates.
+#[inline(never)]
+fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES]) -> Fits {
+    let mut fits = Fits { residual: [0.0; ROOM], relative: [0.0; ROOM], sound: [0.0; ROOM] };
+    for first in (0..ROOM).step_by(LANES) {
+        let at: [Lanes; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
+        let mut largest = [Lanes([0.0; LANES]); SIZES];
+        for (value, size) in values(p, &at).iter().zip(SIZE_OF) {
+            largest[size] = largest[size].greater(value.size());
+        }
+        let size: [[f64; SIZES]; LANES] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
+        let (mut residual, mut relative) = (Lanes([0.0; LANES]), Lanes([0.0; LANES]));
+        for i in 0..SIZES {
+            residual = residual.greater(largest[i]);
+            let size = Lanes(size.map(|size| f64::max(size[i], f64::MIN_POSITIVE)));
+            relative = relative.greater(largest[i] / size);
+        }
+        let mut sound = Lanes([1.0; LANES]);
+        for [c, s] in CIRCLES {
+            sound = sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).size(), RESOLUTION);
+        }
+        for lane in 0..LANES {
+            fits.residual[first + lane] = residual.0[lane];
+            fits.relative[first + lane] = relative.0[lane];
+            fits.sound[first + lane] = sound.0[lane];
+        }
+    }
+    fits
+}
+
+/// At least as many as there are angles of candidates.
+const POOL: usize = (ANGLES * ROOM).next_power_of_two();
+
+/// The angles of candidates, as of [`unfold`]. Those that only differ in signs from the candidate before are not computed again.
+#[inline(never)]
+fn angles(at: &[[f64; ROOM]; PLACES]) -> [[f64; ROOM]; ANGLES] {
+    let (mut across, mut up) = ([0.0; POOL], [0.0; POOL]);
+    let mut which = [[0; ROOM]; ANGLES];
+    let mut last = POOL - 1;
+    for (which, [c, s]) in which.iter_mut().zip(CIRCLES) {
+        for k in 0..ROOM {
+            let is_new = k == 0 || (at[c][k].abs() != at[c][k - 1].abs()) | (at[s][k].abs() != at[s][k - 1].abs());
+            last = (last + is_new as usize) % POOL;
+            across[last] = at[c][k].abs();
+            up[last] = at[s][k].abs();
+            which[k] = last;
+        }
+    }
+    let acutes = acutes(&across, &up, last + 1);
+    let mut angles = which.map(|row| row.map(|i| acutes[i % POOL]));
+    for (row, [c, s]) in angles.iter_mut().zip(CIRCLES) {
+        for k in 0..ROOM {
+            row[k] = unfold(row[k], at[c][k], at[s][k]);
+        }
+    }
+    angles
+}
+
+/// The angles of the first `count` pairs of a cosine and a sine, as of [`acute`].
+#[inline(never)]
+fn acutes(across: &[f64; POOL], up: &[f64; POOL], count: usize) -> [f64; POOL] {
+    let mut acutes = [0.0; POOL];
+    for i in 0..count.min(POOL) {
+        acutes[i] = acute(across[i], up[i]);
+    }
+    acutes
+}
+
+/// Numbers that operations take at once.
+#[derive(Clone, Copy)]
+struct Lanes([f64; LANES]);
+
+impl Lanes {
+    #[inline(always)]
+    fn size(self) -> Lanes {
+        Lanes(self.0.map(f64::abs))
+    }
+
+    /// The greater of two numbers; the first where one is not a number.
+    #[inline(always)]
+    fn greater(self, other: Lanes) -> Lanes {
+        Lanes(core::array::from_fn(|i| if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] }))
+    }
+
+    /// The numbers where others are below a limit, and zero elsewhere.
+    #[inline(always)]
+    fn where_below(self, other: Lanes, limit: f64) -> Lanes {
+        Lanes(core::array::from_fn(|i| if other.0[i] < limit { self.0[i] } else { 0.0 }))
+    }
+}
+
+/// What equations are computed of: one number, or several at once.
+trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
+}
+
+impl Number for f64 {
+}
+impl Number for Lanes {
+}
+
+macro_rules! by_lane {
+    ($($operation:ident $name:ident $sign:tt)*) => {
+        $(
+            impl $operation for Lanes {
+                type Output = Lanes;
+                #[inline(always)]
+                fn $name(self, other: Lanes) -> Lanes {
+                    Lanes(core::array::from_fn(|i| self.0[i] $sign other.0[i]))
+                }
+            }
+            impl $operation<f64> for Lanes {
+                type Output = Lanes;
+                #[inline(always)]
+                fn $name(self, other: f64) -> Lanes {
+                    Lanes(self.0.map(|number| number $sign other))
+                }
+            }
+            impl $operation<Lanes> for f64 {
+                type Output = Lanes;
+                #[inline(always)]
+                fn $name(self, other: Lanes) -> Lanes {
+                    Lanes(other.0.map(|number| self $sign number))
+                }
+            }
+        )*
+    };
+}
+
+by_lane!(Add add + Sub sub - Mul mul * Div div /);

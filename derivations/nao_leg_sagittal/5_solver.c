@@ -66,6 +66,19 @@ extern const double nao_leg_sagittal_limits[2 * NAO_LEG_SAGITTAL_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_leg_sagittal_solve(const double *target, nao_leg_sagittal_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[NAO_LEG_SAGITTAL_JOINTS][2];
+    /* As in nao_leg_sagittal_solution. */
+    double residual;
+    size_t branch;
+    bool free[NAO_LEG_SAGITTAL_JOINTS];
+} nao_leg_sagittal_pairs;
+
+/* As nao_leg_sagittal_solve, by cosines and sines. */
+int nao_leg_sagittal_solve_pairs(const double *target, nao_leg_sagittal_pairs *out);
+
 /* The largest magnitude among the equations' values at joint values q (NAO_LEG_SAGITTAL_JOINTS numbers): zero where q reaches the
  * target. Not a number when a number of the target is not finite or an equation's value is not a number. */
 double nao_leg_sagittal_residual(const double *target, const double *q);
@@ -407,10 +420,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -422,11 +434,22 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi]. */
+static double angle(double cosine, double sine)
+{
+    return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -1062,20 +1085,49 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int nao_leg_sagittal_solve(const double *target, nao_leg_sagittal_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return NAO_LEG_SAGITTAL_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    block_1(&p, answers);
+    return 0;
+}
+
+int nao_leg_sagittal_solve(const double *target, nao_leg_sagittal_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     mark_choice(&answers);
     return (int)answers.count;
 }
+
+int nao_leg_sagittal_solve_pairs(const double *target, nao_leg_sagittal_pairs *out)
+{
+    Solution list[NAO_LEG_SAGITTAL_CAPACITY];
+    const int count = nao_leg_sagittal_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+    }
+    return count;
+}
+
 
 double nao_leg_sagittal_residual(const double *target, const double *q)
 {

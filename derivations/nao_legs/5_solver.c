@@ -91,6 +91,20 @@ extern const double nao_legs_limits[2 * NAO_LEGS_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_legs_solve(const double *target, nao_legs_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[NAO_LEGS_JOINTS][2];
+    /* As in nao_legs_solution. */
+    double residual;
+    size_t branch;
+    bool free[NAO_LEGS_JOINTS];
+} nao_legs_pairs;
+
+/* As nao_legs_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that nao_legs_solve finds. */
+int nao_legs_solve_pairs(const double *target, nao_legs_pairs *out);
+
 /* Writes the target (NAO_LEGS_INPUTS numbers) that joint values q (NAO_LEGS_JOINTS numbers) reach. */
 void nao_legs_forward(const double *q, double *target);
 
@@ -640,10 +654,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -655,11 +668,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -983,6 +1001,11 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEGS_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[11][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    nao_legs_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1411,9 +1434,109 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const nao_legs_pairs *a, const nao_legs_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[11] = {10, 9, 7, 8, 6, 2, 1, 0, 4, 5, 3};
+    for (size_t k = 0; k < 11; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == NAO_LEGS_CAPACITY) {
+        return false;
+    }
+    nao_legs_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[6] + 0.0;
+    pairs->joints[3][1] = at[7] + 0.0;
+    pairs->free[3] = false;
+    pairs->joints[4][0] = at[8] + 0.0;
+    pairs->joints[4][1] = at[9] + 0.0;
+    pairs->free[4] = false;
+    pairs->joints[5][0] = at[10] + 0.0;
+    pairs->joints[5][1] = at[11] + 0.0;
+    pairs->free[5] = false;
+    pairs->joints[6][0] = at[12] + 0.0;
+    pairs->joints[6][1] = at[13] + 0.0;
+    pairs->free[6] = false;
+    pairs->joints[7][0] = at[14] + 0.0;
+    pairs->joints[7][1] = at[15] + 0.0;
+    pairs->free[7] = false;
+    pairs->joints[8][0] = at[16] + 0.0;
+    pairs->joints[8][1] = at[17] + 0.0;
+    pairs->free[8] = false;
+    pairs->joints[9][0] = at[18] + 0.0;
+    pairs->joints[9][1] = at[19] + 0.0;
+    pairs->free[9] = false;
+    pairs->joints[10][0] = at[20] + 0.0;
+    pairs->joints[10][1] = at[21] + 0.0;
+    pairs->free[10] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+        joint_angle(answers, 6, at[12], at[13]),
+        joint_angle(answers, 7, at[14], at[15]),
+        joint_angle(answers, 8, at[16], at[17]),
+        joint_angle(answers, 9, at[18], at[19]),
+        joint_angle(answers, 10, at[20], at[21]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1521,6 +1644,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double left_c4;
     double left_s4;
@@ -1548,20 +1673,9 @@ typedef struct {
     double right_s5;
     double right_c6;
     double right_s6;
-    double q0;
-    double q1;
-    double q2;
-    double q3;
-    double q4;
-    double q5;
-    double q6;
-    double q7;
-    double q8;
-    double q9;
-    double q10;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1603,20 +1717,34 @@ INLINE static void chart_13_1(const Parameters *p, const Known *known, Answers *
         known->right_c6,
         known->right_s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        known->q3,
-        known->q4,
-        known->q5,
-        known->q6,
-        known->q7,
-        known->q8,
-        known->q9,
-        known->q10,
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->left_c1,
+            known->left_s1,
+            known->left_c2,
+            known->left_s2,
+            known->left_c3,
+            known->left_s3,
+            known->left_c4,
+            known->left_s4,
+            known->left_c5,
+            known->left_s5,
+            known->left_c6,
+            known->left_s6,
+            known->right_c2,
+            known->right_s2,
+            known->right_c3,
+            known->right_s3,
+            known->right_c4,
+            known->right_s4,
+            -known->right_c5,
+            -known->right_s5,
+            -known->right_c6,
+            known->right_s6,
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
+    }
 }
 
 /* Block 13: turn about the ray. */
@@ -1637,14 +1765,12 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
 {
     const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38, r44 = 1.0 / sqrt(fmax(r42, 0.0));
     const double right_c6 = shared->r39 * r44, right_s6 = 0.0 - shared->r38 * r44;
-    const double q10 = angle(right_c6, right_s6);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.right_c6 = right_c6;
     next.right_s6 = right_s6;
-    next.q10 = q10;
     block_13(p, &next, answers);
 }
 
@@ -1691,17 +1817,17 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
     }
     const double r40 = known->right_f3 * (48.08326112068523 * known->right_f2);
     const Roots roots0 = square_roots(0.0 - r34 - r35, r40);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double right_w5 = roots0.values[i0], r41 = right_w5 * shared->r32, r42 = right_w5 * shared->r33;
         const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r41 * r41, 0.0)), right_c5 = 0.0 - r42 * r47;
-        const double right_s5 = r41 * r47, q9 = angle(right_c5, right_s5);
+        const double right_s5 = r41 * r47;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.right_c5 = right_c5;
         next.right_s5 = right_s5;
-        next.q9 = q9;
         block_12(p, &next, answers);
     }
 }
@@ -1717,7 +1843,7 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1], q9 = angle(right_c5, right_s5);
+        const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1725,7 +1851,6 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
         next.free[9] = true;
         next.right_c5 = right_c5;
         next.right_s5 = right_s5;
-        next.q9 = q9;
         again_12(p, &next, answers);
     }
 }
@@ -1777,7 +1902,7 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     const double right_f3 = 1.0, r53 = shared->r38 * shared->r40 + shared->r36 * shared->r41;
     const double r56 = shared->r38 * shared->r41 - shared->r36 * shared->r40;
     const double r61 = 1.0 / sqrt(fmax(r56 * r56 + r53 * r53, 0.0)), right_c3 = r56 * r61;
-    const double right_s3 = 0.0 - r53 * r61, q7 = angle(right_c3, right_s3);
+    const double right_s3 = 0.0 - r53 * r61;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1785,7 +1910,6 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     next.right_c3 = right_c3;
     next.right_s3 = right_s3;
     next.right_f3 = right_f3;
-    next.q7 = q7;
     block_11(p, &next, answers);
 }
 
@@ -1801,7 +1925,7 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
     }
     const double right_f3 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c3 = SAMPLES_1[i0][0], right_s3 = SAMPLES_1[i0][1], q7 = angle(right_c3, right_s3);
+        const double right_c3 = SAMPLES_1[i0][0], right_s3 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1810,7 +1934,6 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
         next.right_c3 = right_c3;
         next.right_s3 = right_s3;
         next.right_f3 = right_f3;
-        next.q7 = q7;
         again_11(p, &next, answers);
     }
 }
@@ -1849,14 +1972,13 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w4 = roots0.values[i0], r32 = 0.02058 * right_w4, r33 = 0.02058 * shared->r28;
         const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r32 * r32, 0.0)), right_c4 = 0.0 - r33 * r38;
-        const double right_s4 = r32 * r38, q8 = angle(right_c4, right_s4);
+        const double right_s4 = r32 * r38;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.right_c4 = right_c4;
         next.right_s4 = right_s4;
-        next.q8 = q8;
         block_10(p, &next, answers);
     }
 }
@@ -1905,7 +2027,7 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w2 = roots0.values[i0], r41 = right_w2 * shared->r22, r42 = right_w2 * shared->r25;
         const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r41 * r41, 0.0)), right_c2 = r42 * r47;
-        const double right_s2 = 0.0 - r41 * r47, q6 = angle(right_c2, right_s2);
+        const double right_s2 = 0.0 - r41 * r47;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1913,7 +2035,6 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
         next.right_c2 = right_c2;
         next.right_s2 = right_s2;
         next.right_f2 = right_f2;
-        next.q6 = q6;
         block_9(p, &next, answers);
     }
 }
@@ -1931,7 +2052,7 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
     }
     const double right_f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c2 = SAMPLES_1[i0][0], right_s2 = SAMPLES_1[i0][1], q6 = angle(right_c2, right_s2);
+        const double right_c2 = SAMPLES_1[i0][0], right_s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1940,7 +2061,6 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
         next.right_c2 = right_c2;
         next.right_s2 = right_s2;
         next.right_f2 = right_f2;
-        next.q6 = q6;
         again_9(p, &next, answers);
     }
 }
@@ -2045,14 +2165,13 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
     const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
-    const double left_s3 = 0.0 - r63 * r69, q2 = angle(left_c3, left_s3);
+    const double left_s3 = 0.0 - r63 * r69;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.left_c3 = left_c3;
     next.left_s3 = left_s3;
-    next.q2 = q2;
     block_7(p, &next, answers);
 }
 
@@ -2091,14 +2210,13 @@ typedef struct {
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
-    const double left_c2 = shared->r29 * r34, left_s2 = shared->r26 * r34, q1 = angle(left_c2, left_s2);
+    const double left_c2 = shared->r29 * r34, left_s2 = shared->r26 * r34;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.left_c2 = left_c2;
     next.left_s2 = left_s2;
-    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
@@ -2143,14 +2261,13 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w1 = roots0.values[i0], r18 = left_w1 * shared->r6, r19 = left_w1 * shared->r10;
         const double r24 = 1.0 / sqrt(fmax(r19 * r19 + r18 * r18, 0.0)), left_c1 = 0.0 - r19 * r24;
-        const double left_s1 = r18 * r24, q0 = angle(left_c1, left_s1);
+        const double left_s1 = r18 * r24;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         block_5(p, &next, answers);
     }
 }
@@ -2166,7 +2283,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1], q0 = angle(left_c1, left_s1);
+        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -2174,7 +2291,6 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[0] = true;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         again_5(p, &next, answers);
     }
 }
@@ -2223,7 +2339,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double left_f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104, left_s5 = r96 * r104;
-    const double q4 = angle(left_c5, left_s5);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -2231,7 +2346,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     next.left_c5 = left_c5;
     next.left_s5 = left_s5;
     next.left_f5 = left_f5;
-    next.q4 = q4;
     block_4(p, &next, answers);
 }
 
@@ -2248,7 +2362,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double left_f5 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1], q4 = angle(left_c5, left_s5);
+        const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -2257,7 +2371,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.left_c5 = left_c5;
         next.left_s5 = left_s5;
         next.left_f5 = left_f5;
-        next.q4 = q4;
         again_4(p, &next, answers);
     }
 }
@@ -2321,7 +2434,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w6 = roots0.values[i0], r34 = left_w6 * shared->r11, r35 = left_w6 * shared->r18;
         const double r40 = 1.0 / sqrt(fmax(r35 * r35 + r34 * r34, 0.0)), left_c6 = 0.0 - r35 * r40;
-        const double left_s6 = r34 * r40, q5 = angle(left_c6, left_s6);
+        const double left_s6 = r34 * r40;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -2329,7 +2442,6 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         next.left_c6 = left_c6;
         next.left_s6 = left_s6;
         next.left_f6 = left_f6;
-        next.q5 = q5;
         block_3(p, &next, answers);
     }
 }
@@ -2347,7 +2459,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double left_f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1], q5 = angle(left_c6, left_s6);
+        const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -2356,7 +2468,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.left_c6 = left_c6;
         next.left_s6 = left_s6;
         next.left_f6 = left_f6;
-        next.q5 = q5;
         again_3(p, &next, answers);
     }
 }
@@ -2389,14 +2500,13 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w4 = roots0.values[i0], r31 = 0.02058 * left_w4, r32 = 0.02058 * shared->r28;
         const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), left_c4 = 0.0 - r32 * r37;
-        const double left_s4 = r31 * r37, q3 = angle(left_c4, left_s4);
+        const double left_s4 = r31 * r37;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        next.q3 = q3;
         block_2(p, &next, answers);
     }
 }
@@ -2489,7 +2599,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int nao_legs_solve(const double *given, nao_legs_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -2497,14 +2608,93 @@ int nao_legs_solve(const double *given, nao_legs_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 11; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int nao_legs_solve(const double *target, nao_legs_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int nao_legs_solve_pairs(const double *target, nao_legs_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 64) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const nao_legs_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[NAO_LEGS_CAPACITY];
+    const int count = nao_legs_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
+        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
+        out[i].free[4] = answer->free[4];
+        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
+        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
+        out[i].free[5] = answer->free[5];
+        out[i].joints[6][0] = cos(answer->q[6]) + 0.0;
+        out[i].joints[6][1] = sin(answer->q[6]) + 0.0;
+        out[i].free[6] = answer->free[6];
+        out[i].joints[7][0] = cos(answer->q[7]) + 0.0;
+        out[i].joints[7][1] = sin(answer->q[7]) + 0.0;
+        out[i].free[7] = answer->free[7];
+        out[i].joints[8][0] = cos(answer->q[8]) + 0.0;
+        out[i].joints[8][1] = sin(answer->q[8]) + 0.0;
+        out[i].free[8] = answer->free[8];
+        out[i].joints[9][0] = cos(answer->q[9]) + 0.0;
+        out[i].joints[9][1] = sin(answer->q[9]) + 0.0;
+        out[i].free[9] = answer->free[9];
+        out[i].joints[10][0] = cos(answer->q[10]) + 0.0;
+        out[i].joints[10][1] = sin(answer->q[10]) + 0.0;
+        out[i].free[10] = answer->free[10];
+    }
+    return count;
+}
+
 
 void nao_legs_forward(const double *q, double *target)
 {

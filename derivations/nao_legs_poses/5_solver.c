@@ -97,6 +97,20 @@ extern const double nao_legs_poses_limits[2 * NAO_LEGS_POSES_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_legs_poses_solve(const double *target, nao_legs_poses_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[NAO_LEGS_POSES_JOINTS][2];
+    /* As in nao_legs_poses_solution. */
+    double residual;
+    size_t branch;
+    bool free[NAO_LEGS_POSES_JOINTS];
+} nao_legs_poses_pairs;
+
+/* As nao_legs_poses_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that nao_legs_poses_solve finds. */
+int nao_legs_poses_solve_pairs(const double *target, nao_legs_poses_pairs *out);
+
 /* Writes the target (NAO_LEGS_POSES_INPUTS numbers) that joint values q (NAO_LEGS_POSES_JOINTS numbers) reach. */
 void nao_legs_poses_forward(const double *q, double *target);
 
@@ -690,10 +704,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -705,11 +718,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -1033,6 +1051,11 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEGS_POSES_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[11][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    nao_legs_poses_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1461,9 +1484,109 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const nao_legs_poses_pairs *a, const nao_legs_poses_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[11] = {7, 6, 9, 10, 8, 2, 1, 4, 5, 3, 0};
+    for (size_t k = 0; k < 11; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == NAO_LEGS_POSES_CAPACITY) {
+        return false;
+    }
+    nao_legs_poses_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[6] + 0.0;
+    pairs->joints[3][1] = at[7] + 0.0;
+    pairs->free[3] = false;
+    pairs->joints[4][0] = at[8] + 0.0;
+    pairs->joints[4][1] = at[9] + 0.0;
+    pairs->free[4] = false;
+    pairs->joints[5][0] = at[10] + 0.0;
+    pairs->joints[5][1] = at[11] + 0.0;
+    pairs->free[5] = false;
+    pairs->joints[6][0] = at[12] + 0.0;
+    pairs->joints[6][1] = at[13] + 0.0;
+    pairs->free[6] = false;
+    pairs->joints[7][0] = at[14] + 0.0;
+    pairs->joints[7][1] = at[15] + 0.0;
+    pairs->free[7] = false;
+    pairs->joints[8][0] = at[16] + 0.0;
+    pairs->joints[8][1] = at[17] + 0.0;
+    pairs->free[8] = false;
+    pairs->joints[9][0] = at[18] + 0.0;
+    pairs->joints[9][1] = at[19] + 0.0;
+    pairs->free[9] = false;
+    pairs->joints[10][0] = at[20] + 0.0;
+    pairs->joints[10][1] = at[21] + 0.0;
+    pairs->free[10] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+        joint_angle(answers, 6, at[12], at[13]),
+        joint_angle(answers, 7, at[14], at[15]),
+        joint_angle(answers, 8, at[16], at[17]),
+        joint_angle(answers, 9, at[18], at[19]),
+        joint_angle(answers, 10, at[20], at[21]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1540,19 +1663,9 @@ typedef struct {
     double right_s5;
     double right_c2;
     double right_s2;
-    double q0;
-    double q1;
-    double q2;
-    double q3;
-    double q4;
-    double q5;
-    double q6;
-    double q8;
-    double q9;
-    double q10;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1603,20 +1716,7 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
         known->right_c6,
         known->right_s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        known->q3,
-        known->q4,
-        known->q5,
-        known->q6,
-        angle(at[14], at[15]),
-        known->q8,
-        known->q9,
-        known->q10,
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 11: HipPitch. */
@@ -1655,14 +1755,13 @@ typedef struct {
 INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
-    const double right_c2 = shared->r29 * r34, right_s2 = shared->r26 * r34, q6 = angle(right_c2, right_s2);
+    const double right_c2 = shared->r29 * r34, right_s2 = shared->r26 * r34;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.right_c2 = right_c2;
     next.right_s2 = right_s2;
-    next.q6 = q6;
     block_11(p, &next, answers);
 }
 
@@ -1712,14 +1811,13 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), right_c5 = r99 * r104;
-    const double right_s5 = r96 * r104, q9 = angle(right_c5, right_s5);
+    const double right_s5 = r96 * r104;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
     next.close = known->close;
     next.right_c5 = right_c5;
     next.right_s5 = right_s5;
-    next.q9 = q9;
     block_10(p, &next, answers);
 }
 
@@ -1735,7 +1833,7 @@ static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1], q9 = angle(right_c5, right_s5);
+        const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1743,7 +1841,6 @@ static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *sh
         next.free[9] = true;
         next.right_c5 = right_c5;
         next.right_s5 = right_s5;
-        next.q9 = q9;
         again_10(p, &next, answers);
     }
 }
@@ -1807,14 +1904,13 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
     if (!is_away(shared->r36 - shared->r34, 16.0 * shared->r40)) {
         return;
     }
-    const double right_c6 = 0.0, right_s6 = 0.0, q10 = angle(right_c6, right_s6);
+    const double right_c6 = 0.0, right_s6 = 0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
     next.close = known->close;
     next.right_c6 = right_c6;
     next.right_s6 = right_s6;
-    next.q10 = q10;
     block_9(p, &next, answers);
 }
 
@@ -1832,14 +1928,13 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w6 = roots0.values[i0], r52 = right_w6 * shared->r17, r53 = right_w6 * shared->r24;
         const double r58 = 1.0 / sqrt(fmax(r53 * r53 + r52 * r52, 0.0)), right_c6 = r53 * r58;
-        const double right_s6 = r52 * r58, q10 = angle(right_c6, right_s6);
+        const double right_s6 = r52 * r58;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.right_c6 = right_c6;
         next.right_s6 = right_s6;
-        next.q10 = q10;
         again_9(p, &next, answers);
     }
 }
@@ -1856,7 +1951,7 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c6 = SAMPLES_1[i0][0], right_s6 = SAMPLES_1[i0][1], q10 = angle(right_c6, right_s6);
+        const double right_c6 = SAMPLES_1[i0][0], right_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
@@ -1864,7 +1959,6 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
         next.free[10] = true;
         next.right_c6 = right_c6;
         next.right_s6 = right_s6;
-        next.q10 = q10;
         again_9(p, &next, answers);
     }
 }
@@ -1882,14 +1976,13 @@ static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w6 = roots0.values[i0], r47 = right_w6 * shared->r26, r48 = right_w6 * shared->r28;
         const double r53 = 1.0 / sqrt(fmax(r48 * r48 + r47 * r47, 0.0)), right_c6 = 0.0 - r48 * r53;
-        const double right_s6 = r47 * r53, q10 = angle(right_c6, right_s6);
+        const double right_s6 = r47 * r53;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.right_c6 = right_c6;
         next.right_s6 = right_s6;
-        next.q10 = q10;
         again_9(p, &next, answers);
     }
 }
@@ -1905,7 +1998,7 @@ static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c6 = SAMPLES_1[i0][0], right_s6 = SAMPLES_1[i0][1], q10 = angle(right_c6, right_s6);
+        const double right_c6 = SAMPLES_1[i0][0], right_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
@@ -1913,7 +2006,6 @@ static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *sh
         next.free[10] = true;
         next.right_c6 = right_c6;
         next.right_s6 = right_s6;
-        next.q10 = q10;
         again_9(p, &next, answers);
     }
 }
@@ -1954,14 +2046,13 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w4 = roots0.values[i0], r31 = 0.02058 * right_w4, r32 = 0.02058 * shared->r28;
         const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), right_c4 = 0.0 - r32 * r37;
-        const double right_s4 = r31 * r37, q8 = angle(right_c4, right_s4);
+        const double right_s4 = r31 * r37;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.right_c4 = right_c4;
         next.right_s4 = right_s4;
-        next.q8 = q8;
         block_8(p, &next, answers);
     }
 }
@@ -1993,14 +2084,13 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
     const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
-    const double left_s3 = 0.0 - r63 * r69, q2 = angle(left_c3, left_s3);
+    const double left_s3 = 0.0 - r63 * r69;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.left_c3 = left_c3;
     next.left_s3 = left_s3;
-    next.q2 = q2;
     block_7(p, &next, answers);
 }
 
@@ -2039,14 +2129,13 @@ typedef struct {
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
-    const double left_c2 = shared->r29 * r34, left_s2 = shared->r26 * r34, q1 = angle(left_c2, left_s2);
+    const double left_c2 = shared->r29 * r34, left_s2 = shared->r26 * r34;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.left_c2 = left_c2;
     next.left_s2 = left_s2;
-    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
@@ -2096,14 +2185,12 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104, left_s5 = r96 * r104;
-    const double q4 = angle(left_c5, left_s5);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
     next.close = known->close;
     next.left_c5 = left_c5;
     next.left_s5 = left_s5;
-    next.q4 = q4;
     block_5(p, &next, answers);
 }
 
@@ -2119,7 +2206,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1], q4 = angle(left_c5, left_s5);
+        const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -2127,7 +2214,6 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[4] = true;
         next.left_c5 = left_c5;
         next.left_s5 = left_s5;
-        next.q4 = q4;
         again_5(p, &next, answers);
     }
 }
@@ -2191,14 +2277,13 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     if (!is_away(shared->r35 - shared->r34, 16.0 * shared->r39)) {
         return;
     }
-    const double left_c6 = 0.0, left_s6 = 0.0, q5 = angle(left_c6, left_s6);
+    const double left_c6 = 0.0, left_s6 = 0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
     next.close = known->close;
     next.left_c6 = left_c6;
     next.left_s6 = left_s6;
-    next.q5 = q5;
     block_4(p, &next, answers);
 }
 
@@ -2216,14 +2301,13 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w6 = roots0.values[i0], r51 = left_w6 * shared->r17, r52 = left_w6 * shared->r24;
         const double r57 = 1.0 / sqrt(fmax(r52 * r52 + r51 * r51, 0.0)), left_c6 = 0.0 - r52 * r57;
-        const double left_s6 = r51 * r57, q5 = angle(left_c6, left_s6);
+        const double left_s6 = r51 * r57;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.left_c6 = left_c6;
         next.left_s6 = left_s6;
-        next.q5 = q5;
         again_4(p, &next, answers);
     }
 }
@@ -2240,7 +2324,7 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1], q5 = angle(left_c6, left_s6);
+        const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
@@ -2248,7 +2332,6 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
         next.free[5] = true;
         next.left_c6 = left_c6;
         next.left_s6 = left_s6;
-        next.q5 = q5;
         again_4(p, &next, answers);
     }
 }
@@ -2266,14 +2349,13 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w6 = roots0.values[i0], r46 = left_w6 * shared->r26, r47 = left_w6 * shared->r28;
         const double r52 = 1.0 / sqrt(fmax(r47 * r47 + r46 * r46, 0.0)), left_c6 = 0.0 - r47 * r52;
-        const double left_s6 = r46 * r52, q5 = angle(left_c6, left_s6);
+        const double left_s6 = r46 * r52;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.left_c6 = left_c6;
         next.left_s6 = left_s6;
-        next.q5 = q5;
         again_4(p, &next, answers);
     }
 }
@@ -2289,7 +2371,7 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1], q5 = angle(left_c6, left_s6);
+        const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
@@ -2297,7 +2379,6 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
         next.free[5] = true;
         next.left_c6 = left_c6;
         next.left_s6 = left_s6;
-        next.q5 = q5;
         again_4(p, &next, answers);
     }
 }
@@ -2338,14 +2419,13 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w4 = roots0.values[i0], r31 = 0.02058 * left_w4, r32 = 0.02058 * shared->r28;
         const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), left_c4 = 0.0 - r32 * r37;
-        const double left_s4 = r31 * r37, q3 = angle(left_c4, left_s4);
+        const double left_s4 = r31 * r37;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        next.q3 = q3;
         block_3(p, &next, answers);
     }
 }
@@ -2394,14 +2474,13 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     if (!is_away(shared->r63 - shared->r61, 16.0 * shared->r66)) {
         return;
     }
-    const double left_c1 = 0.0, left_s1 = 0.0, q0 = angle(left_c1, left_s1);
+    const double left_c1 = 0.0, left_s1 = 0.0;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
     next.close = false;
     next.left_c1 = left_c1;
     next.left_s1 = left_s1;
-    next.q0 = q0;
     block_2(p, &next, answers);
 }
 
@@ -2419,14 +2498,13 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w1 = roots0.values[i0], r78 = left_w1 * shared->r19, r81 = left_w1 * shared->r32;
         const double r88 = 1.0 / sqrt(fmax(r81 * r81 + r78 * r78, 0.0)), left_c1 = r81 * r88;
-        const double left_s1 = r78 * r88, q0 = angle(left_c1, left_s1);
+        const double left_s1 = r78 * r88;
         Known next = NOTHING_KNOWN;
         next.branch = 1 + i0;
         next.last = 3;
         next.close = roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         again_2(p, &next, answers);
     }
 }
@@ -2443,7 +2521,7 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1], q0 = angle(left_c1, left_s1);
+        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 3;
         next.last = 4;
@@ -2451,7 +2529,6 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
         next.free[0] = true;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         again_2(p, &next, answers);
     }
 }
@@ -2470,14 +2547,13 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w1 = roots0.values[i0], r78 = left_w1 * shared->r41, r81 = left_w1 * shared->r54;
         const double r89 = 1.0 / sqrt(fmax(r81 * r81 + r78 * r78, 0.0)), left_c1 = 0.0 - r81 * r89;
-        const double left_s1 = r78 * r89, q0 = angle(left_c1, left_s1);
+        const double left_s1 = r78 * r89;
         Known next = NOTHING_KNOWN;
         next.branch = 4 + i0;
         next.last = 6;
         next.close = roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         again_2(p, &next, answers);
     }
 }
@@ -2494,7 +2570,7 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1], q0 = angle(left_c1, left_s1);
+        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 6;
         next.last = 7;
@@ -2502,7 +2578,6 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
         next.free[0] = true;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         again_2(p, &next, answers);
     }
 }
@@ -2600,7 +2675,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int nao_legs_poses_solve(const double *given, nao_legs_poses_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -2608,13 +2684,92 @@ int nao_legs_poses_solve(const double *given, nao_legs_poses_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 11; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int nao_legs_poses_solve(const double *target, nao_legs_poses_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     sort(&answers);
     return (int)answers.count;
 }
+
+int nao_legs_poses_solve_pairs(const double *target, nao_legs_poses_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const nao_legs_poses_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[NAO_LEGS_POSES_CAPACITY];
+    const int count = nao_legs_poses_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
+        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
+        out[i].free[4] = answer->free[4];
+        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
+        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
+        out[i].free[5] = answer->free[5];
+        out[i].joints[6][0] = cos(answer->q[6]) + 0.0;
+        out[i].joints[6][1] = sin(answer->q[6]) + 0.0;
+        out[i].free[6] = answer->free[6];
+        out[i].joints[7][0] = cos(answer->q[7]) + 0.0;
+        out[i].joints[7][1] = sin(answer->q[7]) + 0.0;
+        out[i].free[7] = answer->free[7];
+        out[i].joints[8][0] = cos(answer->q[8]) + 0.0;
+        out[i].joints[8][1] = sin(answer->q[8]) + 0.0;
+        out[i].free[8] = answer->free[8];
+        out[i].joints[9][0] = cos(answer->q[9]) + 0.0;
+        out[i].joints[9][1] = sin(answer->q[9]) + 0.0;
+        out[i].free[9] = answer->free[9];
+        out[i].joints[10][0] = cos(answer->q[10]) + 0.0;
+        out[i].joints[10][1] = sin(answer->q[10]) + 0.0;
+        out[i].free[10] = answer->free[10];
+    }
+    return count;
+}
+
 
 void nao_legs_poses_forward(const double *q, double *target)
 {

@@ -102,6 +102,20 @@ extern const double nao_legs_yaw_limits[2 * NAO_LEGS_YAW_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_legs_yaw_solve(const double *target, nao_legs_yaw_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[NAO_LEGS_YAW_JOINTS][2];
+    /* As in nao_legs_yaw_solution. */
+    double residual;
+    size_t branch;
+    bool free[NAO_LEGS_YAW_JOINTS];
+} nao_legs_yaw_pairs;
+
+/* As nao_legs_yaw_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that nao_legs_yaw_solve finds. */
+int nao_legs_yaw_solve_pairs(const double *target, nao_legs_yaw_pairs *out);
+
 /* Writes the target (NAO_LEGS_YAW_INPUTS numbers) that joint values q (NAO_LEGS_YAW_JOINTS numbers) reach. */
 void nao_legs_yaw_forward(const double *q, double *target);
 
@@ -986,10 +1000,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -1001,11 +1014,22 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi]. */
+static double angle(double cosine, double sine)
+{
+    return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -1341,6 +1365,11 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEGS_YAW_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[14][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    nao_legs_yaw_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1778,9 +1807,121 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const nao_legs_yaw_pairs *a, const nao_legs_yaw_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[14] = {10, 9, 12, 13, 11, 5, 4, 7, 8, 6, 3, 0, 2, 1};
+    for (size_t k = 0; k < 14; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == NAO_LEGS_YAW_CAPACITY) {
+        return false;
+    }
+    nao_legs_yaw_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[6] + 0.0;
+    pairs->joints[3][1] = at[7] + 0.0;
+    pairs->free[3] = false;
+    pairs->joints[4][0] = at[8] + 0.0;
+    pairs->joints[4][1] = at[9] + 0.0;
+    pairs->free[4] = false;
+    pairs->joints[5][0] = at[10] + 0.0;
+    pairs->joints[5][1] = at[11] + 0.0;
+    pairs->free[5] = false;
+    pairs->joints[6][0] = at[12] + 0.0;
+    pairs->joints[6][1] = at[13] + 0.0;
+    pairs->free[6] = false;
+    pairs->joints[7][0] = at[14] + 0.0;
+    pairs->joints[7][1] = at[15] + 0.0;
+    pairs->free[7] = false;
+    pairs->joints[8][0] = at[16] + 0.0;
+    pairs->joints[8][1] = at[17] + 0.0;
+    pairs->free[8] = false;
+    pairs->joints[9][0] = at[18] + 0.0;
+    pairs->joints[9][1] = at[19] + 0.0;
+    pairs->free[9] = false;
+    pairs->joints[10][0] = at[20] + 0.0;
+    pairs->joints[10][1] = at[21] + 0.0;
+    pairs->free[10] = false;
+    pairs->joints[11][0] = at[22] + 0.0;
+    pairs->joints[11][1] = at[23] + 0.0;
+    pairs->free[11] = false;
+    pairs->joints[12][0] = at[24] + 0.0;
+    pairs->joints[12][1] = at[25] + 0.0;
+    pairs->free[12] = false;
+    pairs->joints[13][0] = at[26] + 0.0;
+    pairs->joints[13][1] = at[27] + 0.0;
+    pairs->free[13] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+        joint_angle(answers, 6, at[12], at[13]),
+        joint_angle(answers, 7, at[14], at[15]),
+        joint_angle(answers, 8, at[16], at[17]),
+        joint_angle(answers, 9, at[18], at[19]),
+        joint_angle(answers, 10, at[20], at[21]),
+        joint_angle(answers, 11, at[22], at[23]),
+        joint_angle(answers, 12, at[24], at[25]),
+        joint_angle(answers, 13, at[26], at[27]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1877,22 +2018,9 @@ typedef struct {
     double right_s8;
     double right_c5;
     double right_s5;
-    double q0;
-    double q1;
-    double q2;
-    double q3;
-    double q4;
-    double q5;
-    double q6;
-    double q7;
-    double q8;
-    double q9;
-    double q11;
-    double q12;
-    double q13;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1949,23 +2077,7 @@ INLINE static void chart_14_1(const Parameters *p, const Known *known, const Sha
         known->right_c9,
         known->right_s9,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        known->q3,
-        known->q4,
-        known->q5,
-        known->q6,
-        known->q7,
-        known->q8,
-        known->q9,
-        angle(at[20], at[21]),
-        known->q11,
-        known->q12,
-        known->q13,
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 14: HipPitch. */
@@ -2015,14 +2127,13 @@ typedef struct {
 INLINE static void chart_13_1(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
 {
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
-    const double right_c5 = shared->r47 * r52, right_s5 = shared->r44 * r52, q9 = angle(right_c5, right_s5);
+    const double right_c5 = shared->r47 * r52, right_s5 = shared->r44 * r52;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.right_c5 = right_c5;
     next.right_s5 = right_s5;
-    next.q9 = q9;
     block_14(p, &next, answers);
 }
 
@@ -2073,14 +2184,13 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
     const double r105 = shared->r77 * shared->r92 - (0.0 - shared->r89 * shared->r91);
     const double r108 = shared->r77 * shared->r91 - shared->r89 * shared->r92;
     const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r105 * r105, 0.0)), right_c8 = r108 * r113;
-    const double right_s8 = r105 * r113, q12 = angle(right_c8, right_s8);
+    const double right_s8 = r105 * r113;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
     next.close = known->close;
     next.right_c8 = right_c8;
     next.right_s8 = right_s8;
-    next.q12 = q12;
     block_13(p, &next, answers);
 }
 
@@ -2095,7 +2205,7 @@ static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c8 = SAMPLES_1[i0][0], right_s8 = SAMPLES_1[i0][1], q12 = angle(right_c8, right_s8);
+        const double right_c8 = SAMPLES_1[i0][0], right_s8 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -2103,7 +2213,6 @@ static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *
         next.free[12] = true;
         next.right_c8 = right_c8;
         next.right_s8 = right_s8;
-        next.q12 = q12;
         again_13(p, &next, answers);
     }
 }
@@ -2168,14 +2277,13 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
     if (!is_away(shared->r80 - shared->r78, 16.0 * shared->r84)) {
         return;
     }
-    const double right_c9 = 0.0, right_s9 = 0.0, q13 = angle(right_c9, right_s9);
+    const double right_c9 = 0.0, right_s9 = 0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
     next.close = known->close;
     next.right_c9 = right_c9;
     next.right_s9 = right_s9;
-    next.q13 = q13;
     block_12(p, &next, answers);
 }
 
@@ -2193,14 +2301,13 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w9 = roots0.values[i0], r96 = right_w9 * shared->r57, r97 = right_w9 * shared->r68;
         const double r102 = 1.0 / sqrt(fmax(r97 * r97 + r96 * r96, 0.0)), right_c9 = r97 * r102;
-        const double right_s9 = r96 * r102, q13 = angle(right_c9, right_s9);
+        const double right_s9 = r96 * r102;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
-        next.q13 = q13;
         again_12(p, &next, answers);
     }
 }
@@ -2217,7 +2324,7 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1], q13 = angle(right_c9, right_s9);
+        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
@@ -2225,7 +2332,6 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
         next.free[13] = true;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
-        next.q13 = q13;
         again_12(p, &next, answers);
     }
 }
@@ -2243,14 +2349,13 @@ static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w9 = roots0.values[i0], r91 = right_w9 * shared->r70, r92 = right_w9 * shared->r72;
         const double r97 = 1.0 / sqrt(fmax(r92 * r92 + r91 * r91, 0.0)), right_c9 = 0.0 - r92 * r97;
-        const double right_s9 = r91 * r97, q13 = angle(right_c9, right_s9);
+        const double right_s9 = r91 * r97;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
-        next.q13 = q13;
         again_12(p, &next, answers);
     }
 }
@@ -2266,7 +2371,7 @@ static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1], q13 = angle(right_c9, right_s9);
+        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
@@ -2274,7 +2379,6 @@ static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *
         next.free[13] = true;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
-        next.q13 = q13;
         again_12(p, &next, answers);
     }
 }
@@ -2328,14 +2432,13 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w7 = roots0.values[i0], r44 = 0.02058 * right_w7, r45 = 0.02058 * shared->r41;
         const double r50 = 1.0 / sqrt(fmax(r45 * r45 + r44 * r44, 0.0)), right_c7 = 0.0 - r45 * r50;
-        const double right_s7 = r44 * r50, q11 = angle(right_c7, right_s7);
+        const double right_s7 = r44 * r50;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.right_c7 = right_c7;
         next.right_s7 = right_s7;
-        next.q11 = q11;
         block_11(p, &next, answers);
     }
 }
@@ -2370,14 +2473,13 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
 {
     const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
     const double r105 = 1.0 / sqrt(fmax(r100 * r100 + r99 * r99, 0.0)), left_c6 = r100 * r105;
-    const double left_s6 = 0.0 - r99 * r105, q5 = angle(left_c6, left_s6);
+    const double left_s6 = 0.0 - r99 * r105;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.left_c6 = left_c6;
     next.left_s6 = left_s6;
-    next.q5 = q5;
     block_10(p, &next, answers);
 }
 
@@ -2427,14 +2529,13 @@ typedef struct {
 INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
-    const double left_c5 = shared->r47 * r52, left_s5 = shared->r44 * r52, q4 = angle(left_c5, left_s5);
+    const double left_c5 = shared->r47 * r52, left_s5 = shared->r44 * r52;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.left_c5 = left_c5;
     next.left_s5 = left_s5;
-    next.q4 = q4;
     block_9(p, &next, answers);
 }
 
@@ -2485,14 +2586,13 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
     const double r104 = shared->r77 * shared->r92 - shared->r89 * shared->r91;
     const double r108 = shared->r89 * shared->r92 - (0.0 - shared->r77 * shared->r91);
     const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r104 * r104, 0.0)), left_c8 = r108 * r113;
-    const double left_s8 = r104 * r113, q7 = angle(left_c8, left_s8);
+    const double left_s8 = r104 * r113;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
     next.close = known->close;
     next.left_c8 = left_c8;
     next.left_s8 = left_s8;
-    next.q7 = q7;
     block_8(p, &next, answers);
 }
 
@@ -2507,7 +2607,7 @@ static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c8 = SAMPLES_1[i0][0], left_s8 = SAMPLES_1[i0][1], q7 = angle(left_c8, left_s8);
+        const double left_c8 = SAMPLES_1[i0][0], left_s8 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -2515,7 +2615,6 @@ static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *sh
         next.free[7] = true;
         next.left_c8 = left_c8;
         next.left_s8 = left_s8;
-        next.q7 = q7;
         again_8(p, &next, answers);
     }
 }
@@ -2579,14 +2678,13 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
     if (!is_away(shared->r79 - shared->r78, 16.0 * shared->r83)) {
         return;
     }
-    const double left_c9 = 0.0, left_s9 = 0.0, q8 = angle(left_c9, left_s9);
+    const double left_c9 = 0.0, left_s9 = 0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
     next.close = known->close;
     next.left_c9 = left_c9;
     next.left_s9 = left_s9;
-    next.q8 = q8;
     block_7(p, &next, answers);
 }
 
@@ -2604,14 +2702,13 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w9 = roots0.values[i0], r95 = left_w9 * shared->r57, r96 = left_w9 * shared->r68;
         const double r101 = 1.0 / sqrt(fmax(r96 * r96 + r95 * r95, 0.0)), left_c9 = 0.0 - r96 * r101;
-        const double left_s9 = r95 * r101, q8 = angle(left_c9, left_s9);
+        const double left_s9 = r95 * r101;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
-        next.q8 = q8;
         again_7(p, &next, answers);
     }
 }
@@ -2628,7 +2725,7 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1], q8 = angle(left_c9, left_s9);
+        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
@@ -2636,7 +2733,6 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
         next.free[8] = true;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
-        next.q8 = q8;
         again_7(p, &next, answers);
     }
 }
@@ -2654,14 +2750,13 @@ static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w9 = roots0.values[i0], r90 = left_w9 * shared->r70, r91 = left_w9 * shared->r72;
         const double r96 = 1.0 / sqrt(fmax(r91 * r91 + r90 * r90, 0.0)), left_c9 = 0.0 - r91 * r96;
-        const double left_s9 = r90 * r96, q8 = angle(left_c9, left_s9);
+        const double left_s9 = r90 * r96;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
-        next.q8 = q8;
         again_7(p, &next, answers);
     }
 }
@@ -2677,7 +2772,7 @@ static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1], q8 = angle(left_c9, left_s9);
+        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
@@ -2685,7 +2780,6 @@ static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *sh
         next.free[8] = true;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
-        next.q8 = q8;
         again_7(p, &next, answers);
     }
 }
@@ -2736,14 +2830,13 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w7 = roots0.values[i0], r44 = 0.02058 * left_w7, r45 = 0.02058 * shared->r41;
         const double r50 = 1.0 / sqrt(fmax(r45 * r45 + r44 * r44, 0.0)), left_c7 = 0.0 - r45 * r50;
-        const double left_s7 = r44 * r50, q6 = angle(left_c7, left_s7);
+        const double left_s7 = r44 * r50;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.left_c7 = left_c7;
         next.left_s7 = left_s7;
-        next.q6 = q6;
         block_6(p, &next, answers);
     }
 }
@@ -2795,14 +2888,13 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     if (!is_away(shared->r139 + shared->r141, 16.0 * shared->r144)) {
         return;
     }
-    const double left_c4 = 0.0, left_s4 = 0.0, q3 = angle(left_c4, left_s4);
+    const double left_c4 = 0.0, left_s4 = 0.0;
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
     next.close = known->close;
     next.left_c4 = left_c4;
     next.left_s4 = left_s4;
-    next.q3 = q3;
     block_5(p, &next, answers);
 }
 
@@ -2820,14 +2912,13 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w4 = roots0.values[i0], r156 = left_w4 * shared->r98, r160 = left_w4 * shared->r110;
         const double r167 = 1.0 / sqrt(fmax(r160 * r160 + r156 * r156, 0.0)), left_c4 = r160 * r167;
-        const double left_s4 = 0.0 - r156 * r167, q3 = angle(left_c4, left_s4);
+        const double left_s4 = 0.0 - r156 * r167;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -2844,7 +2935,7 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1], q3 = angle(left_c4, left_s4);
+        const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
@@ -2852,7 +2943,6 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[3] = true;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -2871,14 +2961,13 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w4 = roots0.values[i0], r156 = left_w4 * shared->r120, r160 = left_w4 * shared->r132;
         const double r168 = 1.0 / sqrt(fmax(r160 * r160 + r156 * r156, 0.0)), left_c4 = 0.0 - r160 * r168;
-        const double left_s4 = 0.0 - r156 * r168, q3 = angle(left_c4, left_s4);
+        const double left_s4 = 0.0 - r156 * r168;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
         next.close = known->close || roots0.close;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -2895,7 +2984,7 @@ static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1], q3 = angle(left_c4, left_s4);
+        const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
@@ -2903,7 +2992,6 @@ static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[3] = true;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -3011,14 +3099,13 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         const double r345 = shared->r175 * shared->r175 + shared->r184 * shared->r184;
         const double r347 = (r339 + shared->r175 * (r321 + r322)) / r345, r352 = 1.0 - (0.0 - left_w1 * r347);
         const double r357 = 1.0 / sqrt(fmax(r352 * r352 + r347 * r347, 0.0)), left_c1 = r352 * r357;
-        const double left_s1 = 0.0 - r347 * r357, q0 = angle(left_c1, left_s1);
+        const double left_s1 = 0.0 - r347 * r357;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
         next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -3060,14 +3147,13 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         const double r343 = left_w1 * (r332 + r337) + (shared->r184 * r334 - r341);
         const double r347 = r343 / (r341 + shared->r184 * shared->r184), r350 = left_w1 * (1.0 - r347);
         const double r356 = 1.0 / sqrt(fmax(r350 * r350 + r347 * r347, 0.0)), left_c1 = 0.0 - r350 * r356;
-        const double left_s1 = 0.0 - r347 * r356, q0 = angle(left_c1, left_s1);
+        const double left_s1 = 0.0 - r347 * r356;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
         next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -3106,14 +3192,13 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
         const double r340 = left_w1 * (shared->r184 * r329 + r335) + shared->r175 * (r319 - r320);
         const double r343 = shared->r175 * shared->r175 + shared->r184 * shared->r184, r345 = r340 / r343;
         const double r350 = left_w1 * r345 - 1.0, r355 = 1.0 / sqrt(fmax(r350 * r350 + r345 * r345, 0.0));
-        const double left_c1 = r350 * r355, left_s1 = 0.0 - r345 * r355, q0 = angle(left_c1, left_s1);
+        const double left_c1 = r350 * r355, left_s1 = 0.0 - r345 * r355;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
         next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -3155,14 +3240,13 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
         const double r344 = left_w1 * (left_w1 * r333 + r338) + (shared->r184 * r335 + r342);
         const double r348 = r344 / (r342 + shared->r184 * shared->r184), r351 = left_w1 * (0.0 - r348 - 1.0);
         const double r357 = 1.0 / sqrt(fmax(r351 * r351 + r348 * r348, 0.0)), left_c1 = 0.0 - r351 * r357;
-        const double left_s1 = 0.0 - r348 * r357, q0 = angle(left_c1, left_s1);
+        const double left_s1 = 0.0 - r348 * r357;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
         next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -3216,14 +3300,13 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
         const double r402 = shared->r175 * shared->r175 + shared->r184 * shared->r184;
         const double r404 = (left_w1 * r384 + r398) / r402, r409 = 0.6 - left_w1 * (0.8 - r404);
         const double r414 = 1.0 / sqrt(fmax(r409 * r409 + r404 * r404, 0.0)), left_c1 = r409 * r414;
-        const double left_s1 = 0.0 - r404 * r414, q0 = angle(left_c1, left_s1);
+        const double left_s1 = 0.0 - r404 * r414;
         Known next = *known;
         next.branch = 5 * known->branch + i0;
         next.last = 5 * known->last;
         next.close = known->close || roots0.close;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -3248,7 +3331,7 @@ static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1], q0 = angle(left_c1, left_s1);
+        const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 5 * known->branch + 4;
         next.last = 5 * known->last;
@@ -3256,7 +3339,6 @@ static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *sh
         next.free[0] = true;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
-        next.q0 = q0;
         again_4(p, &next, answers);
     }
 }
@@ -3360,14 +3442,13 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
  */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double left_c3_ = p->left_c3, left_s3_ = p->left_s3, q2 = angle(left_c3_, left_s3_);
+    const double left_c3_ = p->left_c3, left_s3_ = p->left_s3;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.left_c3_ = left_c3_;
     next.left_s3_ = left_s3_;
-    next.q2 = q2;
     block_3(p, &next, answers);
 }
 
@@ -3381,14 +3462,13 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
  */
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double left_c2_ = p->left_c2, left_s2_ = p->left_s2, q1 = angle(left_c2_, left_s2_);
+    const double left_c2_ = p->left_c2, left_s2_ = p->left_s2;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
     next.close = false;
     next.left_c2_ = left_c2_;
     next.left_s2_ = left_s2_;
-    next.q1 = q1;
     block_2(p, &next, answers);
 }
 
@@ -3458,7 +3538,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int nao_legs_yaw_solve(const double *given, nao_legs_yaw_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -3466,13 +3547,101 @@ int nao_legs_yaw_solve(const double *given, nao_legs_yaw_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 14; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int nao_legs_yaw_solve(const double *target, nao_legs_yaw_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     sort(&answers);
     return (int)answers.count;
 }
+
+int nao_legs_yaw_solve_pairs(const double *target, nao_legs_yaw_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const nao_legs_yaw_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[NAO_LEGS_YAW_CAPACITY];
+    const int count = nao_legs_yaw_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
+        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
+        out[i].free[4] = answer->free[4];
+        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
+        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
+        out[i].free[5] = answer->free[5];
+        out[i].joints[6][0] = cos(answer->q[6]) + 0.0;
+        out[i].joints[6][1] = sin(answer->q[6]) + 0.0;
+        out[i].free[6] = answer->free[6];
+        out[i].joints[7][0] = cos(answer->q[7]) + 0.0;
+        out[i].joints[7][1] = sin(answer->q[7]) + 0.0;
+        out[i].free[7] = answer->free[7];
+        out[i].joints[8][0] = cos(answer->q[8]) + 0.0;
+        out[i].joints[8][1] = sin(answer->q[8]) + 0.0;
+        out[i].free[8] = answer->free[8];
+        out[i].joints[9][0] = cos(answer->q[9]) + 0.0;
+        out[i].joints[9][1] = sin(answer->q[9]) + 0.0;
+        out[i].free[9] = answer->free[9];
+        out[i].joints[10][0] = cos(answer->q[10]) + 0.0;
+        out[i].joints[10][1] = sin(answer->q[10]) + 0.0;
+        out[i].free[10] = answer->free[10];
+        out[i].joints[11][0] = cos(answer->q[11]) + 0.0;
+        out[i].joints[11][1] = sin(answer->q[11]) + 0.0;
+        out[i].free[11] = answer->free[11];
+        out[i].joints[12][0] = cos(answer->q[12]) + 0.0;
+        out[i].joints[12][1] = sin(answer->q[12]) + 0.0;
+        out[i].free[12] = answer->free[12];
+        out[i].joints[13][0] = cos(answer->q[13]) + 0.0;
+        out[i].joints[13][1] = sin(answer->q[13]) + 0.0;
+        out[i].free[13] = answer->free[13];
+    }
+    return count;
+}
+
 
 void nao_legs_yaw_forward(const double *q, double *target)
 {

@@ -118,10 +118,71 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
+    answers.flush(p);
     answers.sort();
     Ok(answers.count)
+}
+
+/// One answer by cosines and sines.
+#[allow(dead_code)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pairs {
+    /// By joint: the cosine and the sine of an angle; a length's value and zero.
+    pub joints: [[f64; 2]; JOINTS],
+    /// As in [`Solution`].
+    pub residual: f64,
+    /// As in [`Solution`].
+    pub branch: usize,
+    /// As in [`Solution`].
+    pub free: [bool; JOINTS],
+}
+
+impl Pairs {
+    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
+    #[allow(dead_code)]
+    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
+}
+
+/// As [`solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+/// two are next to each other, the cosines and sines are those of the angles that [`solve`] finds.
+///
+/// # Errors
+/// As [`solve`].
+#[allow(dead_code)]
+pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
+    let p = &parameters(&conform(target)?);
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    block_1(p, &mut answers);
+    answers.flush(p);
+    let count = answers.count;
+    if answers.usual {
+        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
+        return Ok(count);
+    }
+    let mut list = [Solution::EMPTY; CAPACITY];
+    let count = solve(target, &mut list)?;
+    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
+        let joints = [
+            [q[0].cos() + 0.0, q[0].sin() + 0.0],
+            [q[1].cos() + 0.0, q[1].sin() + 0.0],
+            [q[2].cos() + 0.0, q[2].sin() + 0.0],
+            [q[3].cos() + 0.0, q[3].sin() + 0.0],
+            [q[4].cos() + 0.0, q[4].sin() + 0.0],
+            [q[5].cos() + 0.0, q[5].sin() + 0.0],
+            [q[6].cos() + 0.0, q[6].sin() + 0.0],
+            [q[7].cos() + 0.0, q[7].sin() + 0.0],
+            [q[8].cos() + 0.0, q[8].sin() + 0.0],
+            [q[9].cos() + 0.0, q[9].sin() + 0.0],
+            [q[10].cos() + 0.0, q[10].sin() + 0.0],
+            [q[11].cos() + 0.0, q[11].sin() + 0.0],
+            [q[12].cos() + 0.0, q[12].sin() + 0.0],
+            [q[13].cos() + 0.0, q[13].sin() + 0.0],
+        ];
+        *pairs = Pairs { joints, residual, branch, free };
+    }
+    Ok(count)
 }
 
 /// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
@@ -490,22 +551,9 @@ struct Known {
     right_s8: f64,
     right_c5: f64,
     right_s5: f64,
-    q0: f64,
-    q1: f64,
-    q2: f64,
-    q3: f64,
-    q4: f64,
-    q5: f64,
-    q6: f64,
-    q7: f64,
-    q8: f64,
-    q9: f64,
-    q11: f64,
-    q12: f64,
-    q13: f64,
 }
 
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, left_c2_: 0.0, left_s2_: 0.0, left_c3_: 0.0, left_s3_: 0.0, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c7: 0.0, left_s7: 0.0, left_c9: 0.0, left_s9: 0.0, left_c8: 0.0, left_s8: 0.0, left_c5: 0.0, left_s5: 0.0, left_c6: 0.0, left_s6: 0.0, right_c7: 0.0, right_s7: 0.0, right_c9: 0.0, right_s9: 0.0, right_c8: 0.0, right_s8: 0.0, right_c5: 0.0, right_s5: 0.0, q0: 0.0, q1: 0.0, q2: 0.0, q3: 0.0, q4: 0.0, q5: 0.0, q6: 0.0, q7: 0.0, q8: 0.0, q9: 0.0, q11: 0.0, q12: 0.0, q13: 0.0 };
+const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, left_c2_: 0.0, left_s2_: 0.0, left_c3_: 0.0, left_s3_: 0.0, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c7: 0.0, left_s7: 0.0, left_c9: 0.0, left_s9: 0.0, left_c8: 0.0, left_s8: 0.0, left_c5: 0.0, left_s5: 0.0, left_c6: 0.0, left_s6: 0.0, right_c7: 0.0, right_s7: 0.0, right_c9: 0.0, right_s9: 0.0, right_c8: 0.0, right_s8: 0.0, right_c5: 0.0, right_s5: 0.0 };
 
 /// Where charts put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
@@ -529,8 +577,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let left_c2_ = p.left_c2;
     let left_s2_ = p.left_s2;
-    let q1 = angle(left_c2_, left_s2_);
-    let next = Known { branch: 0, last: 1, close: false, left_c2_, left_s2_, q1, ..NOTHING_KNOWN };
+    let next = Known { branch: 0, last: 1, close: false, left_c2_, left_s2_, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
 
@@ -545,8 +592,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 fn chart_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let left_c3_ = p.left_c3;
     let left_s3_ = p.left_s3;
-    let q2 = angle(left_c3_, left_s3_);
-    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c3_, left_s3_, q2, ..*known };
+    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c3_, left_s3_, ..*known };
     block_3(p, &next, answers);
 }
 
@@ -708,8 +754,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r357 = 1.0 / r356;
         let left_c1 = r352 * r357;
         let left_s1 = 0.0 - r347 * r357;
-        let q0 = angle(left_c1, left_s1);
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -754,8 +799,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r356 = 1.0 / r355;
         let left_c1 = 0.0 - r350 * r356;
         let left_s1 = 0.0 - r347 * r356;
-        let q0 = angle(left_c1, left_s1);
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -798,8 +842,7 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r355 = 1.0 / r354;
         let left_c1 = r350 * r355;
         let left_s1 = 0.0 - r345 * r355;
-        let q0 = angle(left_c1, left_s1);
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -845,8 +888,7 @@ fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r357 = 1.0 / r356;
         let left_c1 = 0.0 - r351 * r357;
         let left_s1 = 0.0 - r348 * r357;
-        let q0 = angle(left_c1, left_s1);
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -910,8 +952,7 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r414 = 1.0 / r413;
         let left_c1 = r409 * r414;
         let left_s1 = 0.0 - r404 * r414;
-        let q0 = angle(left_c1, left_s1);
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, q0, ..*known };
+        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
 }
@@ -933,8 +974,7 @@ fn chart_3_6(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
-        let q0 = angle(left_c1, left_s1);
-        let next = Known { branch: 5 * known.branch + 4, last: 5 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c1, left_s1, q0, ..*known };
+        let next = Known { branch: 5 * known.branch + 4, last: 5 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c1, left_s1, ..*known };
         again_4(p, &next, answers);
     }
 }
@@ -1031,8 +1071,7 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     }
     let left_c4 = 0.0;
     let left_s4 = 0.0;
-    let q3 = angle(left_c4, left_s4);
-    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c4, left_s4, q3, ..*known };
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c4, left_s4, ..*known };
     block_5(p, &next, answers);
 }
 
@@ -1053,8 +1092,7 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         let r167 = 1.0 / r166;
         let left_c4 = r160 * r167;
         let left_s4 = 0.0 - r156 * r167;
-        let q3 = angle(left_c4, left_s4);
-        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, q3, ..*known };
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
         again_5(p, &next, answers);
     }
 }
@@ -1069,8 +1107,7 @@ fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         return;
     }
     for [left_c4, left_s4] in SAMPLES_1 {
-        let q3 = angle(left_c4, left_s4);
-        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, q3, ..*known };
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, ..*known };
         again_5(p, &next, answers);
     }
 }
@@ -1092,8 +1129,7 @@ fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         let r168 = 1.0 / r167;
         let left_c4 = 0.0 - r160 * r168;
         let left_s4 = 0.0 - r156 * r168;
-        let q3 = angle(left_c4, left_s4);
-        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, q3, ..*known };
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
         again_5(p, &next, answers);
     }
 }
@@ -1108,8 +1144,7 @@ fn chart_4_5(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
         return;
     }
     for [left_c4, left_s4] in SAMPLES_1 {
-        let q3 = angle(left_c4, left_s4);
-        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, q3, ..*known };
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, ..*known };
         again_5(p, &next, answers);
     }
 }
@@ -1156,8 +1191,7 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
         let r50 = 1.0 / f64::max(r45 * r45 + r44 * r44, 0.0).sqrt();
         let left_c7 = 0.0 - r45 * r50;
         let left_s7 = r44 * r50;
-        let q6 = angle(left_c7, left_s7);
-        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, left_c7, left_s7, q6, ..*known };
+        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, left_c7, left_s7, ..*known };
         block_6(p, &next, answers);
     }
 }
@@ -1231,8 +1265,7 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
     }
     let left_c9 = 0.0;
     let left_s9 = 0.0;
-    let q8 = angle(left_c9, left_s9);
-    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c9, left_s9, q8, ..*known };
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c9, left_s9, ..*known };
     block_7(p, &next, answers);
 }
 
@@ -1252,8 +1285,7 @@ fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
         let r101 = 1.0 / f64::max(r96 * r96 + r95 * r95, 0.0).sqrt();
         let left_c9 = 0.0 - r96 * r101;
         let left_s9 = r95 * r101;
-        let q8 = angle(left_c9, left_s9);
-        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, q8, ..*known };
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
     }
 }
@@ -1268,8 +1300,7 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
         return;
     }
     for [left_c9, left_s9] in SAMPLES_1 {
-        let q8 = angle(left_c9, left_s9);
-        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, q8, ..*known };
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
     }
 }
@@ -1289,8 +1320,7 @@ fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
         let r96 = 1.0 / f64::max(r91 * r91 + r90 * r90, 0.0).sqrt();
         let left_c9 = 0.0 - r91 * r96;
         let left_s9 = r90 * r96;
-        let q8 = angle(left_c9, left_s9);
-        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, q8, ..*known };
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
     }
 }
@@ -1304,8 +1334,7 @@ fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
         return;
     }
     for [left_c9, left_s9] in SAMPLES_1 {
-        let q8 = angle(left_c9, left_s9);
-        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, q8, ..*known };
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
     }
 }
@@ -1376,8 +1405,7 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
     let r113 = 1.0 / r112;
     let left_c8 = r108 * r113;
     let left_s8 = r104 * r113;
-    let q7 = angle(left_c8, left_s8);
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, left_c8, left_s8, q7, ..*known };
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, left_c8, left_s8, ..*known };
     block_8(p, &next, answers);
 }
 
@@ -1391,8 +1419,7 @@ fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
         return;
     }
     for [left_c8, left_s8] in SAMPLES_1 {
-        let q7 = angle(left_c8, left_s8);
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], true, known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c8, left_s8, q7, ..*known };
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], true, known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c8, left_s8, ..*known };
         again_8(p, &next, answers);
     }
 }
@@ -1441,8 +1468,7 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
     let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
     let left_c5 = shared.r47 * r52;
     let left_s5 = shared.r44 * r52;
-    let q4 = angle(left_c5, left_s5);
-    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c5, left_s5, q4, ..*known };
+    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c5, left_s5, ..*known };
     block_9(p, &next, answers);
 }
 
@@ -1497,8 +1523,7 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
     let r105 = 1.0 / r104;
     let left_c6 = r100 * r105;
     let left_s6 = 0.0 - r99 * r105;
-    let q5 = angle(left_c6, left_s6);
-    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c6, left_s6, q5, ..*known };
+    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c6, left_s6, ..*known };
     block_10(p, &next, answers);
 }
 
@@ -1537,8 +1562,7 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
         let r50 = 1.0 / f64::max(r45 * r45 + r44 * r44, 0.0).sqrt();
         let right_c7 = 0.0 - r45 * r50;
         let right_s7 = r44 * r50;
-        let q11 = angle(right_c7, right_s7);
-        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c7, right_s7, q11, ..*known };
+        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c7, right_s7, ..*known };
         block_11(p, &next, answers);
     }
 }
@@ -1613,8 +1637,7 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
     }
     let right_c9 = 0.0;
     let right_s9 = 0.0;
-    let q13 = angle(right_c9, right_s9);
-    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, right_c9, right_s9, q13, ..*known };
+    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, right_c9, right_s9, ..*known };
     block_12(p, &next, answers);
 }
 
@@ -1634,8 +1657,7 @@ fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
         let r102 = 1.0 / f64::max(r97 * r97 + r96 * r96, 0.0).sqrt();
         let right_c9 = r97 * r102;
         let right_s9 = r96 * r102;
-        let q13 = angle(right_c9, right_s9);
-        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, q13, ..*known };
+        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
     }
 }
@@ -1650,8 +1672,7 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
         return;
     }
     for [right_c9, right_s9] in SAMPLES_1 {
-        let q13 = angle(right_c9, right_s9);
-        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, q13, ..*known };
+        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
     }
 }
@@ -1671,8 +1692,7 @@ fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
         let r97 = 1.0 / f64::max(r92 * r92 + r91 * r91, 0.0).sqrt();
         let right_c9 = 0.0 - r92 * r97;
         let right_s9 = r91 * r97;
-        let q13 = angle(right_c9, right_s9);
-        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, q13, ..*known };
+        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
     }
 }
@@ -1686,8 +1706,7 @@ fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
         return;
     }
     for [right_c9, right_s9] in SAMPLES_1 {
-        let q13 = angle(right_c9, right_s9);
-        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, q13, ..*known };
+        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
     }
 }
@@ -1764,8 +1783,7 @@ fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
     let r113 = 1.0 / r112;
     let right_c8 = r108 * r113;
     let right_s8 = r105 * r113;
-    let q12 = angle(right_c8, right_s8);
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, right_c8, right_s8, q12, ..*known };
+    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, right_c8, right_s8, ..*known };
     block_13(p, &next, answers);
 }
 
@@ -1779,8 +1797,7 @@ fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
         return;
     }
     for [right_c8, right_s8] in SAMPLES_1 {
-        let q12 = angle(right_c8, right_s8);
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], true, known.free[13]], right_c8, right_s8, q12, ..*known };
+        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], true, known.free[13]], right_c8, right_s8, ..*known };
         again_13(p, &next, answers);
     }
 }
@@ -1829,8 +1846,7 @@ fn chart_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut An
     let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
     let right_c5 = shared.r47 * r52;
     let right_s5 = shared.r44 * r52;
-    let q9 = angle(right_c5, right_s5);
-    let next = Known { branch: known.branch, last: known.last, close: known.close, right_c5, right_s5, q9, ..*known };
+    let next = Known { branch: known.branch, last: known.last, close: known.close, right_c5, right_s5, ..*known };
     block_14(p, &next, answers);
 }
 
@@ -1915,23 +1931,7 @@ fn chart_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut An
         known.right_c9,
         known.right_s9,
     ];
-    let q = [
-        known.q0,
-        known.q1,
-        known.q2,
-        known.q3,
-        known.q4,
-        known.q5,
-        known.q6,
-        known.q7,
-        known.q8,
-        known.q9,
-        angle(at[20], at[21]),
-        known.q11,
-        known.q12,
-        known.q13,
-    ];
-    answers.finish(p, known.branch, known.last, known.close, &at, q, known.free);
+    answers.finish(p, known.branch, known.last, known.close, &at, known.free);
 }
 
 /// The place of the greatest number that is not negative, the first of equals; the length without one.
@@ -1949,7 +1949,11 @@ fn greatest(claims: &[f64]) -> usize {
 const TIP: usize = 28;
 
 /// The tip, as the equations compare it.
-fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
+#[inline(always)]
+fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP]
+where
+    f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T>,
+{
     let left_c1 = at[0];
     let left_s1 = at[1];
     let left_c2_ = at[2];
@@ -2217,44 +2221,53 @@ const SIZES: usize = 2;
 /// Which of the sizes is that of each equation.
 const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0];
 
-fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
+/// The equations' values.
+#[inline(always)]
+fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS]
+where
+    f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T>,
+{
     let reached = tip(at);
-    Equations {
-        value: [
-            reached[0] - p.left_c2,
-            reached[1] - p.left_s2,
-            reached[2] - p.left_c3,
-            reached[3] - p.left_s3,
-            reached[4] - p.left_px,
-            reached[5] - p.left_py,
-            reached[6] - p.left_pz,
-            reached[7] - p.left_r11,
-            reached[8] - p.left_r21,
-            reached[9] - p.left_r31,
-            reached[10] - p.left_r12,
-            reached[11] - p.left_r22,
-            reached[12] - p.left_r32,
-            reached[13] - p.left_r13,
-            reached[14] - p.left_r23,
-            reached[15] - p.left_r33,
-            reached[16] - p.right_px,
-            reached[17] - p.right_py,
-            reached[18] - p.right_pz,
-            reached[19] - p.right_r11,
-            reached[20] - p.right_r21,
-            reached[21] - p.right_r31,
-            reached[22] - p.right_r12,
-            reached[23] - p.right_r22,
-            reached[24] - p.right_r32,
-            reached[25] - p.right_r13,
-            reached[26] - p.right_r23,
-            reached[27] - p.right_r33,
-        ],
-        size: [
-            1.0,
-            0.3467054146165801,
-        ],
-    }
+    [
+        reached[0] - p.left_c2,
+        reached[1] - p.left_s2,
+        reached[2] - p.left_c3,
+        reached[3] - p.left_s3,
+        reached[4] - p.left_px,
+        reached[5] - p.left_py,
+        reached[6] - p.left_pz,
+        reached[7] - p.left_r11,
+        reached[8] - p.left_r21,
+        reached[9] - p.left_r31,
+        reached[10] - p.left_r12,
+        reached[11] - p.left_r22,
+        reached[12] - p.left_r32,
+        reached[13] - p.left_r13,
+        reached[14] - p.left_r23,
+        reached[15] - p.left_r33,
+        reached[16] - p.right_px,
+        reached[17] - p.right_py,
+        reached[18] - p.right_pz,
+        reached[19] - p.right_r11,
+        reached[20] - p.right_r21,
+        reached[21] - p.right_r31,
+        reached[22] - p.right_r12,
+        reached[23] - p.right_r22,
+        reached[24] - p.right_r32,
+        reached[25] - p.right_r13,
+        reached[26] - p.right_r23,
+        reached[27] - p.right_r33,
+    ]
+}
+
+/// The sizes of equations.
+#[inline(always)]
+fn sizes(_p: &Parameters, _at: &[f64; PLACES]) -> [f64; SIZES] {
+    [1.0, 0.3467054146165801]
+}
+
+fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
+    Equations { value: values(p, at), size: sizes(p, at) }
 }
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
@@ -2615,24 +2628,20 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
 
 /// Answers so far, and the largest share of an equation's value in its size for each.
 struct Answers<'a> {
-    out: &'a mut [Solution; CAPACITY],
+    out: &'a mut [Solution],
+    /// Where pairs are written instead, and whether all candidates so far can be.
+    pairs: Option<&'a mut [Pairs; CAPACITY]>,
+    usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// By place: the numbers of candidates that wait to be measured.
+    at: [[f64; ROOM]; PLACES],
+    /// How each was found.
+    found: [Found; ROOM],
+    waiting: usize,
 }
 
 impl Answers<'_> {
-    /// Keeps a candidate that solves the equations within rounding, and refines others.
-    #[inline(always)]
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], q: [f64; JOINTS], free: [bool; JOINTS]) {
-        if free == NONE_FREE && !close {
-            let fit = measure_at(p, at, &q);
-            if fit.accepted && fit.relative < RESOLUTION && is_round(at) {
-                return self.keep(p, branch, last, (q, fit), free);
-            }
-        }
-        self.refine(p, branch, last, q, free);
-    }
-
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -3058,24 +3067,6 @@ fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
     fit
 }
 
-/// Whether the cosines and sines of all angles are on the circle.
-fn is_round(at: &[f64; PLACES]) -> bool {
-    (at[0] * at[0] + at[1] * at[1] - 1.0).abs() < RESOLUTION
-    && (at[2] * at[2] + at[3] * at[3] - 1.0).abs() < RESOLUTION
-    && (at[4] * at[4] + at[5] * at[5] - 1.0).abs() < RESOLUTION
-    && (at[6] * at[6] + at[7] * at[7] - 1.0).abs() < RESOLUTION
-    && (at[8] * at[8] + at[9] * at[9] - 1.0).abs() < RESOLUTION
-    && (at[10] * at[10] + at[11] * at[11] - 1.0).abs() < RESOLUTION
-    && (at[12] * at[12] + at[13] * at[13] - 1.0).abs() < RESOLUTION
-    && (at[14] * at[14] + at[15] * at[15] - 1.0).abs() < RESOLUTION
-    && (at[16] * at[16] + at[17] * at[17] - 1.0).abs() < RESOLUTION
-    && (at[18] * at[18] + at[19] * at[19] - 1.0).abs() < RESOLUTION
-    && (at[20] * at[20] + at[21] * at[21] - 1.0).abs() < RESOLUTION
-    && (at[22] * at[22] + at[23] * at[23] - 1.0).abs() < RESOLUTION
-    && (at[24] * at[24] + at[25] * at[25] - 1.0).abs() < RESOLUTION
-    && (at[26] * at[26] + at[27] * at[27] - 1.0).abs() < RESOLUTION
-}
-
 /// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
 /// after a leap.
 /// Joints that are `held` stay.
@@ -3333,11 +3324,16 @@ fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
 const PI: f64 = core::f64::consts::PI;
 const TAU: f64 = core::f64::consts::TAU;
 
-/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
-/// interpolates at eleven Chebyshev points.
+/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad.
 #[inline(always)]
 fn angle(cosine: f64, sine: f64) -> f64 {
-    let (across, up) = (cosine.abs(), sine.abs());
+    unfold(acute(cosine.abs(), sine.abs()), cosine, sine)
+}
+
+/// The angle in [0, pi/2] of a cosine and a sine that are not negative. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
+/// interpolates at eleven Chebyshev points.
+#[inline(always)]
+fn acute(across: f64, up: f64) -> f64 {
     let steep = up > across;
     let (low, high) = if steep { (across, up) } else { (up, across) };
     let far = low > 0.41421356237309503 * high;
@@ -3350,10 +3346,14 @@ fn angle(cosine: f64, sine: f64) -> f64 {
     if steep {
         angle = 0.5 * PI - (angle - 2.0 * REST);
     }
-    if cosine < 0.0 {
-        angle = PI - (angle - 4.0 * REST);
-    }
-    half_open(angle.copysign(sine))
+    angle
+}
+
+/// The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative.
+#[inline(always)]
+fn unfold(acute: f64, cosine: f64, sine: f64) -> f64 {
+    let angle = if cosine < 0.0 { PI - (acute - 4.0 * REST) } else { acute };
+    half_open(angle.copysign(sine)) + 0.0
 }
 
 /// What the double nearest to pi/4 lacks.
@@ -3707,3 +3707,257 @@ impl Math for f64 {
         libm::ceil(self)
     }
 }
+
+use core::ops::{Add, Div, Mul, Sub};
+
+/// How many candidates are measured together, and how many of them an operation takes at once.
+const ROOM: usize = 16;
+const LANES: usize = 2;
+/// By angle: where its cosine and its sine stand among the places.
+const ANGLES: usize = 14;
+const CIRCLES: [[usize; 2]; ANGLES] = [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9], [10, 11], [12, 13], [14, 15], [16, 17], [18, 19], [20, 21], [22, 23], [24, 25], [26, 27]];
+/// Angles differ by more than `BLUR` where their difference has a cosine below this.
+const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
+
+/// How a candidate was found.
+#[derive(Clone, Copy)]
+struct Found {
+    branch: usize,
+    last: usize,
+    close: bool,
+    free: [bool; JOINTS],
+}
+
+const NOT_FOUND: Found = Found { branch: 0, last: 0, close: false, free: NONE_FREE };
+
+/// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
+struct Fits {
+    residual: [f64; ROOM],
+    relative: [f64; ROOM],
+    sound: [f64; ROOM],
+}
+
+impl Answers<'_> {
+    /// Takes in a candidate, which waits to be measured together with others.
+    #[inline(always)]
+    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], free: [bool; JOINTS]) {
+        if self.waiting >= ROOM {
+            self.flush(p);
+        }
+        let k = self.waiting % ROOM;
+        for i in 0..PLACES {
+            self.at[i][k] = at[i];
+        }
+        self.found[k] = Found { branch, last, close, free };
+        self.waiting = k + 1;
+    }
+
+    /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
+    #[inline(never)]
+    fn flush(&mut self, p: &Parameters) {
+        if self.pairs.is_some() {
+            return self.flush_pairs(p);
+        }
+        let angles = angles(&self.at);
+        let fits = fits(p, &self.at);
+        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
+        let mut usual = self.count == 0;
+        for k in 0..waiting {
+            let Found { branch, last, close, free } = self.found[k];
+            let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
+            let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
+            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k], angles[6][k], angles[7][k], angles[8][k], angles[9][k], angles[10][k], angles[11][k], angles[12][k], angles[13][k]];
+            if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
+                self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
+                self.relative[self.count] = fit.relative;
+                self.count += 1;
+                continue;
+            }
+            usual = false;
+            if holds {
+                self.keep(p, branch, last, (q, fit), free);
+            } else {
+                self.refine(p, branch, last, q, free);
+            }
+        }
+    }
+
+    /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
+    #[inline(never)]
+    fn flush_pairs(&mut self, p: &Parameters) {
+        let fits = fits(p, &self.at);
+        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
+        let Some(pairs) = &mut self.pairs else { return };
+        for k in 0..waiting {
+            let Found { branch, close, free, .. } = self.found[k];
+            let holds = free == NONE_FREE && !close && fits.relative[k] < RESOLUTION && fits.sound[k] > 0.0;
+            let joints = [
+                [self.at[0][k] + 0.0, self.at[1][k] + 0.0],
+                [self.at[2][k] + 0.0, self.at[3][k] + 0.0],
+                [self.at[4][k] + 0.0, self.at[5][k] + 0.0],
+                [self.at[6][k] + 0.0, self.at[7][k] + 0.0],
+                [self.at[8][k] + 0.0, self.at[9][k] + 0.0],
+                [self.at[10][k] + 0.0, self.at[11][k] + 0.0],
+                [self.at[12][k] + 0.0, self.at[13][k] + 0.0],
+                [self.at[14][k] + 0.0, self.at[15][k] + 0.0],
+                [self.at[16][k] + 0.0, self.at[17][k] + 0.0],
+                [self.at[18][k] + 0.0, self.at[19][k] + 0.0],
+                [self.at[20][k] + 0.0, self.at[21][k] + 0.0],
+                [self.at[22][k] + 0.0, self.at[23][k] + 0.0],
+                [self.at[24][k] + 0.0, self.at[25][k] + 0.0],
+                [self.at[26][k] + 0.0, self.at[27][k] + 0.0],
+            ];
+            let is_apart = |other: &Pairs| other.branch != branch && tell_apart(&joints, &other.joints);
+            if !(self.usual && holds && self.count < CAPACITY && pairs[..self.count].iter().all(is_apart)) {
+                self.usual = false;
+                return;
+            }
+            pairs[self.count] = Pairs { joints, residual: fits.residual[k], branch, free };
+            self.count += 1;
+        }
+    }
+
+    /// Whether an angle tells two candidates apart.
+    #[inline(always)]
+    fn are_apart(&self, k: usize, other: usize) -> bool {
+        [[20, 21], [18, 19], [24, 25], [26, 27], [22, 23], [10, 11], [8, 9], [14, 15], [16, 17], [12, 13], [6, 7], [0, 1], [4, 5], [2, 3]].iter().any(|&[c, s]| {
+            self.at[c][k] * self.at[c][other] + self.at[s][k] * self.at[s][other] < FAR_APART
+        })
+    }
+}
+
+/// Whether an angle tells two answers apart.
+#[inline(always)]
+fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
+    [10, 9, 12, 13, 11, 5, 4, 7, 8, 6, 3, 0, 2, 1].iter().any(|&i| a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
+}
+
+/// Measures candidates.
+#[inline(never)]
+fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES]) -> Fits {
+    let mut fits = Fits { residual: [0.0; ROOM], relative: [0.0; ROOM], sound: [0.0; ROOM] };
+    for first in (0..ROOM).step_by(LANES) {
+        let at: [Lanes; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
+        let mut largest = [Lanes([0.0; LANES]); SIZES];
+        for (value, size) in values(p, &at).iter().zip(SIZE_OF) {
+            largest[size] = largest[size].greater(value.size());
+        }
+        let size: [[f64; SIZES]; LANES] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
+        let (mut residual, mut relative) = (Lanes([0.0; LANES]), Lanes([0.0; LANES]));
+        for i in 0..SIZES {
+            residual = residual.greater(largest[i]);
+            let size = Lanes(size.map(|size| f64::max(size[i], f64::MIN_POSITIVE)));
+            relative = relative.greater(largest[i] / size);
+        }
+        let mut sound = Lanes([1.0; LANES]);
+        for [c, s] in CIRCLES {
+            sound = sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).size(), RESOLUTION);
+        }
+        for lane in 0..LANES {
+            fits.residual[first + lane] = residual.0[lane];
+            fits.relative[first + lane] = relative.0[lane];
+            fits.sound[first + lane] = sound.0[lane];
+        }
+    }
+    fits
+}
+
+/// At least as many as there are angles of candidates.
+const POOL: usize = (ANGLES * ROOM).next_power_of_two();
+
+/// The angles of candidates, as of [`unfold`]. Those that only differ in signs from the candidate before are not computed again.
+#[inline(never)]
+fn angles(at: &[[f64; ROOM]; PLACES]) -> [[f64; ROOM]; ANGLES] {
+    let (mut across, mut up) = ([0.0; POOL], [0.0; POOL]);
+    let mut which = [[0; ROOM]; ANGLES];
+    let mut last = POOL - 1;
+    for (which, [c, s]) in which.iter_mut().zip(CIRCLES) {
+        for k in 0..ROOM {
+            let is_new = k == 0 || (at[c][k].abs() != at[c][k - 1].abs()) | (at[s][k].abs() != at[s][k - 1].abs());
+            last = (last + is_new as usize) % POOL;
+            across[last] = at[c][k].abs();
+            up[last] = at[s][k].abs();
+            which[k] = last;
+        }
+    }
+    let acutes = acutes(&across, &up, last + 1);
+    let mut angles = which.map(|row| row.map(|i| acutes[i % POOL]));
+    for (row, [c, s]) in angles.iter_mut().zip(CIRCLES) {
+        for k in 0..ROOM {
+            row[k] = unfold(row[k], at[c][k], at[s][k]);
+        }
+    }
+    angles
+}
+
+/// The angles of the first `count` pairs of a cosine and a sine, as of [`acute`].
+#[inline(never)]
+fn acutes(across: &[f64; POOL], up: &[f64; POOL], count: usize) -> [f64; POOL] {
+    let mut acutes = [0.0; POOL];
+    for i in 0..count.min(POOL) {
+        acutes[i] = acute(across[i], up[i]);
+    }
+    acutes
+}
+
+/// Numbers that operations take at once.
+#[derive(Clone, Copy)]
+struct Lanes([f64; LANES]);
+
+impl Lanes {
+    #[inline(always)]
+    fn size(self) -> Lanes {
+        Lanes(self.0.map(f64::abs))
+    }
+
+    /// The greater of two numbers; the first where one is not a number.
+    #[inline(always)]
+    fn greater(self, other: Lanes) -> Lanes {
+        Lanes(core::array::from_fn(|i| if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] }))
+    }
+
+    /// The numbers where others are below a limit, and zero elsewhere.
+    #[inline(always)]
+    fn where_below(self, other: Lanes, limit: f64) -> Lanes {
+        Lanes(core::array::from_fn(|i| if other.0[i] < limit { self.0[i] } else { 0.0 }))
+    }
+}
+
+/// What equations are computed of: one number, or several at once.
+trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
+}
+
+impl Number for f64 {
+}
+impl Number for Lanes {
+}
+
+macro_rules! by_lane {
+    ($($operation:ident $name:ident $sign:tt)*) => {
+        $(
+            impl $operation for Lanes {
+                type Output = Lanes;
+                #[inline(always)]
+                fn $name(self, other: Lanes) -> Lanes {
+                    Lanes(core::array::from_fn(|i| self.0[i] $sign other.0[i]))
+                }
+            }
+            impl $operation<f64> for Lanes {
+                type Output = Lanes;
+                #[inline(always)]
+                fn $name(self, other: f64) -> Lanes {
+                    Lanes(self.0.map(|number| number $sign other))
+                }
+            }
+            impl $operation<Lanes> for f64 {
+                type Output = Lanes;
+                #[inline(always)]
+                fn $name(self, other: Lanes) -> Lanes {
+                    Lanes(other.0.map(|number| self $sign number))
+                }
+            }
+        )*
+    };
+}
+
+by_lane!(Add add + Sub sub - Mul mul * Div div /);

@@ -70,6 +70,20 @@ extern const double nao_right_arm_position_limits[2 * NAO_RIGHT_ARM_POSITION_JOI
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_right_arm_position_solve(const double *target, nao_right_arm_position_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[NAO_RIGHT_ARM_POSITION_JOINTS][2];
+    /* As in nao_right_arm_position_solution. */
+    double residual;
+    size_t branch;
+    bool free[NAO_RIGHT_ARM_POSITION_JOINTS];
+} nao_right_arm_position_pairs;
+
+/* As nao_right_arm_position_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that nao_right_arm_position_solve finds. */
+int nao_right_arm_position_solve_pairs(const double *target, nao_right_arm_position_pairs *out);
+
 /* Writes the target (NAO_RIGHT_ARM_POSITION_INPUTS numbers) that joint values q (NAO_RIGHT_ARM_POSITION_JOINTS numbers) reach. */
 void nao_right_arm_position_forward(const double *q, double *target);
 
@@ -390,10 +404,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -405,11 +418,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -705,6 +723,11 @@ typedef struct {
     Solution *out;
     double relative[NAO_RIGHT_ARM_POSITION_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[4][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    nao_right_arm_position_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1112,9 +1135,81 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const nao_right_arm_position_pairs *a, const nao_right_arm_position_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[4] = {1, 0, 3, 2};
+    for (size_t k = 0; k < 4; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == NAO_RIGHT_ARM_POSITION_CAPACITY) {
+        return false;
+    }
+    nao_right_arm_position_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[6] + 0.0;
+    pairs->joints[3][1] = at[7] + 0.0;
+    pairs->free[3] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1216,12 +1311,9 @@ typedef struct {
     double f4;
     double c1;
     double s1;
-    double q0;
-    double q2;
-    double q3;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1267,8 +1359,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
         known->c4,
         known->s4,
     };
-    const double q[JOINTS] = {known->q0, angle(at[2], at[3]), known->q2, known->q3};
-    finish(p, 2 * known->branch, 2 * known->last, known->close, at, q, known->free, answers);
+    finish(p, 2 * known->branch, 2 * known->last, known->close, at, known->free, answers);
 }
 
 /* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
@@ -1293,9 +1384,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
             known->c4,
             known->s4,
         };
-        const double q[JOINTS] = {known->q0, angle(at[2], at[3]), known->q2, known->q3};
         const bool free_joints[JOINTS] = {known->free[0], true, known->free[2], known->free[3]};
-        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, q, free_joints, answers);
+        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, free_joints, answers);
     }
 }
 
@@ -1340,14 +1430,12 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
         const double w1 = roots0.values[i0], r22 = w1 * shared->r1 - (0.0 - p->px * shared->r4);
         const double r25 = p->px * w1 - shared->r1 * shared->r4;
         const double r30 = 1.0 / sqrt(fmax(r25 * r25 + r22 * r22, 0.0)), c1 = r25 * r30, s1 = r22 * r30;
-        const double q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         block_4(p, &next, answers);
     }
 }
@@ -1363,7 +1451,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1371,7 +1459,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         again_4(p, &next, answers);
     }
 }
@@ -1414,7 +1501,6 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double w4 = roots0.values[i0], r21 = 0.023877 * w4 - (0.0 - shared->r3 * shared->r12);
         const double r24 = w4 * shared->r3 - 0.023877 * shared->r12;
         const double r29 = 1.0 / sqrt(fmax(r24 * r24 + r21 * r21, 0.0)), c4 = r24 * r29, s4 = r21 * r29;
-        const double q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1422,7 +1508,6 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         next.c4 = c4;
         next.s4 = s4;
         next.f4 = f4;
-        next.q3 = q3;
         block_3(p, &next, answers);
     }
 }
@@ -1439,7 +1524,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f4 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1448,7 +1533,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.c4 = c4;
         next.s4 = s4;
         next.f4 = f4;
-        next.q3 = q3;
         again_3(p, &next, answers);
     }
 }
@@ -1468,14 +1552,13 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
  */
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double c3_ = p->c3, s3_ = p->s3, q2 = angle(c3_, s3_);
+    const double c3_ = p->c3, s3_ = p->s3;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
     next.close = false;
     next.c3_ = c3_;
     next.s3_ = s3_;
-    next.q2 = q2;
     block_2(p, &next, answers);
 }
 
@@ -1495,20 +1578,79 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int nao_right_arm_position_solve(const double *target, nao_right_arm_position_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return NAO_RIGHT_ARM_POSITION_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 4; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int nao_right_arm_position_solve(const double *target, nao_right_arm_position_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int nao_right_arm_position_solve_pairs(const double *target, nao_right_arm_position_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 4) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const nao_right_arm_position_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[NAO_RIGHT_ARM_POSITION_CAPACITY];
+    const int count = nao_right_arm_position_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+    }
+    return count;
+}
+
 
 void nao_right_arm_position_forward(const double *q, double *target)
 {

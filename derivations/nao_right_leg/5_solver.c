@@ -80,6 +80,20 @@ extern const double nao_right_leg_limits[2 * NAO_RIGHT_LEG_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_right_leg_solve(const double *target, nao_right_leg_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[NAO_RIGHT_LEG_JOINTS][2];
+    /* As in nao_right_leg_solution. */
+    double residual;
+    size_t branch;
+    bool free[NAO_RIGHT_LEG_JOINTS];
+} nao_right_leg_pairs;
+
+/* As nao_right_leg_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that nao_right_leg_solve finds. */
+int nao_right_leg_solve_pairs(const double *target, nao_right_leg_pairs *out);
+
 /* Writes the target (NAO_RIGHT_LEG_INPUTS numbers) that joint values q (NAO_RIGHT_LEG_JOINTS numbers) reach. */
 void nao_right_leg_forward(const double *q, double *target);
 
@@ -504,10 +518,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -519,11 +532,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -827,6 +845,11 @@ typedef struct {
     Solution *out;
     double relative[NAO_RIGHT_LEG_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[6][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    nao_right_leg_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1240,9 +1263,89 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const nao_right_leg_pairs *a, const nao_right_leg_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[6] = {2, 1, 0, 4, 5, 3};
+    for (size_t k = 0; k < 6; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == NAO_RIGHT_LEG_CAPACITY) {
+        return false;
+    }
+    nao_right_leg_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[6] + 0.0;
+    pairs->joints[3][1] = at[7] + 0.0;
+    pairs->free[3] = false;
+    pairs->joints[4][0] = at[8] + 0.0;
+    pairs->joints[4][1] = at[9] + 0.0;
+    pairs->free[4] = false;
+    pairs->joints[5][0] = at[10] + 0.0;
+    pairs->joints[5][1] = at[11] + 0.0;
+    pairs->free[5] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1349,14 +1452,9 @@ typedef struct {
     double s1;
     double c2;
     double s2;
-    double q0;
-    double q1;
-    double q3;
-    double q4;
-    double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1396,15 +1494,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
         known->c6,
         known->s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        angle(at[4], at[5]),
-        known->q3,
-        known->q4,
-        known->q5,
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 6: HipPitch. */
@@ -1438,14 +1528,13 @@ typedef struct {
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
-    const double c2 = shared->r29 * r34, s2 = shared->r26 * r34, q1 = angle(c2, s2);
+    const double c2 = shared->r29 * r34, s2 = shared->r26 * r34;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
-    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
@@ -1487,14 +1576,12 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r18 = w1 * shared->r6, r19 = w1 * shared->r10;
         const double r24 = 1.0 / sqrt(fmax(r19 * r19 + r18 * r18, 0.0)), c1 = 0.0 - r19 * r24, s1 = r18 * r24;
-        const double q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         block_5(p, &next, answers);
     }
 }
@@ -1510,7 +1597,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1518,7 +1605,6 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         again_5(p, &next, answers);
     }
 }
@@ -1566,7 +1652,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), c5 = r99 * r104, s5 = r96 * r104;
-    const double q4 = angle(c5, s5);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1574,7 +1659,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     next.c5 = c5;
     next.s5 = s5;
     next.f5 = f5;
-    next.q4 = q4;
     block_4(p, &next, answers);
 }
 
@@ -1591,7 +1675,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f5 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1], q4 = angle(c5, s5);
+        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1600,7 +1684,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.c5 = c5;
         next.s5 = s5;
         next.f5 = f5;
-        next.q4 = q4;
         again_4(p, &next, answers);
     }
 }
@@ -1659,7 +1742,6 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w6 = roots0.values[i0], r34 = w6 * shared->r11, r35 = w6 * shared->r18;
         const double r40 = 1.0 / sqrt(fmax(r35 * r35 + r34 * r34, 0.0)), c6 = r35 * r40, s6 = r34 * r40;
-        const double q5 = angle(c6, s6);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1667,7 +1749,6 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
-        next.q5 = q5;
         block_3(p, &next, answers);
     }
 }
@@ -1685,7 +1766,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1], q5 = angle(c6, s6);
+        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1694,7 +1775,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
-        next.q5 = q5;
         again_3(p, &next, answers);
     }
 }
@@ -1727,14 +1807,12 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w4 = roots0.values[i0], r31 = 0.02058 * w4, r32 = 0.02058 * shared->r28;
         const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), c4 = 0.0 - r32 * r37, s4 = r31 * r37;
-        const double q3 = angle(c4, s4);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         block_2(p, &next, answers);
     }
 }
@@ -1809,7 +1887,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int nao_right_leg_solve(const double *given, nao_right_leg_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1817,14 +1896,78 @@ int nao_right_leg_solve(const double *given, nao_right_leg_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 6; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int nao_right_leg_solve(const double *target, nao_right_leg_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int nao_right_leg_solve_pairs(const double *target, nao_right_leg_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 8) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const nao_right_leg_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[NAO_RIGHT_LEG_CAPACITY];
+    const int count = nao_right_leg_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
+        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
+        out[i].free[4] = answer->free[4];
+        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
+        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
+        out[i].free[5] = answer->free[5];
+    }
+    return count;
+}
+
 
 void nao_right_leg_forward(const double *q, double *target)
 {

@@ -80,6 +80,20 @@ extern const double offset_wrist_limits[2 * OFFSET_WRIST_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int offset_wrist_solve(const double *target, offset_wrist_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[OFFSET_WRIST_JOINTS][2];
+    /* As in offset_wrist_solution. */
+    double residual;
+    size_t branch;
+    bool free[OFFSET_WRIST_JOINTS];
+} offset_wrist_pairs;
+
+/* As offset_wrist_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that offset_wrist_solve finds. */
+int offset_wrist_solve_pairs(const double *target, offset_wrist_pairs *out);
+
 /* Writes the target (OFFSET_WRIST_INPUTS numbers) that joint values q (OFFSET_WRIST_JOINTS numbers) reach. */
 void offset_wrist_forward(const double *q, double *target);
 
@@ -475,10 +489,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -490,11 +503,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -798,6 +816,11 @@ typedef struct {
     Solution *out;
     double relative[OFFSET_WRIST_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[6][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    offset_wrist_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1211,9 +1234,89 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const offset_wrist_pairs *a, const offset_wrist_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[6] = {3, 1, 2, 4, 5, 0};
+    for (size_t k = 0; k < 6; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == OFFSET_WRIST_CAPACITY) {
+        return false;
+    }
+    offset_wrist_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[6] + 0.0;
+    pairs->joints[3][1] = at[7] + 0.0;
+    pairs->free[3] = false;
+    pairs->joints[4][0] = at[8] + 0.0;
+    pairs->joints[4][1] = at[9] + 0.0;
+    pairs->free[4] = false;
+    pairs->joints[5][0] = at[10] + 0.0;
+    pairs->joints[5][1] = at[11] + 0.0;
+    pairs->free[5] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1319,14 +1422,9 @@ typedef struct {
     double s3;
     double c2;
     double s2;
-    double q0;
-    double q1;
-    double q2;
-    double q4;
-    double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1366,15 +1464,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
         known->c6,
         known->s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        angle(at[6], at[7]),
-        known->q4,
-        known->q5,
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 6: Wrist1. */
@@ -1417,14 +1507,12 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     const double r49 = shared->r32 * shared->r36 + shared->r30 * shared->r38;
     const double r52 = shared->r32 * shared->r38 - shared->r30 * shared->r36;
     const double r57 = 1.0 / sqrt(fmax(r52 * r52 + r49 * r49, 0.0)), c2 = r52 * r57, s2 = 0.0 - r49 * r57;
-    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
     next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
-    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
@@ -1439,7 +1527,7 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1447,7 +1535,6 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
-        next.q1 = q1;
         again_6(p, &next, answers);
     }
 }
@@ -1482,14 +1569,12 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r74 = 0.28 * w3, r75 = 0.28 * shared->r70;
         const double r80 = 1.0 / sqrt(fmax(r75 * r75 + r74 * r74, 0.0)), c3 = 0.0 - r75 * r80, s3 = r74 * r80;
-        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
-        next.q2 = q2;
         block_5(p, &next, answers);
     }
 }
@@ -1524,14 +1609,13 @@ typedef struct {
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r16 = 1.0 / sqrt(fmax(r14, 0.0));
-    const double c5 = shared->r11 * r16, s5 = shared->r10 * r16, q4 = angle(c5, s5);
+    const double c5 = shared->r11 * r16, s5 = shared->r10 * r16;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
-    next.q4 = q4;
     block_4(p, &next, answers);
 }
 
@@ -1572,7 +1656,6 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w6 = roots0.values[i0], r11 = w6 * shared->r4, r12 = w6 * shared->r5;
         const double r17 = 1.0 / sqrt(fmax(r12 * r12 + r11 * r11, 0.0)), c6 = 0.0 - r12 * r17, s6 = r11 * r17;
-        const double q5 = angle(c6, s6);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1580,7 +1663,6 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
-        next.q5 = q5;
         block_3(p, &next, answers);
     }
 }
@@ -1597,7 +1679,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1], q5 = angle(c6, s6);
+        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1606,7 +1688,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
-        next.q5 = q5;
         again_3(p, &next, answers);
     }
 }
@@ -1643,14 +1724,12 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         const double w1 = roots0.values[i0], r18 = w1 * shared->r1 - (0.0 - 0.125 * shared->r3);
         const double r21 = 0.125 * shared->r1 - w1 * shared->r3;
         const double r26 = 1.0 / sqrt(fmax(r21 * r21 + r18 * r18, 0.0)), c1 = r21 * r26, s1 = r18 * r26;
-        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1721,7 +1800,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int offset_wrist_solve(const double *given, offset_wrist_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1729,14 +1809,78 @@ int offset_wrist_solve(const double *given, offset_wrist_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 6; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int offset_wrist_solve(const double *target, offset_wrist_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int offset_wrist_solve_pairs(const double *target, offset_wrist_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 8) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const offset_wrist_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[OFFSET_WRIST_CAPACITY];
+    const int count = offset_wrist_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
+        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
+        out[i].free[4] = answer->free[4];
+        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
+        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
+        out[i].free[5] = answer->free[5];
+    }
+    return count;
+}
+
 
 void offset_wrist_forward(const double *q, double *target)
 {

@@ -365,10 +365,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -380,11 +379,22 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi]. */
+static double angle(double cosine, double sine)
+{
+    return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -680,6 +690,8 @@ typedef struct {
     Solution *out;
     double relative[PLANAR_4R_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[4][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1087,9 +1099,28 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1190,12 +1221,9 @@ typedef struct {
     double s3;
     double c2;
     double s2;
-    double q0;
-    double q1;
-    double q2;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1231,8 +1259,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         c4,
         s4,
     };
-    const double q[JOINTS] = {known->q0, known->q1, known->q2, angle(at[6], at[7])};
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 4: Wrist. */
@@ -1275,14 +1302,12 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r25 = shared->r8 * shared->r13 - (0.0 - shared->r10 * shared->r11);
     const double r28 = shared->r8 * shared->r11 - shared->r10 * shared->r13;
     const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r25 * r25, 0.0)), c2 = r28 * r33, s2 = r25 * r33;
-    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
     next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
-    next.q1 = q1;
     block_4(p, &next, answers);
 }
 
@@ -1297,7 +1322,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1305,7 +1330,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
-        next.q1 = q1;
         again_4(p, &next, answers);
     }
 }
@@ -1337,14 +1361,12 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r22 = 0.21 * w3, r23 = 0.21 * shared->r19;
         const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r22 * r22, 0.0)), c3 = 0.0 - r23 * r28, s3 = r22 * r28;
-        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
-        next.q2 = q2;
         block_3(p, &next, answers);
     }
 }
@@ -1365,14 +1387,13 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
  */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double c1_ = p->c1, s1_ = p->s1, q0 = angle(c1_, s1_);
+    const double c1_ = p->c1, s1_ = p->s1;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
     next.close = false;
     next.c1_ = c1_;
     next.s1_ = s1_;
-    next.q0 = q0;
     block_2(p, &next, answers);
 }
 
@@ -1392,20 +1413,35 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int planar_4r_solve(const double *target, planar_4r_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return PLANAR_4R_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 4; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int planar_4r_solve(const double *target, planar_4r_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void planar_4r_forward(const double *q, double *target)
 {

@@ -70,6 +70,20 @@ extern const double planar_4r_limits[2 * PLANAR_4R_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int planar_4r_solve(const double *target, planar_4r_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[PLANAR_4R_JOINTS][2];
+    /* As in planar_4r_solution. */
+    double residual;
+    size_t branch;
+    bool free[PLANAR_4R_JOINTS];
+} planar_4r_pairs;
+
+/* As planar_4r_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that planar_4r_solve finds. */
+int planar_4r_solve_pairs(const double *target, planar_4r_pairs *out);
+
 /* Writes the target (PLANAR_4R_INPUTS numbers) that joint values q (PLANAR_4R_JOINTS numbers) reach. */
 void planar_4r_forward(const double *q, double *target);
 
@@ -393,10 +407,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -408,11 +421,22 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi]. */
+static double angle(double cosine, double sine)
+{
+    return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -708,6 +732,11 @@ typedef struct {
     Solution *out;
     double relative[PLANAR_4R_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[4][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    planar_4r_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1115,9 +1144,81 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const planar_4r_pairs *a, const planar_4r_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[4] = {3, 1, 2, 0};
+    for (size_t k = 0; k < 4; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == PLANAR_4R_CAPACITY) {
+        return false;
+    }
+    planar_4r_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[6] + 0.0;
+    pairs->joints[3][1] = at[7] + 0.0;
+    pairs->free[3] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1218,12 +1319,9 @@ typedef struct {
     double s3;
     double c2;
     double s2;
-    double q0;
-    double q1;
-    double q2;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1259,8 +1357,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
         c4,
         s4,
     };
-    const double q[JOINTS] = {known->q0, known->q1, known->q2, angle(at[6], at[7])};
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 4: Wrist. */
@@ -1303,14 +1400,12 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r25 = shared->r8 * shared->r13 - (0.0 - shared->r10 * shared->r11);
     const double r28 = shared->r8 * shared->r11 - shared->r10 * shared->r13;
     const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r25 * r25, 0.0)), c2 = r28 * r33, s2 = r25 * r33;
-    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
     next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
-    next.q1 = q1;
     block_4(p, &next, answers);
 }
 
@@ -1325,7 +1420,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1333,7 +1428,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
-        next.q1 = q1;
         again_4(p, &next, answers);
     }
 }
@@ -1365,14 +1459,12 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r22 = 0.21 * w3, r23 = 0.21 * shared->r19;
         const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r22 * r22, 0.0)), c3 = 0.0 - r23 * r28, s3 = r22 * r28;
-        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
-        next.q2 = q2;
         block_3(p, &next, answers);
     }
 }
@@ -1393,14 +1485,13 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
  */
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double c1_ = p->c1, s1_ = p->s1, q0 = angle(c1_, s1_);
+    const double c1_ = p->c1, s1_ = p->s1;
     Known next = NOTHING_KNOWN;
     next.branch = 0;
     next.last = 1;
     next.close = false;
     next.c1_ = c1_;
     next.s1_ = s1_;
-    next.q0 = q0;
     block_2(p, &next, answers);
 }
 
@@ -1420,20 +1511,79 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int planar_4r_solve(const double *target, planar_4r_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return PLANAR_4R_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 4; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int planar_4r_solve(const double *target, planar_4r_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int planar_4r_solve_pairs(const double *target, planar_4r_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 2) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const planar_4r_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[PLANAR_4R_CAPACITY];
+    const int count = planar_4r_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+    }
+    return count;
+}
+
 
 void planar_4r_forward(const double *q, double *target)
 {

@@ -334,10 +334,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -349,11 +348,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -645,6 +649,8 @@ typedef struct {
     Solution *out;
     double relative[POLAR_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[2][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1048,9 +1054,27 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        at[4],
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1150,11 +1174,9 @@ typedef struct {
     double f1;
     double c2;
     double s2;
-    double q0;
-    double q1;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1179,8 +1201,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double d3 = shared->r7;
     const double at[PLACES] = {known->c1, known->s1, known->c2, known->s2, d3};
-    const double q[JOINTS] = {known->q0, known->q1, at[4]};
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 3: Slide. */
@@ -1221,14 +1242,12 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w2 = roots0.values[i0], r20 = w2 * shared->r2, r21 = w2 * shared->r3;
         const double r26 = 1.0 / sqrt(fmax(r21 * r21 + r20 * r20, 0.0)), c2 = 0.0 - r21 * r26, s2 = r20 * r26;
-        const double q1 = angle(c2, s2);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
         next.c2 = c2;
         next.s2 = s2;
-        next.q1 = q1;
         block_3(p, &next, answers);
     }
 }
@@ -1245,7 +1264,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1253,7 +1272,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
-        next.q1 = q1;
         again_3(p, &next, answers);
     }
 }
@@ -1289,7 +1307,6 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r9 = p->pz * w1, r10 = p->px * w1;
         const double r15 = 1.0 / sqrt(fmax(r10 * r10 + r9 * r9, 0.0)), c1 = r10 * r15, s1 = 0.0 - r9 * r15;
-        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1297,7 +1314,6 @@ static void chart_1_1(const Parameters *p, Answers *answers)
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1314,7 +1330,7 @@ static void chart_1_2(const Parameters *p, Answers *answers)
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 2;
         next.last = 3;
@@ -1323,7 +1339,6 @@ static void chart_1_2(const Parameters *p, Answers *answers)
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         again_2(p, &next, answers);
     }
 }
@@ -1345,20 +1360,35 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int polar_solve(const double *target, polar_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return POLAR_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 2; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int polar_solve(const double *target, polar_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void polar_forward(const double *q, double *target)
 {

@@ -68,6 +68,20 @@ extern const double prr_limits[2 * PRR_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int prr_solve(const double *target, prr_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[PRR_JOINTS][2];
+    /* As in prr_solution. */
+    double residual;
+    size_t branch;
+    bool free[PRR_JOINTS];
+} prr_pairs;
+
+/* As prr_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that prr_solve finds. */
+int prr_solve_pairs(const double *target, prr_pairs *out);
+
 /* Writes the target (PRR_INPUTS numbers) that joint values q (PRR_JOINTS numbers) reach. */
 void prr_forward(const double *q, double *target);
 
@@ -345,10 +359,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -360,11 +373,22 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
+/* The angle of a cosine and a sine, in (-pi, pi]. */
+static double angle(double cosine, double sine)
+{
+    return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -644,6 +668,11 @@ typedef struct {
     Solution *out;
     double relative[PRR_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[2][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    prr_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -875,9 +904,78 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const prr_pairs *a, const prr_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[2] = {2, 1};
+    for (size_t k = 0; k < 2; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == PRR_CAPACITY) {
+        return false;
+    }
+    prr_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0];
+    pairs->joints[0][1] = 0.0;
+    q[0] = at[0];
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[1] + 0.0;
+    pairs->joints[1][1] = at[2] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[3] + 0.0;
+    pairs->joints[2][1] = at[4] + 0.0;
+    pairs->free[2] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        at[0],
+        joint_angle(answers, 0, at[1], at[2]),
+        joint_angle(answers, 1, at[3], at[4]),
+    };
     if (close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -962,10 +1060,9 @@ typedef struct {
     double d1;
     double c2;
     double s2;
-    double q1;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, 0.0, 0.0, 0.0 };
 
 /* What the charts of block 3 share. */
 typedef struct {
@@ -980,8 +1077,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5, r10 = 1.0 / sqrt(fmax(r8, 0.0));
     const double c3 = shared->r4 * r10, s3 = shared->r5 * r10;
     const double at[PLACES] = {known->d1, known->c2, known->s2, c3, s3};
-    const double q[JOINTS] = {at[0], known->q1, angle(at[3], at[4])};
-    finish(p, known->branch, known->last, known->close, at, q, NONE_FREE, answers);
+    finish(p, known->branch, known->last, known->close, at, NONE_FREE, answers);
 }
 
 /* Block 3: Elbow. */
@@ -1004,14 +1100,13 @@ typedef struct {
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r5 = 0.45 * shared->r4, r6 = 0.45 * shared->r1, r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0));
-    const double c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11, q1 = angle(c2, s2);
+    const double c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
-    next.q1 = q1;
     block_3(p, &next, answers);
 }
 
@@ -1066,20 +1161,76 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int prr_solve(const double *target, prr_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return PRR_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 2; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int prr_solve(const double *target, prr_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int prr_solve_pairs(const double *target, prr_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 2) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const prr_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[PRR_CAPACITY];
+    const int count = prr_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = answer->q[0];
+        out[i].joints[0][1] = 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+    }
+    return count;
+}
+
 
 void prr_forward(const double *q, double *target)
 {

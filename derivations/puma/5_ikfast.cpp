@@ -417,10 +417,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -432,11 +431,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -740,6 +744,8 @@ typedef struct {
     Solution *out;
     double relative[PUMA_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[6][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1153,9 +1159,30 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1249,6 +1276,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1262,14 +1291,9 @@ typedef struct {
     double s4;
     double c5;
     double s5;
-    double q0;
-    double q1;
-    double q2;
-    double q3;
-    double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1310,15 +1334,24 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
         c6,
         s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        known->q3,
-        known->q4,
-        angle(at[10], at[11]),
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c1,
+            known->s1,
+            known->c2,
+            known->s2,
+            known->c3,
+            known->s3,
+            -known->c4,
+            -known->s4,
+            -known->c5,
+            known->s5,
+            -c6,
+            -s6,
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
+    }
 }
 
 /* Block 6: WristRoll. */
@@ -1349,14 +1382,13 @@ typedef struct {
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r25 = 1.0 / sqrt(fmax(r23, 0.0));
-    const double c5 = shared->r20 * r25, s5 = 0.0 - shared->r19 * r25, q4 = angle(c5, s5);
+    const double c5 = shared->r20 * r25, s5 = 0.0 - shared->r19 * r25;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
-    next.q4 = q4;
     block_6(p, &next, answers);
 }
 
@@ -1395,17 +1427,16 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     const Roots roots0 = square_roots(0.0 - r15 - r16, known->f2 * (20.591260281974 * known->f1));
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r22 = w4 * shared->r13, r23 = w4 * shared->r14;
         const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r22 * r22, 0.0)), c4 = 0.0 - r23 * r28, s4 = r22 * r28;
-        const double q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         block_5(p, &next, answers);
     }
 }
@@ -1421,7 +1452,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1429,7 +1460,6 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -1475,7 +1505,6 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double f2 = 1.0, r23 = shared->r7 * shared->r12 - shared->r8 * shared->r11;
     const double r27 = shared->r8 * shared->r12 - (0.0 - shared->r7 * shared->r11);
     const double r32 = 1.0 / sqrt(fmax(r27 * r27 + r23 * r23, 0.0)), c2 = r27 * r32, s2 = r23 * r32;
-    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1483,7 +1512,6 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     next.c2 = c2;
     next.s2 = s2;
     next.f2 = f2;
-    next.q1 = q1;
     block_4(p, &next, answers);
 }
 
@@ -1499,7 +1527,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1508,7 +1536,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.c2 = c2;
         next.s2 = s2;
         next.f2 = f2;
-        next.q1 = q1;
         again_4(p, &next, answers);
     }
 }
@@ -1539,14 +1566,12 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r28 = 0.373248 * w3, r29 = 0.373248 * shared->r24;
         const double r34 = 1.0 / sqrt(fmax(r29 * r29 + r28 * r28, 0.0)), c3 = r29 * r34, s3 = r28 * r34;
-        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
-        next.q2 = q2;
         block_3(p, &next, answers);
     }
 }
@@ -1591,7 +1616,6 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r15 = w1 * shared->r1, r16 = w1 * shared->r3;
         const double r21 = 1.0 / sqrt(fmax(r16 * r16 + r15 * r15, 0.0)), c1 = 0.0 - r16 * r21, s1 = r15 * r21;
-        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1599,7 +1623,6 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1616,7 +1639,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 2;
         next.last = 3;
@@ -1625,7 +1648,6 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         again_2(p, &next, answers);
     }
 }
@@ -1697,7 +1719,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int puma_solve(const double *given, puma_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1705,14 +1728,28 @@ int puma_solve(const double *given, puma_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 6; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int puma_solve(const double *target, puma_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void puma_forward(const double *q, double *target)
 {

@@ -339,10 +339,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -354,11 +353,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -650,6 +654,8 @@ typedef struct {
     Solution *out;
     double relative[RH0_ARM_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[3][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1054,9 +1060,27 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1155,11 +1179,9 @@ typedef struct {
     double s16;
     double c14;
     double s14;
-    double q0;
-    double q2;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1193,8 +1215,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r13 = shared->r4 * shared->r5, r14 = shared->r4 * shared->r6;
     const double r19 = 1.0 / sqrt(fmax(r14 * r14 + r13 * r13, 0.0)), c15 = 0.0 - r14 * r19, s15 = r13 * r19;
     const double at[PLACES] = {known->c14, known->s14, c15, s15, known->c16, known->s16};
-    const double q[JOINTS] = {known->q0, angle(at[2], at[3]), known->q2};
-    finish(p, 2 * known->branch, 2 * known->last, known->close, at, q, known->free, answers);
+    finish(p, 2 * known->branch, 2 * known->last, known->close, at, known->free, answers);
 }
 
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
@@ -1209,9 +1230,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c15 = SAMPLES_1[i0][0], s15 = SAMPLES_1[i0][1];
         const double at[PLACES] = {known->c14, known->s14, c15, s15, known->c16, known->s16};
-        const double q[JOINTS] = {known->q0, angle(at[2], at[3]), known->q2};
         const bool free_joints[JOINTS] = {known->free[0], true, known->free[2]};
-        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, q, free_joints, answers);
+        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, free_joints, answers);
     }
 }
 
@@ -1256,14 +1276,12 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w14 = roots0.values[i0], r18 = shared->r0 * shared->r1 - p->pz * w14;
         const double r21 = w14 * shared->r0 + p->pz * shared->r1;
         const double r26 = 1.0 / sqrt(fmax(r21 * r21 + r18 * r18, 0.0)), c14 = 0.0 - r21 * r26, s14 = r18 * r26;
-        const double q0 = angle(c14, s14);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
         next.c14 = c14;
         next.s14 = s14;
-        next.q0 = q0;
         block_3(p, &next, answers);
     }
 }
@@ -1279,7 +1297,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c14 = SAMPLES_1[i0][0], s14 = SAMPLES_1[i0][1], q0 = angle(c14, s14);
+        const double c14 = SAMPLES_1[i0][0], s14 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1287,7 +1305,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.free[0] = true;
         next.c14 = c14;
         next.s14 = s14;
-        next.q0 = q0;
         again_3(p, &next, answers);
     }
 }
@@ -1316,14 +1333,12 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w16 = roots0.values[i0], r12 = 0.1056 * w16, r13 = 0.1056 * shared->r9;
         const double r18 = 1.0 / sqrt(fmax(r13 * r13 + r12 * r12, 0.0)), c16 = r13 * r18, s16 = r12 * r18;
-        const double q2 = angle(c16, s16);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
         next.c16 = c16;
         next.s16 = s16;
-        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -1348,20 +1363,35 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int rh0_arm_solve(const double *target, rh0_arm_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return RH0_ARM_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 3; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int rh0_arm_solve(const double *target, rh0_arm_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void rh0_arm_forward(const double *q, double *target)
 {

@@ -68,6 +68,20 @@ extern const double rh0_arm_limits[2 * RH0_ARM_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int rh0_arm_solve(const double *target, rh0_arm_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[RH0_ARM_JOINTS][2];
+    /* As in rh0_arm_solution. */
+    double residual;
+    size_t branch;
+    bool free[RH0_ARM_JOINTS];
+} rh0_arm_pairs;
+
+/* As rh0_arm_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that rh0_arm_solve finds. */
+int rh0_arm_solve_pairs(const double *target, rh0_arm_pairs *out);
+
 /* Writes the target (RH0_ARM_INPUTS numbers) that joint values q (RH0_ARM_JOINTS numbers) reach. */
 void rh0_arm_forward(const double *q, double *target);
 
@@ -366,10 +380,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -381,11 +394,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -677,6 +695,11 @@ typedef struct {
     Solution *out;
     double relative[RH0_ARM_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[3][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    rh0_arm_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1081,9 +1104,77 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const rh0_arm_pairs *a, const rh0_arm_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[3] = {1, 0, 2};
+    for (size_t k = 0; k < 3; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == RH0_ARM_CAPACITY) {
+        return false;
+    }
+    rh0_arm_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1182,11 +1273,9 @@ typedef struct {
     double s16;
     double c14;
     double s14;
-    double q0;
-    double q2;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1220,8 +1309,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r13 = shared->r4 * shared->r5, r14 = shared->r4 * shared->r6;
     const double r19 = 1.0 / sqrt(fmax(r14 * r14 + r13 * r13, 0.0)), c15 = 0.0 - r14 * r19, s15 = r13 * r19;
     const double at[PLACES] = {known->c14, known->s14, c15, s15, known->c16, known->s16};
-    const double q[JOINTS] = {known->q0, angle(at[2], at[3]), known->q2};
-    finish(p, 2 * known->branch, 2 * known->last, known->close, at, q, known->free, answers);
+    finish(p, 2 * known->branch, 2 * known->last, known->close, at, known->free, answers);
 }
 
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
@@ -1236,9 +1324,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c15 = SAMPLES_1[i0][0], s15 = SAMPLES_1[i0][1];
         const double at[PLACES] = {known->c14, known->s14, c15, s15, known->c16, known->s16};
-        const double q[JOINTS] = {known->q0, angle(at[2], at[3]), known->q2};
         const bool free_joints[JOINTS] = {known->free[0], true, known->free[2]};
-        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, q, free_joints, answers);
+        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, free_joints, answers);
     }
 }
 
@@ -1283,14 +1370,12 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double w14 = roots0.values[i0], r18 = shared->r0 * shared->r1 - p->pz * w14;
         const double r21 = w14 * shared->r0 + p->pz * shared->r1;
         const double r26 = 1.0 / sqrt(fmax(r21 * r21 + r18 * r18, 0.0)), c14 = 0.0 - r21 * r26, s14 = r18 * r26;
-        const double q0 = angle(c14, s14);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
         next.c14 = c14;
         next.s14 = s14;
-        next.q0 = q0;
         block_3(p, &next, answers);
     }
 }
@@ -1306,7 +1391,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c14 = SAMPLES_1[i0][0], s14 = SAMPLES_1[i0][1], q0 = angle(c14, s14);
+        const double c14 = SAMPLES_1[i0][0], s14 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1314,7 +1399,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.free[0] = true;
         next.c14 = c14;
         next.s14 = s14;
-        next.q0 = q0;
         again_3(p, &next, answers);
     }
 }
@@ -1343,14 +1427,12 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w16 = roots0.values[i0], r12 = 0.1056 * w16, r13 = 0.1056 * shared->r9;
         const double r18 = 1.0 / sqrt(fmax(r13 * r13 + r12 * r12, 0.0)), c16 = r13 * r18, s16 = r12 * r18;
-        const double q2 = angle(c16, s16);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
         next.c16 = c16;
         next.s16 = s16;
-        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -1375,20 +1457,76 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int rh0_arm_solve(const double *target, rh0_arm_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return RH0_ARM_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 3; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int rh0_arm_solve(const double *target, rh0_arm_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int rh0_arm_solve_pairs(const double *target, rh0_arm_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 4) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const rh0_arm_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[RH0_ARM_CAPACITY];
+    const int count = rh0_arm_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+    }
+    return count;
+}
+
 
 void rh0_arm_forward(const double *q, double *target)
 {

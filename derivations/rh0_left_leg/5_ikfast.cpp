@@ -424,10 +424,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -439,11 +438,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -747,6 +751,8 @@ typedef struct {
     Solution *out;
     double relative[RH0_LEFT_LEG_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[6][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1160,9 +1166,30 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1256,6 +1283,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c12;
     double s12;
@@ -1269,14 +1298,9 @@ typedef struct {
     double s9;
     double c8;
     double s8;
-    double q0;
-    double q1;
-    double q2;
-    double q3;
-    double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1317,15 +1341,24 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
         c7,
         s7,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        known->q3,
-        known->q4,
-        angle(at[10], at[11]),
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c12,
+            known->s12,
+            known->c11,
+            known->s11,
+            known->c10,
+            known->s10,
+            -known->c9,
+            -known->s9,
+            -known->c8,
+            known->s8,
+            -c7,
+            -s7,
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
+    }
 }
 
 /* Block 6: HipYaw. */
@@ -1355,14 +1388,13 @@ typedef struct {
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r25 = 1.0 / sqrt(fmax(r23, 0.0));
-    const double c8 = shared->r20 * r25, s8 = 0.0 - shared->r19 * r25, q4 = angle(c8, s8);
+    const double c8 = shared->r20 * r25, s8 = 0.0 - shared->r19 * r25;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c8 = c8;
     next.s8 = s8;
-    next.q4 = q4;
     block_6(p, &next, answers);
 }
 
@@ -1402,17 +1434,16 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     }
     const double r21 = known->f11 * (14.142135623730951 * known->f12);
     const Roots roots0 = square_roots(0.0 - r15 - r16, r21);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w9 = roots0.values[i0], r22 = w9 * shared->r13, r23 = w9 * shared->r14;
         const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r22 * r22, 0.0)), c9 = 0.0 - r23 * r28, s9 = r22 * r28;
-        const double q3 = angle(c9, s9);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c9 = c9;
         next.s9 = s9;
-        next.q3 = q3;
         block_5(p, &next, answers);
     }
 }
@@ -1428,7 +1459,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c9 = SAMPLES_1[i0][0], s9 = SAMPLES_1[i0][1], q3 = angle(c9, s9);
+        const double c9 = SAMPLES_1[i0][0], s9 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1436,7 +1467,6 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[3] = true;
         next.c9 = c9;
         next.s9 = s9;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -1481,7 +1511,6 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double f11 = 1.0, r30 = shared->r11 * shared->r18 - (0.0 - shared->r13 * shared->r17);
     const double r33 = shared->r11 * shared->r17 - shared->r13 * shared->r18;
     const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r30 * r30, 0.0)), c11 = r33 * r38, s11 = r30 * r38;
-    const double q1 = angle(c11, s11);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1489,7 +1518,6 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     next.c11 = c11;
     next.s11 = s11;
     next.f11 = f11;
-    next.q1 = q1;
     block_4(p, &next, answers);
 }
 
@@ -1505,7 +1533,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f11 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c11 = SAMPLES_1[i0][0], s11 = SAMPLES_1[i0][1], q1 = angle(c11, s11);
+        const double c11 = SAMPLES_1[i0][0], s11 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1514,7 +1542,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.c11 = c11;
         next.s11 = s11;
         next.f11 = f11;
-        next.q1 = q1;
         again_4(p, &next, answers);
     }
 }
@@ -1546,14 +1573,12 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w10 = roots0.values[i0], r36 = 0.1568 * w10, r37 = 0.1568 * shared->r32;
         const double r42 = 1.0 / sqrt(fmax(r37 * r37 + r36 * r36, 0.0)), c10 = 0.0 - r37 * r42, s10 = r36 * r42;
-        const double q2 = angle(c10, s10);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.c10 = c10;
         next.s10 = s10;
-        next.q2 = q2;
         block_3(p, &next, answers);
     }
 }
@@ -1601,7 +1626,6 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w12 = roots0.values[i0], r23 = w12 * shared->r4, r24 = w12 * shared->r8;
         const double r29 = 1.0 / sqrt(fmax(r24 * r24 + r23 * r23, 0.0)), c12 = 0.0 - r24 * r29, s12 = r23 * r29;
-        const double q0 = angle(c12, s12);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1609,7 +1633,6 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c12 = c12;
         next.s12 = s12;
         next.f12 = f12;
-        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1627,7 +1650,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
     }
     const double f12 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c12 = SAMPLES_1[i0][0], s12 = SAMPLES_1[i0][1], q0 = angle(c12, s12);
+        const double c12 = SAMPLES_1[i0][0], s12 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 2;
         next.last = 3;
@@ -1636,7 +1659,6 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c12 = c12;
         next.s12 = s12;
         next.f12 = f12;
-        next.q0 = q0;
         again_2(p, &next, answers);
     }
 }
@@ -1710,7 +1732,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int rh0_left_leg_solve(const double *given, rh0_left_leg_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1718,14 +1741,28 @@ int rh0_left_leg_solve(const double *given, rh0_left_leg_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 6; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int rh0_left_leg_solve(const double *target, rh0_left_leg_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void rh0_left_leg_forward(const double *q, double *target)
 {

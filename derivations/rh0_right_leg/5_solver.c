@@ -80,6 +80,20 @@ extern const double rh0_right_leg_limits[2 * RH0_RIGHT_LEG_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int rh0_right_leg_solve(const double *target, rh0_right_leg_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[RH0_RIGHT_LEG_JOINTS][2];
+    /* As in rh0_right_leg_solution. */
+    double residual;
+    size_t branch;
+    bool free[RH0_RIGHT_LEG_JOINTS];
+} rh0_right_leg_pairs;
+
+/* As rh0_right_leg_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that rh0_right_leg_solve finds. */
+int rh0_right_leg_solve_pairs(const double *target, rh0_right_leg_pairs *out);
+
 /* Writes the target (RH0_RIGHT_LEG_INPUTS numbers) that joint values q (RH0_RIGHT_LEG_JOINTS numbers) reach. */
 void rh0_right_leg_forward(const double *q, double *target);
 
@@ -463,10 +477,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -478,11 +491,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -786,6 +804,11 @@ typedef struct {
     Solution *out;
     double relative[RH0_RIGHT_LEG_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[6][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    rh0_right_leg_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1199,9 +1222,89 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const rh0_right_leg_pairs *a, const rh0_right_leg_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[6] = {5, 4, 3, 1, 2, 0};
+    for (size_t k = 0; k < 6; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == RH0_RIGHT_LEG_CAPACITY) {
+        return false;
+    }
+    rh0_right_leg_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[6] + 0.0;
+    pairs->joints[3][1] = at[7] + 0.0;
+    pairs->free[3] = false;
+    pairs->joints[4][0] = at[8] + 0.0;
+    pairs->joints[4][1] = at[9] + 0.0;
+    pairs->free[4] = false;
+    pairs->joints[5][0] = at[10] + 0.0;
+    pairs->joints[5][1] = at[11] + 0.0;
+    pairs->free[5] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1295,6 +1398,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c1;
     double s1;
@@ -1308,14 +1413,9 @@ typedef struct {
     double s4;
     double c5;
     double s5;
-    double q0;
-    double q1;
-    double q2;
-    double q3;
-    double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1356,15 +1456,24 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
         c6,
         s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        known->q3,
-        known->q4,
-        angle(at[10], at[11]),
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            known->c1,
+            known->s1,
+            known->c2,
+            known->s2,
+            known->c3,
+            known->s3,
+            -known->c4,
+            -known->s4,
+            -known->c5,
+            known->s5,
+            -c6,
+            -s6,
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
+    }
 }
 
 /* Block 6: HipYaw. */
@@ -1393,14 +1502,13 @@ typedef struct {
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r25 = 1.0 / sqrt(fmax(r23, 0.0));
-    const double c5 = shared->r20 * r25, s5 = 0.0 - shared->r19 * r25, q4 = angle(c5, s5);
+    const double c5 = shared->r20 * r25, s5 = 0.0 - shared->r19 * r25;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
-    next.q4 = q4;
     block_6(p, &next, answers);
 }
 
@@ -1439,17 +1547,16 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const Roots roots0 = square_roots(0.0 - r15 - r16, known->f2 * (14.142135623730951 * known->f1));
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r22 = w4 * shared->r13, r23 = w4 * shared->r14;
         const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r22 * r22, 0.0)), c4 = 0.0 - r23 * r28, s4 = r22 * r28;
-        const double q3 = angle(c4, s4);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         block_5(p, &next, answers);
     }
 }
@@ -1465,7 +1572,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1473,7 +1580,6 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -1518,7 +1624,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double f2 = 1.0, r30 = shared->r11 * shared->r18 - (0.0 - shared->r13 * shared->r17);
     const double r33 = shared->r11 * shared->r17 - shared->r13 * shared->r18;
     const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r30 * r30, 0.0)), c2 = r33 * r38, s2 = r30 * r38;
-    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1526,7 +1631,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     next.c2 = c2;
     next.s2 = s2;
     next.f2 = f2;
-    next.q1 = q1;
     block_4(p, &next, answers);
 }
 
@@ -1542,7 +1646,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1551,7 +1655,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.c2 = c2;
         next.s2 = s2;
         next.f2 = f2;
-        next.q1 = q1;
         again_4(p, &next, answers);
     }
 }
@@ -1583,14 +1686,12 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r36 = 0.1568 * w3, r37 = 0.1568 * shared->r32;
         const double r42 = 1.0 / sqrt(fmax(r37 * r37 + r36 * r36, 0.0)), c3 = 0.0 - r37 * r42, s3 = r36 * r42;
-        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
-        next.q2 = q2;
         block_3(p, &next, answers);
     }
 }
@@ -1638,7 +1739,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r23 = w1 * shared->r4, r24 = w1 * shared->r8;
         const double r29 = 1.0 / sqrt(fmax(r24 * r24 + r23 * r23, 0.0)), c1 = 0.0 - r24 * r29;
-        const double s1 = 0.0 - r23 * r29, q0 = angle(c1, s1);
+        const double s1 = 0.0 - r23 * r29;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
@@ -1646,7 +1747,6 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1664,7 +1764,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 2;
         next.last = 3;
@@ -1673,7 +1773,6 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         again_2(p, &next, answers);
     }
 }
@@ -1747,7 +1846,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int rh0_right_leg_solve(const double *given, rh0_right_leg_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1755,14 +1855,78 @@ int rh0_right_leg_solve(const double *given, rh0_right_leg_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 6; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int rh0_right_leg_solve(const double *target, rh0_right_leg_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int rh0_right_leg_solve_pairs(const double *target, rh0_right_leg_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 8) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const rh0_right_leg_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[RH0_RIGHT_LEG_CAPACITY];
+    const int count = rh0_right_leg_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
+        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
+        out[i].free[4] = answer->free[4];
+        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
+        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
+        out[i].free[5] = answer->free[5];
+    }
+    return count;
+}
+
 
 void rh0_right_leg_forward(const double *q, double *target)
 {

@@ -339,10 +339,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -354,11 +353,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -650,6 +654,8 @@ typedef struct {
     Solution *out;
     double relative[RRP_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[2][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1053,9 +1059,27 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        at[4],
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1153,10 +1177,9 @@ typedef struct {
     double c1;
     double s1;
     double d3;
-    double q0;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1190,8 +1213,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r14 = shared->r2 * shared->r5 - (0.0 - 0.05 * shared->r3);
     const double r19 = 1.0 / sqrt(fmax(r14 * r14 + r10 * r10, 0.0)), c2 = r14 * r19, s2 = r10 * r19;
     const double at[PLACES] = {known->c1, known->s1, c2, s2, known->d3};
-    const double q[JOINTS] = {known->q0, angle(at[2], at[3]), at[4]};
-    finish(p, 2 * known->branch, 2 * known->last, known->close, at, q, known->free, answers);
+    finish(p, 2 * known->branch, 2 * known->last, known->close, at, known->free, answers);
 }
 
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
@@ -1207,9 +1229,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         const double at[PLACES] = {known->c1, known->s1, c2, s2, known->d3};
-        const double q[JOINTS] = {known->q0, angle(at[2], at[3]), at[4]};
         const bool free_joints[JOINTS] = {known->free[0], true, known->free[2]};
-        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, q, free_joints, answers);
+        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, free_joints, answers);
     }
 }
 
@@ -1268,14 +1289,12 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r11 = 0.1 * p->px + p->py * w1, r14 = 0.1 * p->py - p->px * w1;
         const double r19 = 1.0 / sqrt(fmax(r14 * r14 + r11 * r11, 0.0)), c1 = r14 * r19, s1 = 0.0 - r11 * r19;
-        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1296,20 +1315,35 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int rrp_solve(const double *target, rrp_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return RRP_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 2; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int rrp_solve(const double *target, rrp_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void rrp_forward(const double *q, double *target)
 {

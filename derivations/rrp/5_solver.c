@@ -68,6 +68,20 @@ extern const double rrp_limits[2 * RRP_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int rrp_solve(const double *target, rrp_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[RRP_JOINTS][2];
+    /* As in rrp_solution. */
+    double residual;
+    size_t branch;
+    bool free[RRP_JOINTS];
+} rrp_pairs;
+
+/* As rrp_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that rrp_solve finds. */
+int rrp_solve_pairs(const double *target, rrp_pairs *out);
+
 /* Writes the target (RRP_INPUTS numbers) that joint values q (RRP_JOINTS numbers) reach. */
 void rrp_forward(const double *q, double *target);
 
@@ -366,10 +380,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -381,11 +394,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -677,6 +695,11 @@ typedef struct {
     Solution *out;
     double relative[RRP_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[2][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    rrp_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1080,9 +1103,78 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const rrp_pairs *a, const rrp_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[2] = {1, 0};
+    for (size_t k = 0; k < 2; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == RRP_CAPACITY) {
+        return false;
+    }
+    rrp_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4];
+    pairs->joints[2][1] = 0.0;
+    q[2] = at[4];
+    pairs->free[2] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        at[4],
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1180,10 +1272,9 @@ typedef struct {
     double c1;
     double s1;
     double d3;
-    double q0;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1217,8 +1308,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r14 = shared->r2 * shared->r5 - (0.0 - 0.05 * shared->r3);
     const double r19 = 1.0 / sqrt(fmax(r14 * r14 + r10 * r10, 0.0)), c2 = r14 * r19, s2 = r10 * r19;
     const double at[PLACES] = {known->c1, known->s1, c2, s2, known->d3};
-    const double q[JOINTS] = {known->q0, angle(at[2], at[3]), at[4]};
-    finish(p, 2 * known->branch, 2 * known->last, known->close, at, q, known->free, answers);
+    finish(p, 2 * known->branch, 2 * known->last, known->close, at, known->free, answers);
 }
 
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
@@ -1234,9 +1324,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         const double at[PLACES] = {known->c1, known->s1, c2, s2, known->d3};
-        const double q[JOINTS] = {known->q0, angle(at[2], at[3]), at[4]};
         const bool free_joints[JOINTS] = {known->free[0], true, known->free[2]};
-        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, q, free_joints, answers);
+        finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, free_joints, answers);
     }
 }
 
@@ -1295,14 +1384,12 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r11 = 0.1 * p->px + p->py * w1, r14 = 0.1 * p->py - p->px * w1;
         const double r19 = 1.0 / sqrt(fmax(r14 * r14 + r11 * r11, 0.0)), c1 = r14 * r19, s1 = 0.0 - r11 * r19;
-        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1323,20 +1410,76 @@ static bool all_finite(const double *target)
     return true;
 }
 
-int rrp_solve(const double *target, rrp_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *target, Answers *answers)
 {
     if (!all_finite(target)) {
         return RRP_NOT_FINITE;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 2; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int rrp_solve(const double *target, rrp_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int rrp_solve_pairs(const double *target, rrp_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 4) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const rrp_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[RRP_CAPACITY];
+    const int count = rrp_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = answer->q[2];
+        out[i].joints[2][1] = 0.0;
+        out[i].free[2] = answer->free[2];
+    }
+    return count;
+}
+
 
 void rrp_forward(const double *q, double *target)
 {

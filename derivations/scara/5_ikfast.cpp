@@ -383,10 +383,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -398,11 +397,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -698,6 +702,8 @@ typedef struct {
     Solution *out;
     double relative[SCARA_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[3][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1104,9 +1110,28 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        at[4],
+        joint_angle(answers, 2, at[5], at[6]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1168,11 +1193,9 @@ typedef struct {
     double s2;
     double c1;
     double s1;
-    double q0;
-    double q1;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1199,8 +1222,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     const double r20 = shared->r16 * shared->r16 + shared->r17 * shared->r17, r22 = 1.0 / sqrt(fmax(r20, 0.0));
     const double c4 = shared->r16 * r22, s4 = shared->r17 * r22;
     const double at[PLACES] = {known->c1, known->s1, known->c2, known->s2, known->d3, c4, s4};
-    const double q[JOINTS] = {known->q0, known->q1, at[4], angle(at[5], at[6])};
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 4: Tool. */
@@ -1241,14 +1263,12 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r11 = p->py * shared->r2 - p->px * shared->r0;
     const double r15 = p->px * shared->r2 - (0.0 - p->py * shared->r0);
     const double r20 = 1.0 / sqrt(fmax(r15 * r15 + r11 * r11, 0.0)), c1 = r15 * r20, s1 = r11 * r20;
-    const double q0 = angle(c1, s1);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
     next.close = known->close;
     next.c1 = c1;
     next.s1 = s1;
-    next.q0 = q0;
     block_4(p, &next, answers);
 }
 
@@ -1263,7 +1283,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1271,7 +1291,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         again_4(p, &next, answers);
     }
 }
@@ -1301,14 +1320,12 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w2 = roots0.values[i0], r14 = 0.17875 * w2, r15 = 0.17875 * shared->r11;
         const double r20 = 1.0 / sqrt(fmax(r15 * r15 + r14 * r14, 0.0)), c2 = 0.0 - r15 * r20, s2 = r14 * r20;
-        const double q1 = angle(c2, s2);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.c2 = c2;
         next.s2 = s2;
-        next.q1 = q1;
         block_3(p, &next, answers);
     }
 }
@@ -1407,7 +1424,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int scara_solve(const double *given, scara_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1415,13 +1433,27 @@ int scara_solve(const double *given, scara_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 3; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int scara_solve(const double *target, scara_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void scara_forward(const double *q, double *target)
 {

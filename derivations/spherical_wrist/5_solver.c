@@ -80,6 +80,20 @@ extern const double spherical_wrist_limits[2 * SPHERICAL_WRIST_JOINTS];
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int spherical_wrist_solve(const double *target, spherical_wrist_solution *out);
 
+/* One answer by cosines and sines. */
+typedef struct {
+    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
+    double joints[SPHERICAL_WRIST_JOINTS][2];
+    /* As in spherical_wrist_solution. */
+    double residual;
+    size_t branch;
+    bool free[SPHERICAL_WRIST_JOINTS];
+} spherical_wrist_pairs;
+
+/* As spherical_wrist_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+ * two are next to each other, the cosines and sines are those of the angles that spherical_wrist_solve finds. */
+int spherical_wrist_solve_pairs(const double *target, spherical_wrist_pairs *out);
+
 /* Writes the target (SPHERICAL_WRIST_INPUTS numbers) that joint values q (SPHERICAL_WRIST_JOINTS numbers) reach. */
 void spherical_wrist_forward(const double *q, double *target);
 
@@ -1038,10 +1052,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -1053,11 +1066,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -1361,6 +1379,11 @@ typedef struct {
     Solution *out;
     double relative[SPHERICAL_WRIST_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[6][3];
+    /* Where pairs are written instead, and whether all candidates so far can be. */
+    spherical_wrist_pairs *pairs;
+    bool usual;
 } Answers;
 
 static double shorter(double difference)
@@ -1774,9 +1797,89 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Whether an angle tells a pair apart from others: their difference is more than BLUR where its cosine is below this. */
+static bool tells_apart(const spherical_wrist_pairs *a, const spherical_wrist_pairs *b)
+{
+    const double far_apart = 1.0 - 0.52 * BLUR * BLUR;
+    const size_t order[6] = {5, 4, 3, 1, 0, 2};
+    for (size_t k = 0; k < 6; k++) {
+        const size_t i = order[k];
+        if (a->joints[i][0] * b->joints[i][0] + a->joints[i][1] * b->joints[i][1] < far_apart) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs, if it solves the equations within rounding and is apart from the others. */
+static bool take_pair(const Parameters *p, size_t branch, const double *at, Answers *answers)
+{
+    if (answers->count == SPHERICAL_WRIST_CAPACITY) {
+        return false;
+    }
+    spherical_wrist_pairs *pairs = &answers->pairs[answers->count];
+    double q[JOINTS] = {0.0};
+    pairs->joints[0][0] = at[0] + 0.0;
+    pairs->joints[0][1] = at[1] + 0.0;
+    pairs->free[0] = false;
+    pairs->joints[1][0] = at[2] + 0.0;
+    pairs->joints[1][1] = at[3] + 0.0;
+    pairs->free[1] = false;
+    pairs->joints[2][0] = at[4] + 0.0;
+    pairs->joints[2][1] = at[5] + 0.0;
+    pairs->free[2] = false;
+    pairs->joints[3][0] = at[6] + 0.0;
+    pairs->joints[3][1] = at[7] + 0.0;
+    pairs->free[3] = false;
+    pairs->joints[4][0] = at[8] + 0.0;
+    pairs->joints[4][1] = at[9] + 0.0;
+    pairs->free[4] = false;
+    pairs->joints[5][0] = at[10] + 0.0;
+    pairs->joints[5][1] = at[11] + 0.0;
+    pairs->free[5] = false;
+    const Fit fit = measure_at(p, at, q);
+    pairs->residual = fit.residual;
+    pairs->branch = branch;
+    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        return false;
+    }
+    for (size_t i = 0; i < answers->count; i++) {
+        if (answers->pairs[i].branch == branch || !tells_apart(&answers->pairs[i], pairs)) {
+            return false;
+        }
+    }
+    answers->count++;
+    return true;
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    if (answers->pairs != NULL) {
+        answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
+        return;
+    }
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1898,14 +2001,9 @@ typedef struct {
     double s4;
     double c5;
     double s5;
-    double q0;
-    double q1;
-    double q2;
-    double q3;
-    double q4;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1945,15 +2043,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
         c6,
         s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        known->q3,
-        known->q4,
-        angle(at[10], at[11]),
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 6: Wrist3. */
@@ -2119,14 +2209,13 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 {
     const double r279 = shared->r274 + shared->r278, r280 = shared->r278 - shared->r274;
     const double r285 = 1.0 / sqrt(fmax(r280 * r280 + r279 * r279, 0.0)), c5 = r280 * r285;
-    const double s5 = 0.0 - r279 * r285, q4 = angle(c5, s5);
+    const double s5 = 0.0 - r279 * r285;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
-    next.q4 = q4;
     block_6(p, &next, answers);
 }
 
@@ -2236,14 +2325,13 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w4 = roots0.values[i0], r219 = w4 * shared->r199, r220 = w4 * shared->r210;
         const double r225 = 1.0 / sqrt(fmax(r220 * r220 + r219 * r219, 0.0)), c4 = 0.0 - r220 * r225;
-        const double s4 = 0.0 - r219 * r225, q3 = angle(c4, s4);
+        const double s4 = 0.0 - r219 * r225;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         block_5(p, &next, answers);
     }
 }
@@ -2259,7 +2347,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1], q3 = angle(c4, s4);
+        const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -2267,7 +2355,6 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         again_5(p, &next, answers);
     }
 }
@@ -2365,7 +2452,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double f2 = 1.0, r60 = shared->r23 * shared->r32 + shared->r19 * shared->r48;
     const double r63 = shared->r23 * shared->r48 - shared->r19 * shared->r32;
     const double r68 = 1.0 / sqrt(fmax(r63 * r63 + r60 * r60, 0.0)), c2 = r63 * r68, s2 = 0.0 - r60 * r68;
-    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -2373,7 +2459,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     next.c2 = c2;
     next.s2 = s2;
     next.f2 = f2;
-    next.q1 = q1;
     block_4(p, &next, answers);
 }
 
@@ -2389,7 +2474,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -2398,7 +2483,6 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         next.c2 = c2;
         next.s2 = s2;
         next.f2 = f2;
-        next.q1 = q1;
         again_4(p, &next, answers);
     }
 }
@@ -2457,7 +2541,6 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double f1 = 1.0, r118 = shared->r38 * shared->r90 - (0.0 - shared->r53 * shared->r65);
     const double r121 = shared->r53 * shared->r90 - shared->r38 * shared->r65;
     const double r126 = 1.0 / sqrt(fmax(r121 * r121 + r118 * r118, 0.0)), c1 = r121 * r126, s1 = r118 * r126;
-    const double q0 = angle(c1, s1);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -2465,7 +2548,6 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     next.c1 = c1;
     next.s1 = s1;
     next.f1 = f1;
-    next.q0 = q0;
     block_3(p, &next, answers);
 }
 
@@ -2482,7 +2564,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -2491,7 +2573,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.c1 = c1;
         next.s1 = s1;
         next.f1 = f1;
-        next.q0 = q0;
         again_3(p, &next, answers);
     }
 }
@@ -2572,7 +2653,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r111 = w3 * (0.0 - r103 - 0.21819403952057012 * r108);
         const double r115 = (0.21819403952057012 * (r93 + r94) - r111) / 0.47356163692985703;
         const double r117 = 1.0 - w3 * r115, r122 = 1.0 / sqrt(fmax(r117 * r117 + r115 * r115, 0.0));
-        const double c3 = r117 * r122, s3 = r115 * r122, q2 = angle(c3, s3);
+        const double c3 = r117 * r122, s3 = r115 * r122;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
@@ -2580,7 +2661,6 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
-        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2622,7 +2702,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r115 = 0.0 - 0.6526507473737795 * r107 - 0.04760863888230411;
         const double r117 = (w3 * (w3 * r104 + r110) + r115) / 0.47356163692985703, r119 = w3 * (1.0 - r117);
         const double r124 = 1.0 / sqrt(fmax(r119 * r119 + r117 * r117, 0.0)), c3 = 0.0 - r119 * r124;
-        const double s3 = 0.0 - r117 * r124, q2 = angle(c3, s3);
+        const double s3 = 0.0 - r117 * r124;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
@@ -2630,7 +2710,6 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
-        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2670,7 +2749,7 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r110 = w3 * (0.0 - 0.6526507473737795 * r101 - r108);
         const double r114 = (0.21819403952057012 * (r92 - r93) - r110) / 0.47356163692985703;
         const double r116 = w3 * r114 + 1.0, r121 = 1.0 / sqrt(fmax(r116 * r116 + r114 * r114, 0.0));
-        const double c3 = 0.0 - r116 * r121, s3 = r114 * r121, q2 = angle(c3, s3);
+        const double c3 = 0.0 - r116 * r121, s3 = r114 * r121;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
@@ -2678,7 +2757,6 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
-        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2719,7 +2797,7 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r114 = 0.04760863888230411 - 0.6526507473737795 * r107;
         const double r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703;
         const double r119 = w3 * (0.0 - r116 - 1.0), r124 = 1.0 / sqrt(fmax(r119 * r119 + r116 * r116, 0.0));
-        const double c3 = 0.0 - r119 * r124, s3 = 0.0 - r116 * r124, q2 = angle(c3, s3);
+        const double c3 = 0.0 - r119 * r124, s3 = 0.0 - r116 * r124;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
@@ -2727,7 +2805,6 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
-        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2777,7 +2854,7 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r151 = 0.6526507473737795 * (r106 + (r104 + (r102 + 0.35504200657133606)));
         const double r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703;
         const double r157 = 0.6 - w3 * (0.8 - r154), r162 = 1.0 / sqrt(fmax(r157 * r157 + r154 * r154, 0.0));
-        const double c3 = r157 * r162, s3 = 0.0 - r154 * r162, q2 = angle(c3, s3);
+        const double c3 = r157 * r162, s3 = 0.0 - r154 * r162;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 4;
@@ -2785,7 +2862,6 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
-        next.q2 = q2;
         block_2(p, &next, answers);
     }
 }
@@ -2810,7 +2886,7 @@ static void chart_1_6(const Parameters *p, const Shared1 *shared, Answers *answe
     }
     const double f3 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1], q2 = angle(c3, s3);
+        const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 4;
         next.last = 5;
@@ -2819,7 +2895,6 @@ static void chart_1_6(const Parameters *p, const Shared1 *shared, Answers *answe
         next.c3 = c3;
         next.s3 = s3;
         next.f3 = f3;
-        next.q2 = q2;
         again_2(p, &next, answers);
     }
 }
@@ -2926,7 +3001,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int spherical_wrist_solve(const double *given, spherical_wrist_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -2934,14 +3010,78 @@ int spherical_wrist_solve(const double *given, spherical_wrist_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 6; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int spherical_wrist_solve(const double *target, spherical_wrist_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    answers.pairs = NULL;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
+int spherical_wrist_solve_pairs(const double *target, spherical_wrist_pairs *out)
+{
+    Answers answers;
+    answers.out = NULL;
+    answers.pairs = out;
+    answers.usual = true;
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
+    if (answers.usual && answers.count <= 8) {
+        for (size_t end = 1; end < answers.count; end++) {
+            for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+                const spherical_wrist_pairs pairs = out[i];
+                out[i] = out[i - 1];
+                out[i - 1] = pairs;
+            }
+        }
+        return (int)answers.count;
+    }
+    Solution list[SPHERICAL_WRIST_CAPACITY];
+    const int count = spherical_wrist_solve(target, list);
+    for (int i = 0; i < count; i++) {
+        const Solution *answer = &list[i];
+        out[i].residual = answer->residual;
+        out[i].branch = answer->branch;
+        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
+        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
+        out[i].free[0] = answer->free[0];
+        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
+        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
+        out[i].free[1] = answer->free[1];
+        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
+        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
+        out[i].free[2] = answer->free[2];
+        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
+        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
+        out[i].free[3] = answer->free[3];
+        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
+        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
+        out[i].free[4] = answer->free[4];
+        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
+        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
+        out[i].free[5] = answer->free[5];
+    }
+    return count;
+}
+
 
 void spherical_wrist_forward(const double *q, double *target)
 {

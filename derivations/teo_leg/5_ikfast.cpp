@@ -424,10 +424,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -439,11 +438,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -747,6 +751,8 @@ typedef struct {
     Solution *out;
     double relative[TEO_LEG_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[6][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1160,9 +1166,30 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1256,6 +1283,8 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
+    /* Whether a candidate stands for two, of which the second differs in signs. */
+    bool pair;
     bool free[JOINTS];
     double c4;
     double s4;
@@ -1268,14 +1297,9 @@ typedef struct {
     double s1;
     double c2;
     double s2;
-    double q0;
-    double q1;
-    double q3;
-    double q4;
-    double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1315,15 +1339,24 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
         known->c6,
         known->s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        angle(at[4], at[5]),
-        known->q3,
-        known->q4,
-        known->q5,
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
+    if (known->pair) {
+        const double at[PLACES] = {
+            -known->c1,
+            -known->s1,
+            -known->c2,
+            known->s2,
+            -c3,
+            -s3,
+            known->c4,
+            known->s4,
+            known->c5,
+            known->s5,
+            known->c6,
+            known->s6,
+        };
+        finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
+    }
 }
 
 /* Block 6: HipPitch. */
@@ -1355,14 +1388,13 @@ typedef struct {
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r16 = 1.0 / sqrt(fmax(r14, 0.0));
-    const double c2 = shared->r11 * r16, s2 = shared->r10 * r16, q1 = angle(c2, s2);
+    const double c2 = shared->r11 * r16, s2 = shared->r10 * r16;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
-    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
@@ -1399,17 +1431,16 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     const Roots roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903 * known->f5);
-    for (size_t i0 = 0; i0 < roots0.count; i0++) {
+    for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w1 = roots0.values[i0], r12 = w1 * shared->r4, r13 = w1 * shared->r5;
         const double r18 = 1.0 / sqrt(fmax(r13 * r13 + r12 * r12, 0.0)), c1 = 0.0 - r13 * r18, s1 = r12 * r18;
-        const double q0 = angle(c1, s1);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
         next.close = known->close || roots0.close;
+        next.pair = roots0.count == 2;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         block_5(p, &next, answers);
     }
 }
@@ -1425,7 +1456,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1], q0 = angle(c1, s1);
+        const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1433,7 +1464,6 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         again_5(p, &next, answers);
     }
 }
@@ -1470,14 +1500,12 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r40 = 0.0175 * shared->r20 - shared->r13 * shared->r25;
     const double r43 = 0.0175 * shared->r13 + shared->r20 * shared->r25;
     const double r48 = 1.0 / sqrt(fmax(r43 * r43 + r40 * r40, 0.0)), c6 = 0.0 - r43 * r48, s6 = r40 * r48;
-    const double q5 = angle(c6, s6);
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c6 = c6;
     next.s6 = s6;
-    next.q5 = q5;
     block_4(p, &next, answers);
 }
 
@@ -1525,7 +1553,6 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w5 = roots0.values[i0], r23 = shared->r5 * shared->r11 - w5 * shared->r3;
         const double r27 = shared->r3 * shared->r11 - (0.0 - w5 * shared->r5);
         const double r32 = 1.0 / sqrt(fmax(r27 * r27 + r23 * r23, 0.0)), c5 = r27 * r32, s5 = r23 * r32;
-        const double q4 = angle(c5, s5);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1533,7 +1560,6 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         next.c5 = c5;
         next.s5 = s5;
         next.f5 = f5;
-        next.q4 = q4;
         block_3(p, &next, answers);
     }
 }
@@ -1550,7 +1576,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f5 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1], q4 = angle(c5, s5);
+        const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1559,7 +1585,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.c5 = c5;
         next.s5 = s5;
         next.f5 = f5;
-        next.q4 = q4;
         again_3(p, &next, answers);
     }
 }
@@ -1589,14 +1614,12 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w4 = roots0.values[i0], r31 = 0.198 * w4, r32 = 0.198 * shared->r28;
         const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), c4 = 0.0 - r32 * r37, s4 = r31 * r37;
-        const double q3 = angle(c4, s4);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
         next.c4 = c4;
         next.s4 = s4;
-        next.q3 = q3;
         block_2(p, &next, answers);
     }
 }
@@ -1671,7 +1694,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int teo_leg_solve(const double *given, teo_leg_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1679,14 +1703,28 @@ int teo_leg_solve(const double *given, teo_leg_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 6; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int teo_leg_solve(const double *target, teo_leg_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void teo_leg_forward(const double *q, double *target)
 {

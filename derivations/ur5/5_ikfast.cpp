@@ -425,10 +425,9 @@ static double series(double u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad. */
-static double angle(double cosine, double sine)
+/* The angle in [0, pi/2] of a cosine and a sine that are not negative, within 5e-16 rad. */
+static double acute(double across, double up)
 {
-    const double across = fabs(cosine), up = fabs(sine);
     const bool steep = up > across;
     const double low = steep ? across : up, high = steep ? up : across;
     const bool far = low > 0.41421356237309503 * high;
@@ -440,11 +439,16 @@ static double angle(double cosine, double sine)
     if (steep) {
         value = 0.5 * PI - (value - 2.0 * REST);
     }
-    if (cosine < 0.0) {
-        value = PI - (value - 4.0 * REST);
-    }
-    return half_open(copysign(value, sine));
+    return value;
 }
+
+/* The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative. */
+static double unfold(double size, double cosine, double sine)
+{
+    const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
+    return half_open(copysign(value, sine)) + 0.0;
+}
+
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -748,6 +752,8 @@ typedef struct {
     Solution *out;
     double relative[UR5_CAPACITY];
     size_t count;
+    /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
+    double last[6][3];
 } Answers;
 
 static double shorter(double difference)
@@ -1161,9 +1167,30 @@ static bool is_apart(const Answers *answers, size_t branch, const double *q)
     return true;
 }
 
-/* Keeps a candidate that solves the equations within rounding, and refines others. */
-static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const double *q, const bool *free, Answers *answers)
+/* The angle with this index of a candidate; it is not computed again where it only differs in signs from the candidate before. */
+static double joint_angle(Answers *answers, size_t i, double cosine, double sine)
 {
+    const double across = fabs(cosine), up = fabs(sine);
+    double *last = answers->last[i];
+    if (!(across == last[0] && up == last[1])) {
+        last[0] = across;
+        last[1] = up;
+        last[2] = acute(across, up);
+    }
+    return unfold(last[2], cosine, sine);
+}
+
+/* Keeps a candidate that solves the equations within rounding, and refines others. */
+static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
+{
+    const double q[JOINTS] = {
+        joint_angle(answers, 0, at[0], at[1]),
+        joint_angle(answers, 1, at[2], at[3]),
+        joint_angle(answers, 2, at[4], at[5]),
+        joint_angle(answers, 3, at[6], at[7]),
+        joint_angle(answers, 4, at[8], at[9]),
+        joint_angle(answers, 5, at[10], at[11]),
+    };
     if (!is_isolated(free) || close) {
         refine(p, branch, last, q, free, answers);
         return;
@@ -1269,14 +1296,9 @@ typedef struct {
     double s3;
     double c2;
     double s2;
-    double q0;
-    double q1;
-    double q2;
-    double q4;
-    double q5;
 } Known;
 
-static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
@@ -1316,15 +1338,7 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
         known->c6,
         known->s6,
     };
-    const double q[JOINTS] = {
-        known->q0,
-        known->q1,
-        known->q2,
-        angle(at[6], at[7]),
-        known->q4,
-        known->q5,
-    };
-    finish(p, known->branch, known->last, known->close, at, q, known->free, answers);
+    finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
 
 /* Block 6: Wrist1. */
@@ -1368,14 +1382,12 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
     const double r42 = shared->r20 * shared->r30 - shared->r22 * shared->r29;
     const double r45 = shared->r20 * shared->r29 + shared->r22 * shared->r30;
     const double r50 = 1.0 / sqrt(fmax(r45 * r45 + r42 * r42, 0.0)), c2 = 0.0 - r45 * r50, s2 = r42 * r50;
-    const double q1 = angle(c2, s2);
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
     next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
-    next.q1 = q1;
     block_6(p, &next, answers);
 }
 
@@ -1390,7 +1402,7 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1], q1 = angle(c2, s2);
+        const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -1398,7 +1410,6 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
-        next.q1 = q1;
         again_6(p, &next, answers);
     }
 }
@@ -1433,14 +1444,12 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r50 = 0.3334125 * w3, r51 = 0.3334125 * shared->r46;
         const double r56 = 1.0 / sqrt(fmax(r51 * r51 + r50 * r50, 0.0)), c3 = 0.0 - r51 * r56, s3 = r50 * r56;
-        const double q2 = angle(c3, s3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
         next.close = known->close || roots0.close;
         next.c3 = c3;
         next.s3 = s3;
-        next.q2 = q2;
         block_5(p, &next, answers);
     }
 }
@@ -1472,14 +1481,13 @@ typedef struct {
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r14 = shared->r10 * shared->r10 + shared->r11 * shared->r11, r16 = 1.0 / sqrt(fmax(r14, 0.0));
-    const double c5 = shared->r10 * r16, s5 = shared->r11 * r16, q4 = angle(c5, s5);
+    const double c5 = shared->r10 * r16, s5 = shared->r11 * r16;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
     next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
-    next.q4 = q4;
     block_4(p, &next, answers);
 }
 
@@ -1520,7 +1528,6 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w6 = roots0.values[i0], r11 = w6 * shared->r4, r12 = w6 * shared->r5;
         const double r17 = 1.0 / sqrt(fmax(r12 * r12 + r11 * r11, 0.0)), c6 = 0.0 - r12 * r17, s6 = r11 * r17;
-        const double q5 = angle(c6, s6);
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1528,7 +1535,6 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
-        next.q5 = q5;
         block_3(p, &next, answers);
     }
 }
@@ -1545,7 +1551,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     const double f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
-        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1], q5 = angle(c6, s6);
+        const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
@@ -1554,7 +1560,6 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         next.c6 = c6;
         next.s6 = s6;
         next.f6 = f6;
-        next.q5 = q5;
         again_3(p, &next, answers);
     }
 }
@@ -1591,14 +1596,12 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double w1 = roots0.values[i0], r17 = w1 * shared->r1 - 0.10915 * shared->r3;
         const double r20 = w1 * shared->r3 + 0.10915 * shared->r1;
         const double r25 = 1.0 / sqrt(fmax(r20 * r20 + r17 * r17, 0.0)), c1 = 0.0 - r20 * r25, s1 = r17 * r25;
-        const double q0 = angle(c1, s1);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;
         next.close = roots0.close;
         next.c1 = c1;
         next.s1 = s1;
-        next.q0 = q0;
         block_2(p, &next, answers);
     }
 }
@@ -1670,7 +1673,8 @@ static int conform(const double *given, double *target)
     return 0;
 }
 
-int ur5_solve(const double *given, ur5_solution *out)
+/* Finds the answers to a target; 0, or what is wrong. */
+static int find(const double *given, Answers *answers)
 {
     double target[INPUTS];
     const int fault = conform(given, target);
@@ -1678,14 +1682,28 @@ int ur5_solve(const double *given, ur5_solution *out)
         return fault;
     }
     const Parameters p = parameters(target);
+    answers->count = 0;
+    for (size_t i = 0; i < 6; i++) {
+        answers->last[i][0] = -1.0;
+        answers->last[i][1] = -1.0;
+    }
+    block_1(&p, answers);
+    return 0;
+}
+
+int ur5_solve(const double *target, ur5_solution *out)
+{
     Answers answers;
     answers.out = out;
-    answers.count = 0;
-    block_1(&p, &answers);
+    const int fault = find(target, &answers);
+    if (fault != 0) {
+        return fault;
+    }
     unite(&answers);
     sort(&answers);
     return (int)answers.count;
 }
+
 
 void ur5_forward(const double *q, double *target)
 {

@@ -1,6 +1,7 @@
 //! Bodies of the printed functions: charts, parameters, and the equations with their derivatives. Main type: [`Scene`].
 
 use super::demand::{Demand, ParameterDemand};
+use super::mirror::Mirror;
 use super::names::Names;
 use super::outline::has_families;
 use super::printer::{Language, Printer, number};
@@ -17,6 +18,10 @@ pub(super) struct Scene<'a> {
     pub extra: Vec<usize>,
     /// Values at which charts put free joints.
     pub tables: Vec<Table>,
+    /// The chart whose candidates come in pairs.
+    pub mirror: Option<Mirror>,
+    /// Whether the file takes candidates in by several at once, and angles from them only then.
+    pub lanes: bool,
 }
 
 impl Scene<'_> {
@@ -71,7 +76,7 @@ impl Scene<'_> {
     pub fn passed_angles(&self) -> Vec<String> {
         let is_passed = |&joint: &usize| {
             let is_angle = matches!(self.program.joints[joint].value, JointValue::Angle { .. });
-            is_angle && self.finder(joint) + 1 < self.program.blocks.len()
+            is_angle && !self.lanes && self.finder(joint) + 1 < self.program.blocks.len()
         };
         (0..self.program.joints.len()).filter(is_passed).map(|joint| format!("q{joint}")).collect()
     }
@@ -106,13 +111,15 @@ impl Scene<'_> {
         self.places().iter().map(value).collect()
     }
 
+    /// By joint: where its cosine and its sine, or its value, stand among the places.
+    pub fn stands(&self) -> Vec<Vec<usize>> {
+        let unknowns = self.program.joints.iter().map(|joint| joint.value.unknowns());
+        unknowns.map(|unknowns| unknowns.into_iter().map(|unknown| self.place(unknown)).collect()).collect()
+    }
+
     /// By joint that is an angle: where its cosine and its sine stand among the places.
-    pub fn circles(&self) -> Vec<[usize; 2]> {
-        let circle = |joint: &crate::solver::Joint| match joint.value {
-            JointValue::Angle { cosine, sine } => Some([self.place(cosine), self.place(sine)]),
-            JointValue::Plain(_) => None,
-        };
-        self.program.joints.iter().filter_map(circle).collect()
+    pub fn circles(&self) -> Vec<Vec<usize>> {
+        self.stands().into_iter().filter(|stands| stands.len() == 2).collect()
     }
 
     fn place(&self, unknown: usize) -> usize {
@@ -148,7 +155,7 @@ impl Scene<'_> {
 
     /// The angles that the block with this index finds: their names, and their values as expressions.
     pub fn angles(&self, block: usize, printer: &Printer<'_>) -> Vec<(String, String)> {
-        let found = (0..self.program.joints.len()).filter(|&joint| self.finder(joint) == block);
+        let found = (0..self.program.joints.len()).filter(|&joint| !self.lanes && self.finder(joint) == block);
         let angle = |joint: usize| match self.program.joints[joint].value {
             JointValue::Angle { cosine, sine } => {
                 let value = format!("angle({}, {})", printer.unknown(cosine), printer.unknown(sine));

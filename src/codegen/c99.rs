@@ -154,11 +154,16 @@ impl Language for C99 {
         lines
     }
 
-    fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String> {
-        let mut lines = vec![format!("for (size_t i{depth} = 0; i{depth} < roots{depth}.count; i{depth}++) {{")];
+    fn open_loop(&self, depth: usize, name: Option<&str>, first: bool) -> Vec<String> {
+        let most = if first { format!(" && i{depth} < 1") } else { String::new() };
+        let mut lines = vec![format!("for (size_t i{depth} = 0; i{depth} < roots{depth}.count{most}; i{depth}++) {{")];
         let value = format!("roots{depth}.values[i{depth}]");
         lines.extend(name.map(|name| format!("{INDENT}{}", self.declare(name, &value))));
         lines
+    }
+
+    fn only_if(&self, condition: &str) -> String {
+        format!("if ({condition}) {{")
     }
 
     fn leave_unless(&self, condition: &str) -> Vec<String> {
@@ -204,7 +209,8 @@ impl Language for C99 {
 
     fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
         let mut lines = spread("const double at[PLACES] = {", answer.at, "};");
-        lines.extend(spread("const double q[JOINTS] = {", answer.q, "};"));
+        let q = if answer.q.is_empty() { "" } else { " q," };
+        lines.extend(spread("const double q[JOINTS] = {", answer.q, "};").into_iter().filter(|_| !q.is_empty()));
         if !answer.free.is_empty() {
             lines.extend(spread("const bool free_joints[JOINTS] = {", answer.free, "};"));
         }
@@ -214,7 +220,7 @@ impl Language for C99 {
         let free = if answer.free.is_empty() { &answer.usual } else { "free_joints" };
         let extra = if answer.extra.is_empty() { "" } else { ", extra" };
         lines.push(format!(
-            "finish(p, {}, {}, at, q, {free}{extra}, answers);",
+            "finish(p, {}, {}, at,{q} {free}{extra}, answers);",
             answer.branch.join(", "),
             answer.close
         ));
@@ -230,6 +236,7 @@ impl Language for C99 {
             format!("next.last = {last};"),
             format!("next.close = {};", state.close),
         ];
+        lines.extend(state.pair.iter().map(|pair| format!("next.pair = {pair};")));
         let is_usual = |free: &str| free == "false" || free.starts_with("known->") && !free.contains(' ');
         let free = state.free.iter().enumerate().filter(|(_, free)| !is_usual(free));
         lines.extend(free.map(|(joint, free)| format!("next.free[{joint}] = {free};")));

@@ -12,7 +12,7 @@ use crate::solver::{Forward, JointValue, Operand, Reached};
 pub(super) struct ForwardText {
     lines: Vec<String>,
     /// What equations compare with the target's numbers, in their order.
-    values: Vec<String>,
+    pub values: Vec<String>,
     /// By input: an expression of `reached`, which holds the values, and of `q`.
     inputs: Vec<String>,
     reads_at: bool,
@@ -33,6 +33,11 @@ impl ForwardText {
             values,
             inputs,
         }
+    }
+
+    /// Whether an input is an angle of what is reached.
+    pub fn aims(&self) -> bool {
+        self.inputs.iter().any(|input| input.starts_with("angle("))
     }
 }
 

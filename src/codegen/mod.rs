@@ -13,6 +13,8 @@ mod blocks;
 mod body;
 mod demand;
 mod forward;
+mod lanes;
+mod mirror;
 mod names;
 mod outline;
 mod printer;

@@ -7,6 +7,8 @@ use super::blocks::{BlockText, ConditionText};
 use super::body::Scene;
 use super::demand::{Demand, ParameterDemand};
 use super::forward::{ForwardText, equations, printed_forward};
+use super::lanes;
+use super::mirror::Mirror;
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
 use super::samples::Table;
@@ -46,6 +48,8 @@ pub(super) struct Outline {
     passed: Vec<String>,
     /// The joints, those that are found last first.
     last_first: Vec<usize>,
+    /// Those of them that are angles.
+    last_angles: Vec<usize>,
     blocks: Vec<BlockText>,
     /// Values at which charts put free joints.
     samples: Vec<Table>,
@@ -55,12 +59,24 @@ pub(super) struct Outline {
     forward: Option<ForwardText>,
     checks: Code,
     /// The equations' sizes, each once, and which of them is each equation's.
-    sizes: Vec<String>,
+    sizes: Code,
     size_of: Vec<usize>,
     /// The unknowns that the equations can read, at joint values.
     placed: Vec<String>,
     /// Where cosines and sines stand among them.
-    circles: Vec<[usize; 2]>,
+    circles: Vec<Vec<usize>>,
+    /// By joint: where its cosine and sine, or its value, stand among them.
+    stands: Vec<Vec<usize>>,
+    /// How many candidates are measured together, if they are.
+    room: Option<usize>,
+    /// By joint: its value at the candidate with index `k`, as an expression.
+    values: Vec<String>,
+    /// What the equations compare with the target, as values of any kind of number.
+    generic: Vec<String>,
+    /// Whether forward kinematics has an angle.
+    aims: bool,
+    /// Whether a block hands pairs of candidates on as one.
+    pairs: bool,
     jacobian: Code,
     jacobian_rows: Vec<Vec<String>>,
     preference: Option<PreferenceText>,
@@ -144,21 +160,24 @@ impl Outline {
     /// The outline of a valid program.
     pub fn new(program: &Program, language: &dyn Language) -> Self {
         let (names, tables) = (Names::new(program, language), Table::all(program));
-        let scene = Scene { program, language, names, extra: extra_unknowns(program), tables };
+        let (extra, lanes) = (extra_unknowns(program), false);
+        let mut scene = Scene { program, language, names, extra, tables, mirror: None, lanes };
+        scene.mirror = Mirror::of(program, &scene.wanted()).filter(|_| scene.extra.is_empty());
         let needs = Needs::new(program);
         let forward = printed_forward(&scene).filter(|_| needs.answers);
         let measured: &[Operand] = if needs.answers { &program.checks.scales } else { &[] };
         let (checks, sizes) = equations(&scene, forward.as_ref(), measured);
         let jacobian: Vec<&[Operand]> = program.checks.jacobian.iter().map(Vec::as_slice).collect();
+        let forward = forward.map(|forward| ForwardText::new(&scene, &forward));
+        scene.lanes = needs.answers && program.compares_tip();
         let (jacobian_lines, jacobian_rows) = scene.checks(&jacobian);
-        let mut unique: Vec<String> = Vec::new();
-        for size in &sizes {
-            if !unique.contains(size) {
-                unique.push(size.clone());
-            }
-        }
-        let place = |list: &[String], size: &String| list.iter().position(|other| other == size).unwrap_or(0);
+        let unique = once(&sizes);
+        let place = |size: &String| unique.iter().position(|other| other == size).unwrap_or(0);
+        let size_of = sizes.iter().map(place).collect();
+        let sizes = Code::new(language, checks.lines.clone(), unique);
         let name = word(&program.name);
+        let generic = forward.as_ref().map_or_else(Vec::new, |forward| lanes::generic(&forward.values));
+        let aims = forward.as_ref().is_some_and(ForwardText::aims);
         Outline {
             upper: name.to_ascii_uppercase(),
             name,
@@ -190,21 +209,43 @@ impl Outline {
                 .chain(scene.passed_angles())
                 .collect(),
             last_first: scene.last_first(),
+            last_angles: scene
+                .last_first()
+                .into_iter()
+                .filter(|&joint| is_angle(program.joints[joint].value))
+                .collect(),
             samples: scene.tables.clone(),
             six_axes: six_axes::text(program, language, false),
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
-            forward: forward.map(|forward| ForwardText::new(&scene, &forward)),
-            size_of: sizes.iter().map(|size| place(&unique, size)).collect(),
+            forward,
+            size_of,
             checks,
-            sizes: unique,
+            sizes,
             placed: scene.placed(),
             circles: scene.circles(),
+            stands: scene.stands(),
+            values: lanes::values(&scene),
+            generic,
+            aims,
+            room: scene.lanes.then(|| lanes::room(program)),
+            pairs: scene.mirror.as_ref().is_some_and(|mirror| mirror.block + 1 < program.blocks.len()),
             jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
             jacobian_rows,
             preference: PreferenceText::new(&scene).filter(|_| needs.answers),
             needs,
         }
     }
+}
+
+/// Each text once, in the order of their first places.
+fn once(list: &[String]) -> Vec<String> {
+    let mut unique: Vec<String> = Vec::new();
+    for text in list {
+        if !unique.contains(text) {
+            unique.push(text.clone());
+        }
+    }
+    unique
 }
 
 impl Quantity {

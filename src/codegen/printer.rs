@@ -45,8 +45,11 @@ pub(super) trait Language {
     /// Lines that name the roots `roots{depth}` of the first polynomial (each a list of coefficients) that leads; `typical` is
     /// the unknown's typical size.
     fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String>;
-    /// Lines that open the loop over `roots{depth}` with index `i{depth}`, and over its values if they have a name.
-    fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String>;
+    /// Lines that open the loop over `roots{depth}`, or over its `first` alone, with index `i{depth}`, and over its values if they have a
+    /// name.
+    fn open_loop(&self, depth: usize, name: Option<&str>, first: bool) -> Vec<String>;
+    /// The line that opens what is done where a condition holds.
+    fn only_if(&self, condition: &str) -> String;
     /// Lines that open the loop with index `i{depth}` over the rows of the table of samples with a number, of which there are `rows`; each
     /// row's numbers are called by `names` where they have one.
     fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String>;
@@ -76,7 +79,7 @@ pub(super) struct Finish<'a> {
     pub at: &'a [String],
     /// Whether roots on the way are close to one another.
     pub close: String,
-    /// The joints.
+    /// The joints; empty where the file takes them from `at` later.
     pub q: &'a [String],
     /// By joint whether it is free; empty when it is `usual`.
     pub free: &'a [String],
@@ -100,6 +103,8 @@ pub(super) struct State<'a> {
     pub found: &'a [String],
     /// Whether roots on the way are close to one another.
     pub close: String,
+    /// Whether each candidate behind stands for two, if the chart has a say in that.
+    pub pair: Option<String>,
     /// Whether the chart hardly ever runs.
     pub is_rare: bool,
 }

@@ -4,7 +4,7 @@ use super::outline::Outline;
 use super::printer::{Finish, INDENT, Language, State, spread};
 use crate::solver::Program;
 
-const SKELETON: &str = include_str!("skeleton/solver.rs.txt");
+const SKELETON: &str = concat!(include_str!("skeleton/solver.rs.txt"), include_str!("skeleton/lanes.rs.txt"));
 
 const RESERVED: &str = "as async await break const continue crate dyn else enum extern false fn for gen if impl in let \
     loop match mod move mut pub ref return self Self static struct super trait true type unsafe use where while abstract \
@@ -91,9 +91,14 @@ impl Language for Rust {
         lines
     }
 
-    fn open_loop(&self, depth: usize, name: Option<&str>) -> Vec<String> {
+    fn open_loop(&self, depth: usize, name: Option<&str>, first: bool) -> Vec<String> {
         let value = name.map_or_else(|| "_".to_owned(), |name| format!("&{name}"));
-        vec![format!("for (i{depth}, {value}) in roots{depth}.as_slice().iter().enumerate() {{")]
+        let most = if first { ".take(1)" } else { "" };
+        vec![format!("for (i{depth}, {value}) in roots{depth}.as_slice().iter().enumerate(){most} {{")]
+    }
+
+    fn only_if(&self, condition: &str) -> String {
+        format!("if {condition} {{")
     }
 
     fn leave_unless(&self, condition: &str) -> Vec<String> {
@@ -130,11 +135,12 @@ impl Language for Rust {
 
     fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
         let mut lines = spread("let at = [", answer.at, "];");
-        lines.extend(spread("let q = [", answer.q, "];"));
+        let q = if answer.q.is_empty() { "" } else { " q," };
+        lines.extend(spread("let q = [", answer.q, "];").into_iter().filter(|_| !q.is_empty()));
         let free = list(answer.free).unwrap_or_else(|| answer.usual.clone());
         let extra = list(answer.extra).map(|list| format!(", &{list}")).unwrap_or_default();
         lines.push(format!(
-            "answers.finish(p, {}, {}, &at, q, {free}{extra});",
+            "answers.finish(p, {}, {}, &at,{q} {free}{extra});",
             answer.branch.join(", "),
             answer.close
         ));
@@ -144,6 +150,7 @@ impl Language for Rust {
     fn go_on(&self, state: &State<'_>) -> Vec<String> {
         let [branch, last] = &state.branch;
         let mut fields = vec![format!("branch: {branch}"), format!("last: {last}"), format!("close: {}", state.close)];
+        fields.extend(state.pair.iter().map(|pair| format!("pair: {pair}")));
         fields.extend(list(state.free).map(|list| format!("free: {list}")));
         fields.extend(state.found.iter().cloned());
         fields.push(if state.goes_on { "..*known".to_owned() } else { "..NOTHING_KNOWN".to_owned() });

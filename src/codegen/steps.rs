@@ -1,6 +1,7 @@
 //! The steps of a chart as nested loops of text: [`Walk`].
 
 use super::body::Scene;
+use super::mirror::Mirror;
 use super::printer::{Finish, INDENT, Language, Printer, State};
 use super::samples::Table;
 use super::six_axes;
@@ -34,6 +35,13 @@ impl<'a> Walk<'a> {
     fn push(&mut self, lines: Vec<String>) {
         let indent = INDENT.repeat(self.depth);
         self.lines.extend(lines.into_iter().map(|line| format!("{indent}{line}")));
+    }
+
+    /// Whether the chart's second root is that of a pair of candidates.
+    fn mirrors(&self) -> bool {
+        let is_here =
+            |mirror: &Mirror| std::ptr::eq(&self.scene.program.blocks[mirror.block].charts[mirror.chart], self.chart);
+        self.scene.mirror.as_ref().is_some_and(is_here)
     }
 
     /// The lines of the whole chart.
@@ -109,7 +117,7 @@ impl<'a> Walk<'a> {
         self.push(lines);
         self.push(finds);
         let name = printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str());
-        self.push(language.open_loop(self.depth, name));
+        self.push(language.open_loop(self.depth, name, self.mirrors()));
     }
 
     fn samples(&mut self, joint: JointValue, values: &[f64], printer: &mut Printer<'_>) {
@@ -203,6 +211,7 @@ impl<'a> Walk<'a> {
             free: &self.free(language),
             found: &found,
             close: self.close(language),
+            pair: self.mirrors().then(|| self.pair(language)),
             is_rare: self.chart.is_rare(),
         };
         self.push(language.go_on(&state));
@@ -210,7 +219,8 @@ impl<'a> Walk<'a> {
 
     fn finish(&mut self, printer: &Printer<'_>) {
         let (scene, language) = (self.scene, printer.language());
-        let q: Vec<String> = (0..scene.program.joints.len()).map(|joint| scene.joint_value(joint)).collect();
+        let joints = if scene.lanes { 0 } else { scene.program.joints.len() };
+        let q: Vec<String> = (0..joints).map(|joint| scene.joint_value(joint)).collect();
         let at: Vec<String> = scene.places().into_iter().map(|unknown| printer.unknown(unknown)).collect();
         let passed = self.block > 0 && scene.has_families();
         let answer = Finish {
@@ -223,6 +233,47 @@ impl<'a> Walk<'a> {
             extra: &scene.extra.iter().map(|&unknown| printer.unknown(unknown)).collect::<Vec<_>>(),
         };
         self.push(language.finish(&answer));
+        let is_behind = |mirror: &&Mirror| self.mirrors() || mirror.block < self.block;
+        if let Some(mirror) = scene.mirror.as_ref().filter(is_behind) {
+            self.finish_mirrored(mirror, &answer, printer);
+        }
+    }
+
+    /// Hands over the second candidate of a pair.
+    fn finish_mirrored(&mut self, mirror: &Mirror, answer: &Finish<'_>, printer: &Printer<'_>) {
+        let (scene, language) = (self.scene, printer.language());
+        let places = scene.places();
+        let turned = |place: usize| mirror.odd[places[place]];
+        let value =
+            |place: usize| if turned(place) { format!("-{}", answer.at[place]) } else { answer.at[place].clone() };
+        let at: Vec<String> = (0..places.len()).map(value).collect();
+        let stands = scene.stands();
+        let joint = |(joint, same): (usize, &String)| match stands[joint][..] {
+            [cosine, sine] if turned(cosine) || turned(sine) => format!("angle(at[{cosine}], at[{sine}])"),
+            _ => same.clone(),
+        };
+        let q: Vec<String> = answer.q.iter().enumerate().map(joint).collect();
+        let [branch, last] = &answer.branch;
+        let second = Finish {
+            branch: [format!("{branch} + 1"), last.clone()],
+            at: &at,
+            close: answer.close.clone(),
+            q: &q,
+            free: answer.free,
+            usual: answer.usual.clone(),
+            extra: answer.extra,
+        };
+        let lines = language.finish(&second).into_iter().map(|line| format!("{INDENT}{line}"));
+        let lines = [language.only_if(&self.pair(language))].into_iter().chain(lines).chain(["}".to_owned()]).collect();
+        self.push(lines);
+    }
+
+    /// Whether a candidate stands for two, as an expression.
+    fn pair(&self, language: &dyn Language) -> String {
+        match self.finds_roots.iter().rposition(|&finds| finds) {
+            Some(depth) if self.mirrors() => format!("roots{depth}.count == 2"),
+            _ => language.known("pair"),
+        }
     }
 }
 

@@ -27,7 +27,7 @@ pub(crate) const EIGHTH: f64 = 0.41421356237309503;
 /// What the double nearest to `pi/4` lacks.
 pub(crate) const REST: f64 = 3.061616997868383e-17;
 
-/// `atan2(sine, cosine)` in (-pi, pi], within 5e-16 rad; not a number where both are zero.
+/// `atan2(sine, cosine)` in (-pi, pi], within 5e-16 rad, and zero never negative; not a number where both are zero.
 pub(crate) fn angle(cosine: f64, sine: f64) -> f64 {
     let (across, up) = (cosine.abs(), sine.abs());
     let steep = up > across;
@@ -45,7 +45,7 @@ pub(crate) fn angle(cosine: f64, sine: f64) -> f64 {
     if cosine < 0.0 {
         angle = PI - (angle - 4.0 * REST);
     }
-    half_open(angle.copysign(sine))
+    half_open(angle.copysign(sine)) + 0.0
 }
 
 /// `P(u)`.

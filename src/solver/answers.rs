@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::angle::angle;
 use super::evaluate::{Nearest, Solution};
 use super::frame::Frame;
+use super::pairs::{Pairs, UsualPairs};
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
@@ -24,11 +25,17 @@ pub(super) struct Answers<'a> {
     pub(super) list: Vec<Answer>,
     /// The candidate that missed the equations by the least share of their size.
     nearest: Option<Nearest>,
+    /// The answers so far by cosines and sines.
+    pairs: UsualPairs,
 }
 
 impl<'a> Answers<'a> {
     pub fn new(program: &'a Program, frame: Frame<'a>) -> Self {
-        Answers { program, frame, list: Vec::new(), nearest: None }
+        Answers { program, frame, list: Vec::new(), nearest: None, pairs: UsualPairs::new() }
+    }
+
+    pub fn into_pairs(self) -> Option<Vec<Pairs>> {
+        self.pairs.into_list(self.program)
     }
 
     pub fn into_nearest(self) -> Option<Nearest> {
@@ -72,14 +79,17 @@ impl<'a> Answers<'a> {
             *slot = joint_value(joint.value, unknowns);
         }
         if path.free != NONE_FREE {
+            self.pairs.give_up();
             return self.propose_member(path, q);
         }
         if !path.close {
             let fit = refine::measure_unknowns(self.program, &q, &mut self.frame);
             if fit.accepted && fit.relative < ROUNDING && self.is_round(unknowns) {
+                self.pairs.add(self.program, path, fit.residual, unknowns);
                 return self.keep(path, &q, &fit);
             }
         }
+        self.pairs.give_up();
         self.settle(path, q);
     }
 

@@ -59,7 +59,7 @@ impl Program {
     }
 
     /// What is taken of the answers for a target.
-    fn walk<T>(&self, target: &[f64], take: impl Fn(Answers<'_>) -> T) -> Result<T> {
+    pub(super) fn walk<T>(&self, target: &[f64], take: impl Fn(Answers<'_>) -> T) -> Result<T> {
         self.check_target(target)?;
         let mut target = target.to_vec();
         self.conform(&mut target)?;

@@ -13,6 +13,7 @@ mod families;
 mod forward;
 mod frame;
 mod instruction;
+mod pairs;
 mod program;
 mod prune;
 mod refine;
@@ -26,6 +27,7 @@ pub use batch::Batch;
 pub use evaluate::{Nearest, Solution};
 pub use forward::{Forward, Reached};
 pub use instruction::{Instruction, Operand, Operation};
+pub use pairs::Pairs;
 pub(crate) use program::square;
 pub use program::{
     Block, Chart, Checks, Condition, Guard, Input, Joint, JointValue, ParameterRule, Pivot, Preference, Program, Rule,

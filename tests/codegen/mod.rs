@@ -9,6 +9,7 @@ pub mod harness;
 mod ikfast;
 mod limbs;
 mod names;
+mod pairs;
 pub mod samples;
 mod single;
 mod six_axes;

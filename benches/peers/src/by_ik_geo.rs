@@ -14,6 +14,8 @@ pub enum Family {
     SphericalTwoParallel,
     /// Axes 4, 5, 6 meet; so do 1 and 2.
     SphericalTwoIntersecting,
+    /// Axes 4, 5, 6 meet.
+    Spherical,
     /// Axes 2, 3, 4 are parallel; 5 and 6 meet.
     ThreeParallelTwoIntersecting,
 }
@@ -25,6 +27,7 @@ impl Family {
             "irb120" => Some((Family::SphericalTwoParallel, false)),
             "puma" | "rh0_right_leg" | "rh0_left_leg" => Some((Family::SphericalTwoIntersecting, false)),
             "nao_left_leg" | "nao_right_leg" | "teo_leg" => Some((Family::SphericalTwoIntersecting, true)),
+            "spherical_wrist" => Some((Family::Spherical, false)),
             "ur5" => Some((Family::ThreeParallelTwoIntersecting, false)),
             _ => None,
         }
@@ -67,6 +70,13 @@ impl IkGeo {
         self.robot.ik(target.0, target.1)
     }
 
+    /// Forward kinematics of all joint vectors of our chain.
+    pub fn forward(&self, all: &[Joints]) {
+        for q in all {
+            std::hint::black_box(self.robot.fk(std::hint::black_box(q)));
+        }
+    }
+
     /// The answers that ik-geo calls exact, as joint values of our chain.
     pub fn solutions(&self, target: &Target) -> Vec<Joints> {
         let exact = self.solve(target).into_iter().filter(|(_, is_nearest)| !is_nearest);
@@ -99,6 +109,7 @@ fn robot_of(family: Family, axes: &[Axis], base_from_tip: &Pose) -> Robot {
     match family {
         Family::SphericalTwoParallel => robot::spherical_two_parallel(h, p),
         Family::SphericalTwoIntersecting => robot::spherical_two_intersecting(h, p),
+        Family::Spherical => robot::spherical(h, p),
         Family::ThreeParallelTwoIntersecting => robot::three_parallel_two_intersecting(h, p),
     }
 }
@@ -111,7 +122,7 @@ fn points_of(family: Family, axes: &[Axis], base_from_tip: &Pose) -> Vec<[f64; 3
     };
     let (first, wrist, last) = (meeting(0, 1), meeting(3, 4), meeting(4, 5));
     match family {
-        Family::SphericalTwoParallel => points[3..].fill(wrist),
+        Family::SphericalTwoParallel | Family::Spherical => points[3..].fill(wrist),
         Family::SphericalTwoIntersecting => {
             points[..2].fill(first);
             points[3..].fill(wrist);

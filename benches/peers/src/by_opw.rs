@@ -38,6 +38,13 @@ impl Opw {
         OpwPose::from_parts(DVec3::new(position.x, position.y, position.z), DQuat::from_xyzw(x, y, z, w))
     }
 
+    /// Forward kinematics of all joint vectors of our chain.
+    pub fn forward(&self, all: &[Joints]) {
+        for q in all {
+            std::hint::black_box(self.robot.forward(std::hint::black_box(q)));
+        }
+    }
+
     /// The answers of rs-opw-kinematics, which are joint values of our chain: its offsets are set so.
     pub fn solutions(&self, target: &OpwPose) -> Vec<Joints> {
         self.robot.inverse(target)

@@ -2,8 +2,21 @@
 
 use groebot::spatial::Pose;
 
+use crate::Joints;
+
 /// The twelve numbers of a target: a position, and a rotation by rows.
 pub type Target = [f64; 12];
+
+/// A printed solver behind functions.
+#[derive(Clone, Copy)]
+pub struct Printed {
+    /// Solves all targets and returns the number of all answers.
+    pub pass: fn(&[Target]) -> usize,
+    /// All answers of one target.
+    pub solutions: fn(&Target) -> Vec<Joints>,
+    /// Forward kinematics of all joint vectors.
+    pub forward: fn(&[Joints]),
+}
 
 /// Declares the printed solvers and the choice among them by name.
 macro_rules! printed {
@@ -14,18 +27,30 @@ macro_rules! printed {
             mod $name;
         )*
 
-        /// The printed solver of the robot with this name: a function that solves all targets and returns the number of all answers.
-        pub fn solver(name: &str) -> Option<fn(&[Target]) -> usize> {
+        /// The printed solver of the robot with this name.
+        pub fn solver(name: &str) -> Option<Printed> {
             match name {
                 $(
-                    stringify!($name) => Some(|targets| {
-                        let mut out = [$name::Solution::EMPTY; $name::CAPACITY];
-                        let mut count = 0;
-                        for target in targets {
-                            count += $name::solve(std::hint::black_box(target), &mut out).unwrap_or(0);
-                            std::hint::black_box(&out);
-                        }
-                        count
+                    stringify!($name) => Some(Printed {
+                        pass: |targets| {
+                            let mut out = [$name::Solution::EMPTY; $name::CAPACITY];
+                            let mut count = 0;
+                            for target in targets {
+                                count += $name::solve(std::hint::black_box(target), &mut out).unwrap_or(0);
+                                std::hint::black_box(&out);
+                            }
+                            count
+                        },
+                        solutions: |target| {
+                            let mut out = [$name::Solution::EMPTY; $name::CAPACITY];
+                            let count = $name::solve(target, &mut out).unwrap_or(0);
+                            out[..count].iter().map(|answer| answer.q).collect()
+                        },
+                        forward: |all| {
+                            for q in all {
+                                std::hint::black_box($name::forward(std::hint::black_box(q)));
+                            }
+                        },
                     }),
                 )*
                 _ => None,
@@ -41,6 +66,7 @@ printed! {
     puma: "../../../derivations/puma/5_solver.rs",
     rh0_left_leg: "../../../derivations/rh0_left_leg/5_solver.rs",
     rh0_right_leg: "../../../derivations/rh0_right_leg/5_solver.rs",
+    spherical_wrist: "../../../derivations/spherical_wrist/5_solver.rs",
     stanford: "../../../derivations/stanford/5_solver.rs",
     teo_leg: "../../../derivations/teo_leg/5_solver.rs",
     ur5: "../../../derivations/ur5/5_solver.rs",

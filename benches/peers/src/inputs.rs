@@ -54,8 +54,52 @@ impl Random {
 
 /// `COUNT` joint vectors of `chain`, even on the circles, and the poses of its tip in its length unit.
 pub fn poses(chain: &Chain) -> Vec<(Vec<f64>, Pose)> {
+    many_poses(chain, COUNT)
+}
+
+/// So many of them.
+pub fn many_poses(chain: &Chain, count: usize) -> Vec<(Vec<f64>, Pose)> {
     let mut random = Random(7);
     let joints = chain.joints().len();
-    let q = (0..COUNT).map(|_| (0..joints).map(|_| random.angle()).collect::<Vec<f64>>());
+    let q = (0..count).map(|_| (0..joints).map(|_| random.angle()).collect::<Vec<f64>>());
     q.map(|q| (q.clone(), chain.forward(&q).expect("finite values"))).collect()
+}
+
+/// Steps of the search for a sign change of the Jacobian's determinant along a turn of a joint.
+const STEPS: usize = 64;
+
+/// Singular poses that `chain` reaches: from random joint values one joint is turned until the Jacobian's determinant changes its sign,
+/// and that place is halved down to rounding.
+pub fn singular_poses(chain: &Chain, count: usize) -> Vec<Pose> {
+    let mut random = Random(11);
+    let joints = chain.joints().len();
+    let mut poses = Vec::with_capacity(count);
+    while poses.len() < count {
+        let q: Vec<f64> = (0..joints).map(|_| random.angle()).collect();
+        let joint = random.bits() as usize % joints;
+        if let Some(q) = singular_along(chain, q, joint) {
+            poses.push(chain.forward(&q).expect("finite values"));
+        }
+    }
+    poses
+}
+
+fn singular_along(chain: &Chain, mut q: Vec<f64>, joint: usize) -> Option<Vec<f64>> {
+    let mut determinant = |value: f64| {
+        q[joint] = value;
+        chain.spatial_jacobian(&q).expect("finite values").fixed_view::<6, 6>(0, 0).determinant()
+    };
+    let start = -PI;
+    let at = |step: usize| start + 2.0 * PI * step as f64 / STEPS as f64;
+    let changes =
+        |determinant: &mut dyn FnMut(f64) -> f64, step: usize| determinant(at(step)) * determinant(at(step + 1)) < 0.0;
+    let step = (0..STEPS).find(|&step| changes(&mut determinant, step))?;
+    let (mut low, mut high) = (at(step), at(step + 1));
+    let sign = determinant(low).signum();
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        (low, high) = if determinant(middle).signum() == sign { (middle, high) } else { (low, middle) };
+    }
+    q[joint] = low;
+    Some(q)
 }

@@ -1,11 +1,12 @@
-//! The measurement: contenders take turns, round by round, so that a change of the machine's speed meets all of them. The result
+//! The measurement: contenders take turns, round by round, so that a change of the machine's speed meets all of them, and the time is that
+//! of the processor. The result
 //! is written as Criterion writes its own, for `record_benches` of the main package.
 
 use std::fmt::Write as _;
 use std::fs;
 use std::io::Result;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Rounds of one measurement.
 const ROUNDS: usize = 101;
@@ -25,11 +26,11 @@ impl<'a> Contender<'a> {
     }
 
     fn time(&mut self, passes: u32) -> Duration {
-        let start = Instant::now();
+        let start = processor_time();
         for _ in 0..passes {
             (self.pass)();
         }
-        start.elapsed()
+        processor_time() - start
     }
 
     /// How many passes fill a turn.
@@ -40,6 +41,32 @@ impl<'a> Contender<'a> {
         }
         passes
     }
+}
+
+/// The processor time of this thread: what others do on the machine meanwhile does not count.
+#[cfg(target_os = "linux")]
+fn processor_time() -> Duration {
+    #[repr(C)]
+    struct Time {
+        seconds: i64,
+        nanoseconds: i64,
+    }
+    unsafe extern "C" {
+        fn clock_gettime(clock: i32, time: *mut Time) -> i32;
+    }
+    const CLOCK_THREAD_CPUTIME_ID: i32 = 3;
+    let mut time = Time { seconds: 0, nanoseconds: 0 };
+    // SAFETY: the C library fills in the two numbers of its `struct timespec`, which are of 64 bits on machines of 64 bits.
+    let failed = unsafe { clock_gettime(CLOCK_THREAD_CPUTIME_ID, &mut time) };
+    assert_eq!(failed, 0, "a clock of this thread");
+    Duration::new(time.seconds as u64, time.nanoseconds as u32)
+}
+
+/// The time since the first call.
+#[cfg(not(target_os = "linux"))]
+fn processor_time() -> Duration {
+    static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+    START.get_or_init(std::time::Instant::now).elapsed()
 }
 
 /// Times per input \[ns\] of one contender.
@@ -70,20 +97,37 @@ impl Samples {
     }
 }
 
-/// Measures all contenders over `inputs` inputs a pass, writes the results under `group`, and returns them as lines of text.
-///
-/// # Errors
-/// When a file cannot be written.
-pub fn measure(group: &str, inputs: usize, mut contenders: Vec<Contender<'_>>) -> Result<String> {
+/// The median time per input \[ns\] of each contender over `inputs` inputs a pass, in so many rounds.
+pub fn medians(inputs: usize, rounds: usize, contenders: &mut [Contender<'_>]) -> Vec<f64> {
     let passes: Vec<u32> = contenders.iter_mut().map(Contender::passes).collect();
-    let mut times = vec![Vec::with_capacity(ROUNDS); contenders.len()];
-    for round in 0..ROUNDS {
+    let times = times(inputs, rounds, &passes, contenders);
+    let median = |mut times: Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    times.into_iter().map(median).collect()
+}
+
+/// By contender, its times per input \[ns\] in all rounds; they take turns.
+fn times(inputs: usize, rounds: usize, passes: &[u32], contenders: &mut [Contender<'_>]) -> Vec<Vec<f64>> {
+    let mut times = vec![Vec::with_capacity(rounds); contenders.len()];
+    for round in 0..rounds {
         for turn in 0..contenders.len() {
             let i = (round + turn) % contenders.len();
             let time = contenders[i].time(passes[i]).as_secs_f64() * 1e9;
             times[i].push(time / f64::from(passes[i]) / inputs as f64);
         }
     }
+    times
+}
+
+/// Measures all contenders over `inputs` inputs a pass, writes the results under `group`, and returns them as lines of text.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn measure(group: &str, inputs: usize, mut contenders: Vec<Contender<'_>>) -> Result<String> {
+    let passes: Vec<u32> = contenders.iter_mut().map(Contender::passes).collect();
+    let times = times(inputs, ROUNDS, &passes, &mut contenders);
     let mut text = String::new();
     for (contender, mut sorted) in contenders.iter().zip(times) {
         sorted.sort_by(f64::total_cmp);
