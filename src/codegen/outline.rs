@@ -131,18 +131,18 @@ impl Outline {
     /// The outline of a file that computes in single precision.
     pub fn single(program: &Program, language: &dyn Language) -> Self {
         let dampings = SINGLE_DAMPINGS.iter().map(|&damping| number(damping)).collect();
-        let outline = Outline::new(program, language);
-        Outline {
-            tolerances: Tolerances::single(),
-            dampings,
-            six_axes: six_axes::text(program, language, true),
-            about: outline.about.and("Single precision"),
-            ..outline
-        }
+        let outline = Outline::with(program, language, six_axes::text(program, language, true));
+        let about = outline.about.and("Single precision");
+        Outline { tolerances: Tolerances::single(), dampings, about, ..outline }
     }
 
     /// The outline of a valid program.
     pub fn new(program: &Program, language: &dyn Language) -> Self {
+        Outline::with(program, language, six_axes::text(program, language, false))
+    }
+
+    /// The outline with this text of what finds six joints together.
+    fn with(program: &Program, language: &dyn Language, six_axes: String) -> Self {
         let (names, tables) = (Names::new(program, language), Table::all(program));
         let scene = Scene { program, language, names, extra: extra_unknowns(program), tables };
         let needs = Needs::new(program);
@@ -191,7 +191,7 @@ impl Outline {
                 .collect(),
             last_first: scene.last_first(),
             samples: scene.tables.clone(),
-            six_axes: six_axes::text(program, language, false),
+            six_axes,
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
             forward: forward.map(|forward| ForwardText::new(&scene, &forward)),
             size_of: sizes.iter().map(|size| place(&unique, size)).collect(),

@@ -49,12 +49,11 @@ fn one_joint_may_slide_anywhere() {
     }
 }
 
-/// Two joints may slide if they are not the first and the fourth, the second and the fifth, or the third and the last.
 #[test]
-fn two_joints_may_slide_in_most_places() {
+fn two_joints_may_slide_anywhere() {
     let mut random = Random::new(36);
     for first in 0..6 {
-        for second in (first + 1..6).filter(|second| second - first != 3) {
+        for second in first + 1..6 {
             let sliding = [first, second];
             let solver = template::solver(&random_chain_of(&mut random, &sliding)).unwrap();
             let (misses, worst) = misses(&solver, &mut random, &sliding, 200);
