@@ -200,7 +200,7 @@ fn multiplication(mut rows: Vec<[f64; COLUMNS]>) -> Option<[Square; 2]> {
 /// The real values of the first angle.
 fn first_angles(lines: &[Line<f64>; 6], target: &Rigid) -> Option<Vec<f64>> {
     let [cosine, sine] = multiplication(template(&equations(lines, target)))?;
-    let mixed = std::array::from_fn(|i| std::array::from_fn(|j| 0.6 * cosine[i][j] + 0.8 * sine[i][j]));
+    let mixed: Square = std::array::from_fn(|i| std::array::from_fn(|j| 0.6 * cosine[i][j] + 0.8 * sine[i][j]));
     let form = Hessenberg::reduce(mixed);
     let real = form.eigenvalues()?.into_iter().filter(|value| value.im == 0.0);
     let angles = real.map(|value| {

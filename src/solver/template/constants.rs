@@ -32,6 +32,7 @@ pub(crate) struct Constants {
     pub singular: f64,
     pub weak: f64,
     pub apart: f64,
+    pub alike: f64,
     pub deepest: f64,
     /// QR steps for one deflation.
     pub max_steps: usize,
@@ -45,6 +46,8 @@ pub(crate) struct Constants {
 pub(crate) struct Curve {
     pub rank: f64,
     pub steep: f64,
+    pub flat: f64,
+    pub early: usize,
     pub adrift: f64,
     pub level: f64,
     pub settled: f64,
@@ -66,6 +69,8 @@ impl Curve {
             settled: curve::SETTLED,
             stride: curve::STRIDE,
             short: curve::SHORT,
+            flat: curve::FLAT,
+            early: curve::EARLY,
             rounds: curve::ROUNDS,
             few: curve::FEW,
             paces: curve::PACES,
@@ -105,6 +110,7 @@ impl Constants {
             singular: polish::SINGULAR,
             weak: reduce::WEAK,
             apart: solve::APART,
+            alike: solve::ALIKE,
             deepest: candidates::DEEPEST,
             curve: Curve::new(),
         }

@@ -12,6 +12,10 @@ use super::solve::{Answers, ROOM, distance};
 pub(super) const RANK: f64 = 1e-3;
 /// The largest singular value, about, of what is taken for a curve.
 pub(super) const STEEP: f64 = 1e-2;
+/// Where joints change the sixth equation by more after [`EARLY`] steps across, no curve is near.
+pub(super) const FLAT: f64 = 5e-2;
+/// Steps behind which that is asked.
+pub(super) const EARLY: usize = 2;
 /// The most that may be missed on a curve, as a share of the length scale or in radians.
 pub(super) const ADRIFT: f64 = 1e-3;
 /// What rounding leaves of the equations on a family.
@@ -114,7 +118,7 @@ impl Links {
         for round in 0..rounds {
             let section = self.section(&q, target)?;
             let longest = size(&section.step);
-            if !longest.is_finite() || (round >= FEW && section.slope > STEEP) {
+            if !longest.is_finite() || (round >= EARLY && section.slope > FLAT) {
                 return None;
             }
             let share = if longest > LONGEST { LONGEST / longest } else { 1.0 };

@@ -46,7 +46,8 @@ impl<T: Scalar> Rows<T> {
     }
 
     /// A slide by `2 x w` is `exp(2 x N)` with `N^3 = 0`, so that `b - a = x N (a + b)` for all fourteen functions. Of directions it leaves
-    /// ten alone, four of which stand among the moving ones, times zero.
+    /// ten alone. Four of them stand among the moving ones: `r = 0` and `s = 0` as `s - x r = 0` and `-r - x s = 0`, which say the same for
+    /// all `x` but `i` and `-i`.
     fn of_slide(equations: &Equations<T>) -> Self {
         let (near, far) = (&equations.turned.functions, &equations.reached.functions);
         let square = equations.square;
@@ -61,7 +62,7 @@ impl<T: Scalar> Rows<T> {
                 Factor::MinusTwo => row.map(|entry| -(entry + entry)),
                 Factor::MinusSquare => row.map(|entry| -(entry * square)),
                 Factor::TwoSquares => row.map(|entry| (entry + entry) * square),
-                Factor::Zero => [square + -square; COLUMNS],
+                Factor::Still | Factor::StillBack => difference(&near[function], &far[function]),
                 Factor::Constant => std::array::from_fn(|column| match column {
                     0 => -(square + square),
                     _ => square + -square,
@@ -70,7 +71,10 @@ impl<T: Scalar> Rows<T> {
         };
         Rows {
             still: unmoved.map(|k| difference(&near[k], &far[k])),
-            constant: std::array::from_fn(|k| difference(&near[sliding[k].0], &far[sliding[k].0])),
+            constant: std::array::from_fn(|k| match sliding[k] {
+                (function, _, Factor::StillBack) => difference(&near[function], &far[function]).map(|entry| -entry),
+                (function, ..) => difference(&near[function], &far[function]),
+            }),
             linear: std::array::from_fn(image),
         }
     }
@@ -87,7 +91,9 @@ enum Factor {
     MinusTwo,
     MinusSquare,
     TwoSquares,
-    Zero,
+    /// Both functions stay; of `StillBack` the first one's sign changes.
+    Still,
+    StillBack,
     /// Whatever the function is, the image is the constant `-w.w`, from both sides.
     Constant,
 }
@@ -108,12 +114,13 @@ const SLIDING: [(usize, usize, Factor); MOVING] = [
 /// The same of the functions `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`, for a fourth joint that slides: directions stay.
 const UNMOVED_DIRECTED: [usize; STILL] = [0, 1, 2, 3, STILL, STILL + 1];
 
-/// `N (p x l) = w x l`, `N (p.a) = w.a`, `N (p.(l x a)) = w.(l x a)`; the first four stay.
+/// `N (p x l) = w x l`, `N (p.a) = w.a`, `N (p.(l x a)) = w.(l x a)`; the first four
+/// stay.
 const SLIDING_DIRECTED: [(usize, usize, Factor); MOVING] = [
-    (STILL + 3, 0, Factor::Zero),
-    (STILL + TURNING, 0, Factor::Zero),
-    (STILL + TURNING + 1, 0, Factor::Zero),
-    (STILL + TURNING + 3, 0, Factor::Zero),
+    (STILL + TURNING, STILL + 3, Factor::Still),
+    (STILL + 3, STILL + TURNING, Factor::StillBack),
+    (STILL + TURNING + 3, STILL + TURNING + 1, Factor::Still),
+    (STILL + TURNING + 1, STILL + TURNING + 3, Factor::StillBack),
     (STILL + 2, STILL + TURNING + 1, Factor::One),
     (STILL + TURNING + 2, STILL + 1, Factor::MinusSquare),
     (TURNING, 0, Factor::Minus),

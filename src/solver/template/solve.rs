@@ -35,6 +35,8 @@ const MOST_RUNS: usize = 8;
 /// How far aside the target is put for each of them: where solutions share a hidden angle, or a family of solutions stands at the same
 /// target, the eigenvectors of isolated ones are only found next to it.
 pub(super) const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3];
+/// Candidates that are no farther than this from one that is known are not remembered again.
+pub(super) const ALIKE: f64 = 1e-2;
 /// An answer on a curve that is no farther than this from one that is known is that one.
 pub(super) const APART: f64 = 1e-4;
 /// A way of so many length scales stands for an infinite one.
@@ -116,7 +118,8 @@ impl Answers {
     }
 
     fn lose(&mut self, q: [f64; 6]) {
-        if self.lost_count < ROOM && q.iter().all(|value| value.is_finite()) {
+        let is_new = !is_among(&q, &self.lost[..self.lost_count]);
+        if self.lost_count < ROOM && is_new && q.iter().all(|value| value.is_finite()) {
             self.lost[self.lost_count] = q;
             self.lost_count += 1;
         }
@@ -124,7 +127,7 @@ impl Answers {
 
     /// Remembers a candidate off the real line, or one that led to no answer, at a target aside: a curve may be next to it.
     fn remember(&mut self, q: [f64; 6]) {
-        if self.far_count < ROOM {
+        if self.far_count < ROOM && !is_among(&q, &self.far[..self.far_count]) {
             self.far[self.far_count] = q;
             self.far_count += 1;
         }
@@ -165,6 +168,11 @@ pub(super) fn distance(a: &[f64; 6], b: &[f64; 6], slides: &[bool; 6]) -> f64 {
         most = most.max((way - TAU * turns).abs());
     }
     most
+}
+
+/// Whether one of the joint vectors known is nearly `q`, turns counted.
+fn is_among(q: &[f64; 6], known: &[[f64; 6]]) -> bool {
+    known.iter().any(|other| distance(other, q, &[true; 6]) <= ALIKE)
 }
 
 /// The joints with angles in (-pi, pi].
