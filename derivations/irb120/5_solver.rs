@@ -327,6 +327,8 @@ const ADRIFT: f64 = 1e-7;
 const ALONE: f64 = 1e-13;
 /// How far a free joint is moved to see whether an answer lies on a family.
 const ASIDE: f64 = 0.1;
+const NARROWS: usize = 3;
+const SINGULAR: f64 = 1e-13;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -341,7 +343,7 @@ const NEAR: f64 = 0.001;
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 
-/// The target moved onto its conditions, which it may miss by a little; none when a number is not finite or it misses them by more.
+/// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
 fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
     if !target.iter().all(|value| value.is_finite()) {
         return Err(Error::NotFinite);
@@ -484,7 +486,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r7 = shared.r3 * shared.r3;
     let r9 = shared.r5 * shared.r5;
     let r10 = r9 + r9;
-    if !is_away(r6 + r7, 10000.0 * r10) {
+    if !is_away(r6 + r7, 16.0 * r10) {
         return;
     }
     let f1 = 1.0;
@@ -587,7 +589,7 @@ struct Shared3 {
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r24 = shared.r9 * shared.r9 + shared.r12 * shared.r12;
-    if !is_away(r24, 77110.28000000001) {
+    if !is_away(r24, 123.37644800000001) {
         return;
     }
     let f2 = 1.0;
@@ -649,7 +651,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13;
     let r16 = shared.r14 * shared.r14;
-    if !is_away(r15 + r16, 4240000.0) {
+    if !is_away(r15 + r16, 6784.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, known.f2 * (20.591260281974 * known.f1));
@@ -1044,7 +1046,7 @@ impl Answers<'_> {
                 return;
             }
             let missed = end.1.relative;
-            if !end.1.accepted && end.1.relative <= ADRIFT {
+            if RESOLUTION <= end.1.relative && end.1.relative <= ADRIFT {
                 end = polish(p, end, &free);
             }
             if !self.keep_member(p, branch, last, end, free) {
@@ -1253,10 +1255,20 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching.
+/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
+/// rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
-    let bound = f64::max(bound, RESOLUTION);
-    leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound)
+    let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    for narrow in 0..NARROWS {
+        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+            return false;
+        }
+        if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
+            return true;
+        }
+        way /= 8.0;
+    }
+    false
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
@@ -1597,6 +1609,22 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
 
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
+    substituted(&triangle(p, q, damping, held))
+}
+
+/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
+fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+    let columns = triangle(p, q, 0.0, &NONE_FREE);
+    let (mut least, mut most) = (f64::INFINITY, 0.0);
+    for i in 0..JOINTS {
+        let pivot = columns[i][i].abs();
+        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
+    }
+    least <= SINGULAR * most
+}
+
+/// The triangle of a step's equations, the right side in the last column.
+fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> [[f64; ROWS]; JOINTS + 1] {
     let at = place(q);
     let rows = jacobian(p, &at);
     let right = equations(p, &at).value;
@@ -1616,7 +1644,7 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
         columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
     }
     reflect(&mut columns);
-    substituted(&columns)
+    columns
 }
 
 /// Rows of the equations and of the damping.

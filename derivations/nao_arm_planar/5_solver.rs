@@ -848,6 +848,11 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
 
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> Option<[f64; JOINTS]> {
+    substituted(&triangle(p, q, damping))
+}
+
+/// The triangle of a step's equations, the right side in the last column.
+fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> [[f64; ROWS]; JOINTS + 1] {
     let at = place(q);
     let rows = jacobian(p, &at);
     let right = equations(p, &at).value;
@@ -867,7 +872,7 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> Option<[f64; 
         columns[i][EQUATIONS + i] = (damping * size).sqrt();
     }
     reflect(&mut columns);
-    substituted(&columns)
+    columns
 }
 
 /// Rows of the equations and of the damping.

@@ -124,6 +124,8 @@ static const double ADRIFT = 1e-7;
 static const double ALONE = 1e-13;
 /* How far a free joint is moved to see whether an answer lies on a family. */
 static const double ASIDE = 0.1;
+static const int NARROWS = 3;
+static const double SINGULAR = 1e-13;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -449,14 +451,13 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
-static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
+/* The triangle of a step's equations, the right side in the last column. */
+static void triangle(const Parameters *p, const double *q, double damping, const bool *held, double columns[JOINTS + 1][ROWS])
 {
     double at[PLACES];
     place(q, at);
     const Jacobian j = jacobian(p, at);
     const Equations f = equations(p, at);
-    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
         double square = 0.0;
@@ -474,8 +475,28 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
         columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
     reflect(columns);
+}
+
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
+static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
+    triangle(p, q, damping, held, columns);
     return substituted(columns, step);
 }
+
+/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
+static bool is_singular(const Parameters *p, const double *q)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
+    triangle(p, q, 0.0, NONE_FREE, columns);
+    for (size_t i = 0; i < JOINTS; i++) {
+        least = fmin(least, fabs(columns[i][i]));
+        most = fmax(most, fabs(columns[i][i]));
+    }
+    return least <= SINGULAR * most;
+}
+
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
@@ -811,11 +832,22 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
+ * the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    double way = ASIDE;
     bound = fmax(bound, RESOLUTION);
-    return leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound);
+    for (int narrow = 0; narrow < NARROWS; narrow++) {
+        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+            return false;
+        }
+        if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
+            return true;
+        }
+        way /= 8.0;
+    }
+    return false;
 }
 
 /* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
@@ -1013,7 +1045,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         if (has_member(answers, branch, free)) {
             return;
         }
-        if (!fit.accepted && fit.relative <= ADRIFT) {
+        if (RESOLUTION <= fit.relative && fit.relative <= ADRIFT) {
             polish(p, q, &fit, free);
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
@@ -1191,7 +1223,7 @@ typedef struct {
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r19 = shared->r7 * shared->r7 + shared->r9 * shared->r9;
-    if (!is_away(r19, 87456.27862900001)) {
+    if (!is_away(r19, 139.93004580640002)) {
         return;
     }
     const double r23 = shared->r7 * shared->r11 - (0.0 - shared->r9 * shared->r10);
@@ -1272,7 +1304,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double r7 = shared->r1 * shared->r1, r8 = p->px * p->px;
     const double r12 = shared->r6 * shared->r6 + p->magnitude * p->magnitude;
-    if (!is_away(r7 + r8, 10000.0 * r12)) {
+    if (!is_away(r7 + r8, 16.0 * r12)) {
         return;
     }
     const Roots roots0 = square_roots(shared->r4 * shared->r4 - r7 - r8, known->f4 * sqrt(fmax(r12, 0.0)));
@@ -1345,7 +1377,7 @@ typedef struct {
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r13 = shared->r3 * shared->r3;
-    if (!is_away(r13 + 0.0005701111289999999, 20000.0)) {
+    if (!is_away(r13 + 0.0005701111289999999, 32.0)) {
         return;
     }
     const double f4 = 1.0, r16 = shared->r12 * shared->r12 - 0.0005701111289999999;

@@ -175,6 +175,8 @@ int nao_legs_poses_nearest(const nao_legs_poses_solution *list, int count, const
 #define ALONE 1e-13
 /* How far a free joint is moved to see whether an answer lies on a family. */
 #define ASIDE 0.1
+#define NARROWS 3
+#define SINGULAR 1e-13
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -777,14 +779,13 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
-static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
+/* The triangle of a step's equations, the right side in the last column. */
+static void triangle(const Parameters *p, const double *q, double damping, const bool *held, double columns[JOINTS + 1][ROWS])
 {
     double at[PLACES];
     place(q, at);
     const Jacobian j = jacobian(p, at);
     const Equations f = equations(p, at);
-    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
         double square = 0.0;
@@ -802,8 +803,28 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
         columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
     reflect(columns);
+}
+
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
+static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
+    triangle(p, q, damping, held, columns);
     return substituted(columns, step);
 }
+
+/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
+static bool is_singular(const Parameters *p, const double *q)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
+    triangle(p, q, 0.0, NONE_FREE, columns);
+    for (size_t i = 0; i < JOINTS; i++) {
+        least = fmin(least, fabs(columns[i][i]));
+        most = fmax(most, fabs(columns[i][i]));
+    }
+    return least <= SINGULAR * most;
+}
+
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
@@ -1188,11 +1209,22 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
+ * the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    double way = ASIDE;
     bound = fmax(bound, RESOLUTION);
-    return leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound);
+    for (int narrow = 0; narrow < NARROWS; narrow++) {
+        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+            return false;
+        }
+        if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
+            return true;
+        }
+        way /= 8.0;
+    }
+    return false;
 }
 
 /* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
@@ -1390,7 +1422,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (has_member(answers, branch, free)) {
             return;
         }
-        if (!fit.accepted && fit.relative <= ADRIFT) {
+        if (RESOLUTION <= fit.relative && fit.relative <= ADRIFT) {
             polish(p, q, &fit, free);
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
@@ -1674,7 +1706,7 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!is_away(r88, 10000.0 * r91)) {
+    if (!is_away(r88, 16.0 * r91)) {
         return;
     }
     const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
@@ -1772,7 +1804,7 @@ typedef struct {
  */
 INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    if (!is_away(shared->r36 - shared->r34, 10000.0 * shared->r40)) {
+    if (!is_away(shared->r36 - shared->r34, 16.0 * shared->r40)) {
         return;
     }
     const double right_c6 = 0.0, right_s6 = 0.0, q10 = angle(right_c6, right_s6);
@@ -1793,7 +1825,7 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
 {
     const double r42 = shared->r17 * shared->r17, r43 = shared->r24 * shared->r24;
     const double r47 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 10000.0 * r47))) {
+    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 16.0 * r47))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r42 - r43, sqrt(fmax(r47, 0.0)));
@@ -1843,7 +1875,7 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
 static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     const double r42 = shared->r26 * shared->r26, r43 = shared->r28 * shared->r28;
-    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 180000.0))) {
+    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 288.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r42 - r43, 4.242640687119285);
@@ -2058,7 +2090,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!is_away(r88, 10000.0 * r91)) {
+    if (!is_away(r88, 16.0 * r91)) {
         return;
     }
     const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
@@ -2156,7 +2188,7 @@ typedef struct {
  */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    if (!is_away(shared->r35 - shared->r34, 10000.0 * shared->r39)) {
+    if (!is_away(shared->r35 - shared->r34, 16.0 * shared->r39)) {
         return;
     }
     const double left_c6 = 0.0, left_s6 = 0.0, q5 = angle(left_c6, left_s6);
@@ -2177,7 +2209,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double r41 = shared->r17 * shared->r17, r42 = shared->r24 * shared->r24;
     const double r46 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 10000.0 * r46))) {
+    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 16.0 * r46))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r41 - r42, sqrt(fmax(r46, 0.0)));
@@ -2227,7 +2259,7 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
 static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r41 = shared->r26 * shared->r26, r42 = shared->r28 * shared->r28;
-    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 180000.0))) {
+    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 288.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r41 - r42, 4.242640687119285);
@@ -2359,7 +2391,7 @@ typedef struct {
  */
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    if (!is_away(shared->r63 - shared->r61, 10000.0 * shared->r66)) {
+    if (!is_away(shared->r63 - shared->r61, 16.0 * shared->r66)) {
         return;
     }
     const double left_c1 = 0.0, left_s1 = 0.0, q0 = angle(left_c1, left_s1);
@@ -2380,7 +2412,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double r68 = shared->r19 * shared->r19, r69 = shared->r32 * shared->r32;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 10000.0 * r73))) {
+    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 16.0 * r73))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));
@@ -2431,7 +2463,7 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double r68 = shared->r41 * shared->r41, r69 = shared->r54 * shared->r54;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 10000.0 * r73))) {
+    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 16.0 * r73))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));

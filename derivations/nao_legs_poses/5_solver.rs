@@ -323,6 +323,8 @@ const ADRIFT: f64 = 1e-7;
 const ALONE: f64 = 1e-13;
 /// How far a free joint is moved to see whether an answer lies on a family.
 const ASIDE: f64 = 0.1;
+const NARROWS: usize = 3;
+const SINGULAR: f64 = 1e-13;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -337,7 +339,7 @@ const NEAR: f64 = 0.001;
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 
-/// The target moved onto its conditions, which it may miss by a little; none when a number is not finite or it misses them by more.
+/// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
 fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
     if !target.iter().all(|value| value.is_finite()) {
         return Err(Error::NotFinite);
@@ -551,7 +553,7 @@ struct Shared1 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    if !is_away(shared.r63 - shared.r61, 10000.0 * shared.r66) {
+    if !is_away(shared.r63 - shared.r61, 16.0 * shared.r66) {
         return;
     }
     let left_c1 = 0.0;
@@ -567,7 +569,7 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r68 = shared.r19 * shared.r19;
     let r69 = shared.r32 * shared.r32;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 10000.0 * r73)) {
+    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 16.0 * r73)) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
@@ -605,7 +607,7 @@ fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r68 = shared.r41 * shared.r41;
     let r69 = shared.r54 * shared.r54;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 10000.0 * r73)) {
+    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 16.0 * r73)) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
@@ -728,7 +730,7 @@ struct Shared3 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    if !is_away(shared.r35 - shared.r34, 10000.0 * shared.r39) {
+    if !is_away(shared.r35 - shared.r34, 16.0 * shared.r39) {
         return;
     }
     let left_c6 = 0.0;
@@ -744,7 +746,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     let r41 = shared.r17 * shared.r17;
     let r42 = shared.r24 * shared.r24;
     let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 10000.0 * r46)) {
+    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 16.0 * r46)) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, f64::max(r46, 0.0).sqrt());
@@ -781,7 +783,7 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r41 = shared.r26 * shared.r26;
     let r42 = shared.r28 * shared.r28;
-    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 180000.0)) {
+    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 288.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, 4.242640687119285);
@@ -872,7 +874,7 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !is_away(r88, 10000.0 * r91) {
+    if !is_away(r88, 16.0 * r91) {
         return;
     }
     let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
@@ -1073,7 +1075,7 @@ struct Shared8 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    if !is_away(shared.r36 - shared.r34, 10000.0 * shared.r40) {
+    if !is_away(shared.r36 - shared.r34, 16.0 * shared.r40) {
         return;
     }
     let right_c6 = 0.0;
@@ -1089,7 +1091,7 @@ fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
     let r42 = shared.r17 * shared.r17;
     let r43 = shared.r24 * shared.r24;
     let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 10000.0 * r47)) {
+    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 16.0 * r47)) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, f64::max(r47, 0.0).sqrt());
@@ -1126,7 +1128,7 @@ fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     let r42 = shared.r26 * shared.r26;
     let r43 = shared.r28 * shared.r28;
-    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 180000.0)) {
+    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 288.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, 4.242640687119285);
@@ -1217,7 +1219,7 @@ struct Shared9 {
 fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !is_away(r88, 10000.0 * r91) {
+    if !is_away(r88, 16.0 * r91) {
         return;
     }
     let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
@@ -1949,7 +1951,7 @@ impl Answers<'_> {
                 return;
             }
             let missed = end.1.relative;
-            if !end.1.accepted && end.1.relative <= ADRIFT {
+            if RESOLUTION <= end.1.relative && end.1.relative <= ADRIFT {
                 end = polish(p, end, &free);
             }
             if !self.keep_member(p, branch, last, end, free) {
@@ -2138,10 +2140,20 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching.
+/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
+/// rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
-    let bound = f64::max(bound, RESOLUTION);
-    leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound)
+    let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    for narrow in 0..NARROWS {
+        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+            return false;
+        }
+        if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
+            return true;
+        }
+        way /= 8.0;
+    }
+    false
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
@@ -2522,6 +2534,22 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
 
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
+    substituted(&triangle(p, q, damping, held))
+}
+
+/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
+fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+    let columns = triangle(p, q, 0.0, &NONE_FREE);
+    let (mut least, mut most) = (f64::INFINITY, 0.0);
+    for i in 0..JOINTS {
+        let pivot = columns[i][i].abs();
+        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
+    }
+    least <= SINGULAR * most
+}
+
+/// The triangle of a step's equations, the right side in the last column.
+fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> [[f64; ROWS]; JOINTS + 1] {
     let at = place(q);
     let rows = jacobian(p, &at);
     let right = equations(p, &at).value;
@@ -2541,7 +2569,7 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
         columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
     }
     reflect(&mut columns);
-    substituted(&columns)
+    columns
 }
 
 /// Rows of the equations and of the damping.

@@ -180,6 +180,8 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define ALONE 1e-13
 /* How far a free joint is moved to see whether an answer lies on a family. */
 #define ASIDE 0.1
+#define NARROWS 3
+#define SINGULAR 1e-13
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -1073,14 +1075,13 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
-static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
+/* The triangle of a step's equations, the right side in the last column. */
+static void triangle(const Parameters *p, const double *q, double damping, const bool *held, double columns[JOINTS + 1][ROWS])
 {
     double at[PLACES];
     place(q, at);
     const Jacobian j = jacobian(p, at);
     const Equations f = equations(p, at);
-    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
         double square = 0.0;
@@ -1098,8 +1099,28 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
         columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
     reflect(columns);
+}
+
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
+static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
+    triangle(p, q, damping, held, columns);
     return substituted(columns, step);
 }
+
+/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
+static bool is_singular(const Parameters *p, const double *q)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
+    triangle(p, q, 0.0, NONE_FREE, columns);
+    for (size_t i = 0; i < JOINTS; i++) {
+        least = fmin(least, fabs(columns[i][i]));
+        most = fmax(most, fabs(columns[i][i]));
+    }
+    return least <= SINGULAR * most;
+}
+
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
@@ -1505,11 +1526,22 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
+ * the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    double way = ASIDE;
     bound = fmax(bound, RESOLUTION);
-    return leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound);
+    for (int narrow = 0; narrow < NARROWS; narrow++) {
+        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+            return false;
+        }
+        if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
+            return true;
+        }
+        way /= 8.0;
+    }
+    return false;
 }
 
 /* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
@@ -1707,7 +1739,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (has_member(answers, branch, free)) {
             return;
         }
-        if (!fit.accepted && fit.relative <= ADRIFT) {
+        if (RESOLUTION <= fit.relative && fit.relative <= ADRIFT) {
             polish(p, q, &fit, free);
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
@@ -2035,7 +2067,7 @@ typedef struct {
 INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
-    if (!is_away(r98, 10000.0 * (r99 + r99))) {
+    if (!is_away(r98, 16.0 * (r99 + r99))) {
         return;
     }
     const double r105 = shared->r77 * shared->r92 - (0.0 - shared->r89 * shared->r91);
@@ -2133,7 +2165,7 @@ typedef struct {
  */
 INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    if (!is_away(shared->r80 - shared->r78, 10000.0 * shared->r84)) {
+    if (!is_away(shared->r80 - shared->r78, 16.0 * shared->r84)) {
         return;
     }
     const double right_c9 = 0.0, right_s9 = 0.0, q13 = angle(right_c9, right_s9);
@@ -2154,7 +2186,7 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
 {
     const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68;
     const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 10000.0 * r91))) {
+    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 16.0 * r91))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, sqrt(fmax(r91, 0.0)));
@@ -2204,7 +2236,7 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
 static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 27380000.0))) {
+    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 43808.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
@@ -2447,7 +2479,7 @@ typedef struct {
 INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
-    if (!is_away(r98, 10000.0 * (r99 + r99))) {
+    if (!is_away(r98, 16.0 * (r99 + r99))) {
         return;
     }
     const double r104 = shared->r77 * shared->r92 - shared->r89 * shared->r91;
@@ -2544,7 +2576,7 @@ typedef struct {
  */
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    if (!is_away(shared->r79 - shared->r78, 10000.0 * shared->r83)) {
+    if (!is_away(shared->r79 - shared->r78, 16.0 * shared->r83)) {
         return;
     }
     const double left_c9 = 0.0, left_s9 = 0.0, q8 = angle(left_c9, left_s9);
@@ -2565,7 +2597,7 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
 {
     const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68;
     const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 10000.0 * r90))) {
+    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 16.0 * r90))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, sqrt(fmax(r90, 0.0)));
@@ -2615,7 +2647,7 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
 static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 27380000.0))) {
+    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 43808.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
@@ -2760,7 +2792,7 @@ typedef struct {
  */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    if (!is_away(shared->r139 + shared->r141, 10000.0 * shared->r144)) {
+    if (!is_away(shared->r139 + shared->r141, 16.0 * shared->r144)) {
         return;
     }
     const double left_c4 = 0.0, left_s4 = 0.0, q3 = angle(left_c4, left_s4);
@@ -2781,7 +2813,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 {
     const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 10000.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 16.0 * r151))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
@@ -2832,7 +2864,7 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
 {
     const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 10000.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 16.0 * r151))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));

@@ -328,6 +328,8 @@ const ADRIFT: f64 = 1e-7;
 const ALONE: f64 = 1e-13;
 /// How far a free joint is moved to see whether an answer lies on a family.
 const ASIDE: f64 = 0.1;
+const NARROWS: usize = 3;
+const SINGULAR: f64 = 1e-13;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -342,7 +344,7 @@ const NEAR: f64 = 0.001;
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 
-/// The target moved onto its conditions, which it may miss by a little; none when a number is not finite or it misses them by more.
+/// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
 fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
     if !target.iter().all(|value| value.is_finite()) {
         return Err(Error::NotFinite);
@@ -1024,7 +1026,7 @@ struct Shared4 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    if !is_away(shared.r139 + shared.r141, 10000.0 * shared.r144) {
+    if !is_away(shared.r139 + shared.r141, 16.0 * shared.r144) {
         return;
     }
     let left_c4 = 0.0;
@@ -1040,7 +1042,7 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     let r146 = shared.r98 * shared.r98;
     let r147 = shared.r110 * shared.r110;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 10000.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 16.0 * r151)) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
@@ -1079,7 +1081,7 @@ fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     let r146 = shared.r120 * shared.r120;
     let r147 = shared.r132 * shared.r132;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 10000.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 16.0 * r151)) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
@@ -1224,7 +1226,7 @@ struct Shared6 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    if !is_away(shared.r79 - shared.r78, 10000.0 * shared.r83) {
+    if !is_away(shared.r79 - shared.r78, 16.0 * shared.r83) {
         return;
     }
     let left_c9 = 0.0;
@@ -1240,7 +1242,7 @@ fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
     let r85 = shared.r57 * shared.r57;
     let r86 = shared.r68 * shared.r68;
     let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 10000.0 * r90)) {
+    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 16.0 * r90)) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, f64::max(r90, 0.0).sqrt());
@@ -1277,7 +1279,7 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r85 = shared.r70 * shared.r70;
     let r86 = shared.r72 * shared.r72;
-    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 27380000.0)) {
+    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 43808.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
@@ -1365,7 +1367,7 @@ struct Shared7 {
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
     let r99 = shared.r95 * shared.r95;
-    if !is_away(r98, 10000.0 * (r99 + r99)) {
+    if !is_away(r98, 16.0 * (r99 + r99)) {
         return;
     }
     let r104 = shared.r77 * shared.r92 - shared.r89 * shared.r91;
@@ -1606,7 +1608,7 @@ struct Shared11 {
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    if !is_away(shared.r80 - shared.r78, 10000.0 * shared.r84) {
+    if !is_away(shared.r80 - shared.r78, 16.0 * shared.r84) {
         return;
     }
     let right_c9 = 0.0;
@@ -1622,7 +1624,7 @@ fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
     let r86 = shared.r57 * shared.r57;
     let r87 = shared.r68 * shared.r68;
     let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 10000.0 * r91)) {
+    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 16.0 * r91)) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, f64::max(r91, 0.0).sqrt());
@@ -1659,7 +1661,7 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r86 = shared.r70 * shared.r70;
     let r87 = shared.r72 * shared.r72;
-    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 27380000.0)) {
+    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 43808.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
@@ -1753,7 +1755,7 @@ struct Shared12 {
 fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
     let r99 = shared.r95 * shared.r95;
-    if !is_away(r98, 10000.0 * (r99 + r99)) {
+    if !is_away(r98, 16.0 * (r99 + r99)) {
         return;
     }
     let r105 = shared.r77 * shared.r92 - (0.0 - shared.r89 * shared.r91);
@@ -2642,7 +2644,7 @@ impl Answers<'_> {
                 return;
             }
             let missed = end.1.relative;
-            if !end.1.accepted && end.1.relative <= ADRIFT {
+            if RESOLUTION <= end.1.relative && end.1.relative <= ADRIFT {
                 end = polish(p, end, &free);
             }
             if !self.keep_member(p, branch, last, end, free) {
@@ -2831,10 +2833,20 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching.
+/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
+/// rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
-    let bound = f64::max(bound, RESOLUTION);
-    leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound)
+    let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    for narrow in 0..NARROWS {
+        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+            return false;
+        }
+        if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
+            return true;
+        }
+        way /= 8.0;
+    }
+    false
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
@@ -3239,6 +3251,22 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
 
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
+    substituted(&triangle(p, q, damping, held))
+}
+
+/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
+fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+    let columns = triangle(p, q, 0.0, &NONE_FREE);
+    let (mut least, mut most) = (f64::INFINITY, 0.0);
+    for i in 0..JOINTS {
+        let pivot = columns[i][i].abs();
+        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
+    }
+    least <= SINGULAR * most
+}
+
+/// The triangle of a step's equations, the right side in the last column.
+fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> [[f64; ROWS]; JOINTS + 1] {
     let at = place(q);
     let rows = jacobian(p, &at);
     let right = equations(p, &at).value;
@@ -3258,7 +3286,7 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
         columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
     }
     reflect(&mut columns);
-    substituted(&columns)
+    columns
 }
 
 /// Rows of the equations and of the damping.

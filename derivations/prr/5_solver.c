@@ -434,14 +434,13 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
-static bool newton_step(const Parameters *p, const double *q, double damping, double *step)
+/* The triangle of a step's equations, the right side in the last column. */
+static void triangle(const Parameters *p, const double *q, double damping, double columns[JOINTS + 1][ROWS])
 {
     double at[PLACES];
     place(q, at);
     const Jacobian j = jacobian(p, at);
     const Equations f = equations(p, at);
-    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
         double square = 0.0;
@@ -459,8 +458,16 @@ static bool newton_step(const Parameters *p, const double *q, double damping, do
         columns[i][EQUATIONS + i] = sqrt(damping * size);
     }
     reflect(columns);
+}
+
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
+static bool newton_step(const Parameters *p, const double *q, double damping, double *step)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
+    triangle(p, q, damping, columns);
     return substituted(columns, step);
 }
+
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)

@@ -327,6 +327,8 @@ const ADRIFT: f64 = 1e-7;
 const ALONE: f64 = 1e-13;
 /// How far a free joint is moved to see whether an answer lies on a family.
 const ASIDE: f64 = 0.1;
+const NARROWS: usize = 3;
+const SINGULAR: f64 = 1e-13;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -337,7 +339,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 
-/// The target moved onto its conditions, which it may miss by a little; none when a number is not finite or it misses them by more.
+/// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
 fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
     if !target.iter().all(|value| value.is_finite()) {
         return Err(Error::NotFinite);
@@ -2374,7 +2376,7 @@ impl Answers<'_> {
                 return;
             }
             let missed = end.1.relative;
-            if !end.1.accepted && end.1.relative <= ADRIFT {
+            if RESOLUTION <= end.1.relative && end.1.relative <= ADRIFT {
                 end = polish(p, end, &free);
             }
             if !self.keep_member(p, branch, last, end, free) {
@@ -2583,10 +2585,20 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching.
+/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
+/// rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
-    let bound = f64::max(bound, RESOLUTION);
-    leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound)
+    let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    for narrow in 0..NARROWS {
+        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+            return false;
+        }
+        if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
+            return true;
+        }
+        way /= 8.0;
+    }
+    false
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
@@ -2927,6 +2939,22 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
 
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
+    substituted(&triangle(p, q, damping, held))
+}
+
+/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
+fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+    let columns = triangle(p, q, 0.0, &NONE_FREE);
+    let (mut least, mut most) = (f64::INFINITY, 0.0);
+    for i in 0..JOINTS {
+        let pivot = columns[i][i].abs();
+        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
+    }
+    least <= SINGULAR * most
+}
+
+/// The triangle of a step's equations, the right side in the last column.
+fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> [[f64; ROWS]; JOINTS + 1] {
     let at = place(q);
     let rows = jacobian(p, &at);
     let right = equations(p, &at).value;
@@ -2946,7 +2974,7 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
         columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
     }
     reflect(&mut columns);
-    substituted(&columns)
+    columns
 }
 
 /// Rows of the equations and of the damping.

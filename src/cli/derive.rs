@@ -7,6 +7,7 @@ use super::Outcome;
 use super::console::{self, Paint};
 use super::ends::{EndArguments, SnapArgument};
 use super::files::{assemble_files, destination};
+use super::info::near_words;
 use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
 use crate::derive::{Proved, Source};
@@ -105,22 +106,38 @@ fn derive(source: &Source, watch: &Watch) -> Result<Proved> {
     })
 }
 
-/// Fails at the first target whose answers are wrong. An eigenvalue problem may lose answers at special targets: the table tells where.
+/// Fails at the first target whose answers are wrong. An eigenvalue problem may lose answers at special targets, and so may the formulas of
+/// an ideal robot, where that one is singular and the described one is not quite: the table tells where.
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] with the row, its target and what is wrong.
 pub fn refuse_failures(derivation: &Proved, checked: &witness::Report) -> Result<()> {
-    let may_lose = matches!(derivation, Proved::SixAxes(_));
+    let may_lose = match derivation {
+        Proved::SixAxes(_) => true,
+        Proved::Chain(derived) => derived.truth.is_some(),
+        Proved::Equations(_) | Proved::Limbs(_) => false,
+    };
     let Some(row) = checked.failures().find(|row| !(may_lose && row.is_special_loss())) else { return Ok(()) };
     let target: Vec<String> = row.target.iter().map(f64::to_string).collect();
     let text = format!(
-        "numeric check, row {} ({}): the answers at the target {} are wrong: {}",
+        "numeric check, row {} ({}): the answers at the target {} are wrong: {}{}",
         row.number,
         row.kind,
         target.join(","),
-        row.verdict
+        row.verdict,
+        nearly_ideal(derivation)
     );
     Err(Error::new(ErrorKind::Certificate, text))
+}
+
+/// What almost holds of a chain's axes, and what to do then: closed forms of such a chain are at the mercy of rounding.
+fn nearly_ideal(derivation: &Proved) -> String {
+    let Proved::Chain(derived) = derivation else { return String::new() };
+    let near = near_words(derived.measured());
+    if near.is_empty() || derived.truth.is_some() {
+        return String::new();
+    }
+    format!("; {}: `--snap TOLERANCE` takes the robot of which this does hold", near.join(", "))
 }
 
 /// How long each stage took.

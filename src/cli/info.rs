@@ -60,9 +60,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// Relations of up to this are told [rad, m].
 const NEAR: f64 = 1e-3;
 
+/// What almost holds of the axes of `chain`, in words.
+pub(super) fn near_words(chain: &Chain) -> Vec<String> {
+    near_misses(chain, NEAR).iter().map(|near| near.words(chain.length_unit())).collect()
+}
+
 /// What almost holds, or what was made of it.
 fn imperfections(chain: &Chain, snapped: Option<&SnapReport>) -> Vec<String> {
-    let near = || near_misses(chain, NEAR).iter().map(|near| near.words(chain.length_unit())).collect();
+    let near = || near_words(chain);
     snapped.map_or_else(near, |report| report.to_string().lines().map(str::to_owned).collect())
 }
 

@@ -200,14 +200,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl GaitName {
-    fn name(self) -> &'static str {
-        match self {
-            GaitName::Seed => "seed",
-            GaitName::Preview => "preview",
-            GaitName::Osg => "osg",
-            GaitName::Rh0 => "rh0",
-            GaitName::Rh0Real => "rh0-real",
-        }
+    /// The word of the command line.
+    fn name(self) -> String {
+        clap::ValueEnum::to_possible_value(&self).expect("no gait is hidden").get_name().to_owned()
     }
 }
 
@@ -215,7 +210,7 @@ impl Arguments {
     /// The figures of the gait, the given ones in their places.
     fn usual(&self, walker: Walker) -> Result<Usual> {
         let gaits = walker.gaits();
-        let wanted = self.gait.map_or(gaits[0].0, GaitName::name);
+        let wanted = self.gait.map_or(gaits[0].0.to_owned(), GaitName::name);
         let Some(&(_, mut usual)) = gaits.iter().find(|(name, _)| *name == wanted) else {
             let names = gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
             return Err(bad(format!("this robot does not walk by `{wanted}`; give one of {names}")));

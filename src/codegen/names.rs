@@ -9,7 +9,7 @@ use crate::solver::Program;
 const TAKEN: &str = "p q target answers extra magnitude result angle real_roots leads is_near is_away finish \
     INPUTS JOINTS CAPACITY EQUATIONS EXTRAS DEGREE ACCEPT MERGE BLUR RESOLUTION NEAR TINY PIVOT POLISH_STEPS TANGENT ROUNDING \
     NEGLIGIBLE MAX_STEPS TAU PI NONE_FREE INPUT_NAMES JOINT_NAMES \
-    Parameters Solution Answers Error Fit Equations Jacobian Roots Polynomial Math close blurred differences shorter is_close keep relative doubles has_branch known shared next Known Shared branch free NOTHING_KNOWN ADRIFT ASIDE ASIDES DOUBLINGS leads_aside beyond ahead close_by displaced end ARRIVED STAGES POLISHED CONSISTENT \
+    Parameters Solution Answers Error Fit Equations Jacobian Roots Polynomial Math close blurred differences shorter is_close keep relative doubles has_branch known shared next Known Shared branch free NOTHING_KNOWN ADRIFT ASIDE NARROWS narrow SINGULAR is_singular least most DOUBLINGS leads_aside beyond ahead close_by displaced end ARRIVED STAGES POLISHED CONSISTENT \
     tip reached TIP forward LIMITS limits SLACK TURNS turns turns_within solve_within count_turns turn within nearest at MOST_TURNS nearest_turn finite_turns turned_within strides_within STRIDE STRIDES holds stride frames target_of base tool pose sum \
     held stages greatest conform make_rotation make_unit dot lies_on_family leads_to follow is_one holds_against \
     is_exact worst improve own add is_isolated has_free has_member bound answer make_unit a_isolated b_isolated isolated Rated improved move moved DAMPINGS dampings SPLIT last turn_in substituted triangle squares weights APART way \

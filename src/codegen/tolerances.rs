@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::printer::number;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, LEVER, MERGE, NEAR, OVERSHOT,
-    PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REST, RETURNS, ROUNDING, SERIES, STAGES, STIFF, TINY,
+    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, LEVER, MERGE, NARROWS, NEAR,
+    OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REST, RETURNS, ROUNDING, SERIES, SINGULAR, STAGES, STIFF, TINY,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -42,6 +42,8 @@ pub(super) struct Tolerances {
     adrift: String,
     alone: String,
     aside: String,
+    narrows: usize,
+    singular: String,
     doublings: usize,
     apart: String,
     arrived: String,
@@ -75,6 +77,8 @@ impl Tolerances {
             adrift: number(ADRIFT),
             alone: number(ALONE),
             aside: number(ASIDE),
+            narrows: NARROWS,
+            singular: number(SINGULAR),
             doublings: DOUBLINGS,
             apart: number(APART),
             arrived: number(ARRIVED),
@@ -102,6 +106,8 @@ impl Tolerances {
             pivot: number(1e-4),
             polished: number(2e-7),
             adrift: number(1e-3),
+            // Shorter ways are lost in rounding.
+            narrows: 1,
             consistent: number(1e-4),
             negligible: number(1e-30),
             tangent: number(1e-4),

@@ -267,3 +267,9 @@ fn footstep(row: &str) -> Result<Footstep> {
 fn bad(text: String) -> Error {
     Error::new(ErrorKind::BadValue, text)
 }
+
+/// The heading of a frame's x axis about the vertical \[rad\].
+pub(super) fn heading_of(world_from_frame: &Pose) -> f64 {
+    let ahead = world_from_frame.rotation * Vector3::x();
+    ahead.y.atan2(ahead.x)
+}

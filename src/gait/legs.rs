@@ -54,6 +54,23 @@ fn solver(name: &str) -> Option<Solver> {
     })
 }
 
+/// The value of each joint of `whole` \[rad\]: those that `values` names for a side, without the `L` or `R` of their names, zero elsewhere.
+///
+/// # Errors
+/// [`ErrorKind::UnknownName`] when a named joint is missing on one side.
+pub(super) fn posture<V>(whole: &Whole, values: impl Fn(Side) -> V) -> Result<Vec<f64>>
+where
+    V: IntoIterator<Item = (&'static str, f64)>,
+{
+    let mut posture = vec![0.0; whole.links.len()];
+    for (side, prefix) in [(Side::Left, 'L'), (Side::Right, 'R')] {
+        for (name, value) in values(side) {
+            posture[whole.joint(&format!("{prefix}{name}"))?] = value;
+        }
+    }
+    Ok(posture)
+}
+
 /// All solutions of the printed solver of the chain `name` for the pose of its tip in its root.
 ///
 /// # Errors

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
+use super::footprint::heading_of;
 use super::humanoid::Humanoid;
 use super::legs::{Legs, Posture};
 use super::parts::in_parts;
@@ -68,8 +69,7 @@ impl Motion {
     fn lead(&self, sample: usize, heading: f64) -> Vector3<f64> {
         let torso = &self.postures[sample].world_from_torso;
         let apart = torso.translation.vector - self.centres[sample].coords;
-        let ahead = torso.rotation * Vector3::x();
-        Vector3::new(apart.x, apart.y, angle::difference(ahead.y.atan2(ahead.x), heading))
+        Vector3::new(apart.x, apart.y, angle::difference(heading_of(torso), heading))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::footprint::Side;
 use super::humanoid::{Humanoid, Outline};
-use super::legs::Legs;
+use super::legs::{Legs, posture};
 use super::one_step::{Laws, OneStep};
 use super::plan::{Gait, TICK};
 use super::usual::Usual;
@@ -20,17 +20,11 @@ const ARM: [(&str, f64); 5] =
 /// None with the crate's own data; those of [`Humanoid::new`] and [`Legs::new`] otherwise.
 pub fn nao(outline: Outline) -> Result<(Humanoid, Legs)> {
     let whole = robots::nao_v5();
-    let mut crouch = vec![0.0; whole.links.len()];
-    for side in [Side::Left, Side::Right] {
-        let prefix = if side == Side::Left { "L" } else { "R" };
-        for (name, value) in CROUCH {
-            crouch[whole.joint(&format!("{prefix}{name}"))?] = value;
-        }
-        for (name, value) in ARM {
-            let mirrored = if name == "ShoulderPitch" { 1.0 } else { side.sign() };
-            crouch[whole.joint(&format!("{prefix}{name}"))?] = mirrored * value;
-        }
-    }
+    let values = |side: Side| {
+        let mirrored = move |(name, value)| (name, if name == "ShoulderPitch" { value } else { side.sign() * value });
+        CROUCH.into_iter().chain(ARM.into_iter().map(mirrored))
+    };
+    let crouch = posture(&whole, values)?;
     Ok((Humanoid::new(&whole, outline)?, Legs::new(&whole, crouch, "Knee")?))
 }
 

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector2, Vector3};
 
-use super::footprint::{Footprint, Side};
+use super::footprint::{Footprint, Side, heading_of};
 use super::reference::{Reference, Style, smooth};
 use super::schedule::{Action, Phase, Schedule};
 use crate::spatial::intersection::of_line_and_sphere;
@@ -131,7 +131,7 @@ impl OneStep {
         let moving = schedule.route.steps[step].side;
         let middle = |side: Side| {
             let sole = &world_from_soles[side as usize];
-            let print = Footprint { x: sole.translation.x, y: sole.translation.y, yaw: heading(sole) };
+            let print = Footprint { x: sole.translation.x, y: sole.translation.y, yaw: heading_of(sole) };
             let at = print.carry(&Point2::new(style.ahead, 0.0));
             Point3::new(at.x, at.y, 0.0)
         };
@@ -201,9 +201,4 @@ fn linear(samples: usize, share: f64) -> f64 {
 /// The unit vector from the robot's middle towards the foot of `side` and beyond it, along the sole's own axis.
 fn outwards(side: Side, world_from_sole: &Pose) -> Vector2<f64> {
     (world_from_sole.rotation * Vector3::y()).xy() * side.sign()
-}
-
-fn heading(world_from_sole: &Pose) -> f64 {
-    let ahead = world_from_sole.rotation * Vector3::x();
-    ahead.y.atan2(ahead.x)
 }

@@ -2,9 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::footprint::Side;
 use super::humanoid::{Humanoid, Outline};
-use super::legs::Legs;
+use super::legs::{Legs, posture};
 use super::one_step::{Laws, OneStep};
 use super::plan::Gait;
 use super::usual::Usual;
@@ -19,13 +18,7 @@ const CROUCH: [(&str, f64); 3] = [("AnklePitch", 0.2), ("KneePitch", -0.4), ("Hi
 /// None with the crate's own data; those of [`Humanoid::new`] and [`Legs::new`] otherwise.
 pub fn rh0(outline: Outline) -> Result<(Humanoid, Legs)> {
     let whole = robots::rh0();
-    let mut crouch = vec![0.0; whole.links.len()];
-    for side in [Side::Left, Side::Right] {
-        let prefix = if side == Side::Left { "L" } else { "R" };
-        for (name, value) in CROUCH {
-            crouch[whole.joint(&format!("{prefix}{name}"))?] = value;
-        }
-    }
+    let crouch = posture(&whole, |_| CROUCH)?;
     Ok((Humanoid::new(&whole, outline)?, Legs::new(&whole, crouch, "Knee")?))
 }
 

@@ -118,7 +118,7 @@ impl<'a> Answers<'a> {
         }
         let mut fit = refine::measure(self.program, &q, &mut self.frame);
         let missed = fit.relative;
-        if !fit.accepted && fit.relative <= ADRIFT {
+        if (ROUNDING..=ADRIFT).contains(&fit.relative) {
             refine::polish(self.program, &mut q, &mut fit, &path.free, &mut self.frame);
         }
         if !self.keep_member(path, &q, &fit) {

@@ -3,13 +3,30 @@
 use super::answers::{Answers, difference};
 use super::evaluate::Solution;
 use super::refine::{self, Fit, Joints, NONE_FREE};
-use super::{ARRIVED, ASIDE, DOUBLINGS, MAX_JOINTS, ROUNDING, STAGES};
+use super::{ARRIVED, ASIDE, DOUBLINGS, MAX_JOINTS, NARROWS, ROUNDING, STAGES};
 
 impl Answers<'_> {
     /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one
-    /// side at least: to the other there may be a branching.
+    /// side at least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular
+    /// within rounding, shorter ways are tried as well, each an eighth of the one before.
     pub(super) fn lies_on_family(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
-        [ASIDE, -ASIDE].into_iter().any(|way| self.leads_aside(q, free, way, bound.max(ROUNDING)))
+        let (mut way, bound) = (ASIDE, bound.max(ROUNDING));
+        for narrow in 0..NARROWS {
+            if narrow == 1 && (bound > ROUNDING || !self.is_singular(q)) {
+                return false;
+            }
+            if [way, -way].into_iter().any(|way| self.leads_aside(q, free, way, bound)) {
+                return true;
+            }
+            way /= 8.0;
+        }
+        false
+    }
+
+    fn is_singular(&mut self, q: &[f64]) -> bool {
+        let mut at = [0.0; MAX_JOINTS];
+        at[..q.len()].copy_from_slice(q);
+        refine::is_singular(self.program, &at, &mut self.frame)
     }
 
     /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated

@@ -64,11 +64,15 @@ pub const STIFF: f64 = 1e-6;
 pub const PATIENCE: usize = 3;
 /// An answer whose relative residual is this or less is not polished.
 pub const POLISHED: f64 = 1e-15;
-/// A member of a family that misses the equations by no more than this share of their size, by rounding in the blocks before, is
-/// polished with its free joints held.
+/// A member of a family that misses the equations by more than [`ROUNDING`] and no more than this share of their size, by rounding in the
+/// blocks before, is polished with its free joints held: what stands beside it is told from it by rounding alone.
 pub const ADRIFT: f64 = 1e-7;
 /// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a family.
 pub const ASIDE: f64 = 0.1;
+/// A row of a triangle whose pivot is this share of the largest or less is but rounding.
+pub const SINGULAR: f64 = 1e-13;
+/// How many ways aside are tried, each an eighth of the one before.
+pub const NARROWS: usize = 3;
 /// In how many stages, each twice as far as the one before.
 pub const DOUBLINGS: usize = 8;
 /// Half of the farthest (rad) that an angle is moved in search of the two roots of a double one, where it hardly matters to the

@@ -4,7 +4,8 @@ use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Checks, JointValue, Program};
 use super::{
-    ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, STIFF,
+    ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, SINGULAR,
+    STIFF,
 };
 
 /// Joint values; places behind the program's joints are zero.
@@ -262,6 +263,23 @@ pub(super) fn wrap(angle: f64) -> f64 {
 /// of the Jacobian and of the damping are turned into a triangle (Householder 1958): a direction in which the equations hardly change is
 /// not lost, as it would be in `J^T J`.
 fn newton_step(program: &Program, damping: f64, held: &[bool; MAX_JOINTS], frame: &mut Frame<'_>) -> Option<Joints> {
+    substituted(&triangle(program, damping, held, frame))
+}
+
+/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
+/// Where the least singular value is more than rounding, no row is.
+pub(super) fn is_singular(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> bool {
+    measure(program, q, frame);
+    let columns = triangle(program, 0.0, &NONE_FREE, frame);
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for (row, column) in columns.iter().enumerate().take(program.joints.len()) {
+        (least, most) = (least.min(column[row].abs()), most.max(column[row].abs()));
+    }
+    least <= SINGULAR * most
+}
+
+/// The triangle of a step's equations, the right side in the last column.
+fn triangle(program: &Program, damping: f64, held: &[bool; MAX_JOINTS], frame: &mut Frame<'_>) -> Vec<Vec<f64>> {
     let (checks, joints) = (&program.checks, program.joints.len());
     frame.run(&checks.code[measured(checks)..]);
     let equations = checks.residuals.len();
@@ -283,7 +301,7 @@ fn newton_step(program: &Program, damping: f64, held: &[bool; MAX_JOINTS], frame
         columns[joint][equations + joint] = if held[joint] { 1.0 } else { (damping * size).sqrt() };
     }
     reflect(&mut columns);
-    substituted(&columns)
+    columns
 }
 
 /// Turns all columns but the last into a triangle by reflections.

@@ -21,7 +21,7 @@ use crate::{Error, ErrorKind, Result};
 const CLOSE: f64 = 1e-5;
 /// A chart does not run where a denominator's symbols are below this share of their sizes: rounding has left nothing of them, and
 /// all values of the joint that they determine solve the equations equally well.
-const LOST: f64 = 1e-13;
+const LOST: f64 = 4e-15;
 /// The same for the leading coefficient of an angle's quartic, against the sum of all symbols' sizes: an elimination multiplies symbols,
 /// so that near a singular configuration little is left of it that is still right.
 const FAINT: f64 = 1e-18;

@@ -19,6 +19,12 @@ const CORRECTIONS: usize = 20;
 const RANK: f64 = 1e-8;
 /// A way between two joint vectors bends by at most this share of its length, or of the square of its length when that is more.
 const STRAIGHT: f64 = 1e-2;
+/// The longest and the shortest step along a curve, and how many there are at most.
+const LONGEST: f64 = 0.1;
+const SHORTEST: f64 = 1e-6;
+const PACES: usize = 2000;
+/// The cosine of the angle between a curve's directions before and behind a step is more than this.
+const STEADY: f64 = 0.9;
 /// How near a path must come to the answer it leads to.
 const ARRIVED: f64 = 1e-6;
 
@@ -76,6 +82,52 @@ pub(super) trait Families: Configuration {
             }
             self.corrected(target, at, &others, &none, MEMBER)
         })
+    }
+
+    /// Whether the curve of joint vectors with the same target that `q` is on runs through `answer`, to one side or the other. It goes on
+    /// where a free joint comes to the end of its part of the circle and turns back while the others take another branch.
+    fn runs_to(&self, target: &[f64], q: &[f64], answer: &[f64]) -> bool {
+        self.sigma(q) <= SINGULAR
+            && null_vector(self.jacobian(q)).is_some_and(|tangent| {
+                [tangent.clone(), -tangent].into_iter().any(|way| self.runs(target, q, way, answer))
+            })
+    }
+
+    /// The same to the side of `ahead`, in steps as long as the curve's bends allow.
+    fn runs(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>, answer: &[f64]) -> bool {
+        let (mut at, mut pace) = (q.to_vec(), LONGEST);
+        for _ in 0..PACES {
+            if self.distance(&at, answer) <= 2.0 * pace {
+                let apart = self
+                    .unknown()
+                    .iter()
+                    .map(|&joint| self.difference(joint, answer[joint], at[joint]) / self.unit(joint));
+                let way = ahead.dot(&DVector::from_iterator(ahead.len(), apart));
+                let passed = self.stepped(target, &at, &ahead, way);
+                if passed.is_some_and(|(passed, _)| self.distance(&passed, answer) <= ARRIVED) {
+                    return true;
+                }
+            }
+            match self.stepped(target, &at, &ahead, pace).filter(|(_, next)| next.dot(&ahead) > STEADY) {
+                Some(next) => ((at, ahead), pace) = (next, f64::min(2.0 * pace, LONGEST)),
+                None if pace > SHORTEST => pace /= 2.0,
+                None => return false,
+            }
+        }
+        false
+    }
+
+    /// The point of the curve beside `at` moved by `way` along the unit vector `ahead`, and the curve's direction there.
+    fn stepped(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, way: f64) -> Option<(Vec<f64>, DVector<f64>)> {
+        let mut moved = at.to_vec();
+        for (&joint, share) in self.unknown().iter().zip(ahead.iter()) {
+            moved[joint] += way * share * self.unit(joint);
+        }
+        let across = |_: &[f64]| DMatrix::from_row_slice(1, ahead.len(), ahead.as_slice());
+        let next = self.corrected(target, moved, self.unknown(), &across, MEMBER)?;
+        let tangent = null_vector(self.jacobian(&next))?;
+        let side = tangent.dot(ahead).signum();
+        Some((next, tangent * side))
     }
 
     /// The member next to `q` with all but the joints `moving` held, by Gauss-Newton; `across` gives directions (rows, one column

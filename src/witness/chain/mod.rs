@@ -208,6 +208,7 @@ impl<'a> Check<'a> {
         let leads = |answer: &Solution, step: f64| self.model.leads_to(target, q, &answer.q, &answer.free, step);
         families().any(|answer| self.model.matches(target, q, &answer.q))
             || STEPS.into_iter().any(|step| families().any(|answer| leads(answer, step)))
+            || families().any(|answer| self.model.runs_to(target, q, &answer.q))
     }
 
     /// Whether the number of answers hangs on rounding.
