@@ -87,7 +87,11 @@ fn two_sliding_measured() {
         }
         let letters: String = (0..6).map(|joint| if sliding.contains(&joint) { 'P' } else { 'R' }).collect();
         let each = |sum: usize| sum as f64 / f64::from(targets);
-        println!("{letters},{targets},{lost},{:.3},{doubted},{:.3},{worst:.1e},{refused} of 8 refused", each(runs), each(found));
+        println!(
+            "{letters},{targets},{lost},{:.3},{doubted},{:.3},{worst:.1e},{refused} of 8 refused",
+            each(runs),
+            each(found)
+        );
     }
 }
 

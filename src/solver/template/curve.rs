@@ -267,9 +267,9 @@ fn eliminate(matrix: &mut [[f64; 6]; 6], right: &mut [f64; 6]) -> Option<([usize
     let (mut rows, mut columns, mut first) = ([0, 1, 2, 3, 4, 5], [0, 1, 2, 3, 4, 5], 0.0);
     for k in 0..5 {
         let (mut most, mut row, mut place) = (0.0, k, k);
-        for i in k..6 {
-            for j in k..6 {
-                let entry = matrix[i][columns[j]].abs();
+        for (i, values) in matrix.iter().enumerate().skip(k) {
+            for (j, &column) in columns.iter().enumerate().skip(k) {
+                let entry = values[column].abs();
                 if entry > most {
                     (most, row, place) = (entry, i, j);
                 }
