@@ -64,7 +64,7 @@ const SAMPLES: [[f64; 2]; 3] = [[1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
 
 /// The coefficients of 1, c, s of what is affine in them, from the samples: along the places that are `step` apart.
 fn resolve(values: &mut [f64], step: usize) {
-    for first in (0..values.len()).filter(|place| place / step % 3 == 0) {
+    for first in (0..values.len()).filter(|place| (place / step).is_multiple_of(3)) {
         let [f, g, h] = [0, 1, 2].map(|k| values[first + k * step]);
         let mean = 0.5 * (g + h);
         (values[first], values[first + step], values[first + 2 * step]) = (mean, f - mean, 0.5 * (g - h));
@@ -84,8 +84,8 @@ fn equations(lines: &[Line<f64>; 6], target: &Rigid) -> [[f64; NEAR]; 6] {
         functions(&moved).iter().zip(&mut rows).for_each(|(value, row)| row[NEAR + place] = -value);
     }
     for row in &mut rows {
-        [1, 3, 9].map(|step| resolve(&mut row[..NEAR], step));
-        [1, 3].map(|step| resolve(&mut row[NEAR..], step));
+        [1, 3, 9].into_iter().for_each(|step| resolve(&mut row[..NEAR], step));
+        [1, 3].into_iter().for_each(|step| resolve(&mut row[NEAR..], step));
         row[0] += row[NEAR];
     }
     for (index, column) in (NEAR + 1..NEAR + FAR).enumerate() {
