@@ -1257,6 +1257,8 @@ typedef struct {
     size_t count;
     SixAnswer lost[SIX_ROOM];
     size_t lost_count;
+    double far[SIX_ROOM][6];
+    size_t far_count;
 } SixAnswers;
 
 /* An axis, and what a joint leaves alone: its line; of a joint that slides directions, along it and one across it. */
@@ -1333,6 +1335,27 @@ typedef struct {
     double origins[6][3];
     SixRigid end;
 } SixReach;
+
+/* The Jacobian at a joint vector on a curve: the shortest step behind which only the value is missed, the tangent, the sum of equations that
+ * no joint changes, and by how much joints change it after all. */
+typedef struct {
+    double q[6];
+    double step[6];
+    double along[6];
+    double across[6];
+    double value;
+    double slope;
+} SixPlace;
+
+/* A walk along curves all along which the target is nearly reached: next to a family, isolated answers may stand anywhere on them. Walks
+ * begin at starts; those that another one has passed are left out. */
+typedef struct {
+    const SixChain *chain;
+    const SixRigid *target;
+    SixPlace starts[SIX_ROOM];
+    bool open[SIX_ROOM];
+    size_t count;
+} SixWalk;
 
 static double six_dot(const double *a, const double *b)
 {
@@ -1591,25 +1614,31 @@ static SixRow six_combined(const double *a, const double *b, double sign, double
     return row;
 }
 
-/* Functions that a slide leaves alone; the others, with what it makes of them: a multiple of a function, or a constant. */
-static const size_t SIX_UNMOVED[6] = {1, 7, 11, 2, 6, 10};
-static const size_t SIX_SLIDING[8] = {0, 8, 12, 3, 9, 13, 4, 5};
-static const size_t SIX_IMAGES[8] = {0, 11, 7, 5, 12, 8, 0, 1};
-static const double SIX_FACTORS[8] = {0.0, 1.0, -1.0, 2.0, -2.0, 2.0, -2.0, -1.0};
+/* Functions that a slide leaves alone; the others, with what it makes of them: a multiple of a function, or a constant. Then the same of
+ * directions, with the line of a joint that slides: ten stay, four of them stand among the others, in pairs s - x r = 0 and -r - x s = 0. */
+static const size_t SIX_UNMOVED[2][6] = {{1, 7, 11, 2, 6, 10}, {0, 1, 2, 3, 6, 7}};
+static const size_t SIX_SLIDING[2][8] = {{0, 8, 12, 3, 9, 13, 4, 5}, {10, 9, 13, 11, 8, 12, 4, 5}};
+static const size_t SIX_IMAGES[2][8] = {{0, 11, 7, 5, 12, 8, 0, 1}, {9, 10, 11, 13, 11, 7, 0, 3}};
+static const double SIX_FACTORS[2][8] = {
+    {0.0, 1.0, -1.0, 2.0, -2.0, 2.0, -2.0, -1.0},
+    {1.0, -1.0, 1.0, -1.0, 1.0, -1.0, -1.0, -1.0},
+};
 
-static void six_rows(bool slides, const SixProfile *near, const SixProfile *far, SixReduced *rows)
+static void six_rows(bool slides, bool is_directed, const SixProfile *near, const SixProfile *far, SixReduced *rows)
 {
+    const size_t kind = is_directed ? 1 : 0;
     for (size_t k = 0; k < 6; k++) {
-        const size_t function = slides ? SIX_UNMOVED[k] : k;
+        const size_t function = slides ? SIX_UNMOVED[kind][k] : k;
         rows->still[k] = six_combined(near->at[function], far->at[function], -1.0, 1.0);
     }
     for (size_t k = 0; k < 8; k++) {
-        const size_t function = slides ? SIX_SLIDING[k] : 6 + k;
-        const size_t image = slides ? SIX_IMAGES[k] : (k < 4 ? 10 + k : 2 + k);
-        const double factor = slides ? SIX_FACTORS[k] : (k < 4 ? 1.0 : -1.0);
-        rows->constant[k] = six_combined(near->at[function], far->at[function], -1.0, 1.0);
-        rows->linear[k] = six_combined(near->at[image], far->at[image], 1.0, factor);
-        if (slides && k == 0) {
+        const size_t function = slides ? SIX_SLIDING[kind][k] : 6 + k;
+        const size_t image = slides ? SIX_IMAGES[kind][k] : (k < 4 ? 10 + k : 2 + k);
+        const double factor = slides ? SIX_FACTORS[kind][k] : (k < 4 ? 1.0 : -1.0);
+        const bool is_paired = slides && is_directed && k < 4;
+        rows->constant[k] = six_combined(near->at[function], far->at[function], -1.0, is_paired ? factor : 1.0);
+        rows->linear[k] = six_combined(near->at[image], far->at[image], is_paired ? -1.0 : 1.0, is_paired ? 1.0 : factor);
+        if (!(fabs(factor) > 0.0)) {
             for (size_t i = 0; i < 17; i++) {
                 rows->linear[k].at[i] = i == 0 ? -2.0 : 0.0;
             }
@@ -2296,7 +2325,8 @@ static bool six_is_crowded(const double *re, const double *im)
     return false;
 }
 
-static bool six_candidates(const SixChain *chain, SixFormulation formulation, const SixRigid *displacement, size_t attempt, SixCandidates *found)
+static bool six_candidates(const SixChain *chain, SixFormulation formulation, const SixRigid *displacement, size_t attempt, double deepest,
+                           SixCandidates *found)
 {
     SixFigure near[3];
     SixFigure far[3];
@@ -2312,7 +2342,7 @@ static bool six_candidates(const SixChain *chain, SixFormulation formulation, co
     SixHessenberg form;
     six_profile(&hidden, chain->across[formulation.hidden], &near[0], &near[1], &near[2], &turned);
     six_profile(&hidden, chain->across[formulation.hidden], &far[0], &far[1], &far[2], &reached);
-    six_rows(hidden.slides, &turned, &reached, &reduced);
+    six_rows(hidden.slides, near[2].slides, &turned, &reached, &reduced);
     while (reduced.solved < 6 && six_solve_still(&reduced)) {
     }
     const size_t doubled = (formulation.hidden + (formulation.second ? 2 : 1)) % 6;
@@ -2335,7 +2365,7 @@ static bool six_candidates(const SixChain *chain, SixFormulation formulation, co
     for (int round = 0; round < 2; round++) {
         for (size_t k = 0; k < SIX_SIZE; k++) {
             const double depth = fabs(im[k]) / (1.0 + re[k] * re[k] + im[k] * im[k]);
-            if ((im[k] == 0.0) == (round == 0) && depth <= 0.01) {
+            if ((im[k] == 0.0) == (round == 0) && depth <= deepest) {
                 const double half = origin + angle(1.0, re[k] + im[k]);
                 const double first = hidden.slides ? 2.0 * (sin(half) / cos(half)) : 2.0 * half;
                 double vector[SIX_SIZE];
@@ -2567,6 +2597,377 @@ static void six_keep(SixAnswers *answers, const SixAnswer *answer, const bool *s
     }
 }
 
+/* The joints with angles in (-pi, pi], not lost. */
+static SixAnswer six_wrapped(const SixChain *chain, const double *q, double residual)
+{
+    SixAnswer answer;
+    for (size_t joint = 0; joint < 6; joint++) {
+        answer.q[joint] = chain->slides[joint] ? q[joint] : wrap(q[joint]);
+        answer.free[joint] = false;
+    }
+    answer.lost = false;
+    answer.residual = residual;
+    return answer;
+}
+
+/* Polishes joints that a walk along a curve has led to, and keeps them if they are an answer that is not known. */
+static void six_find(const SixWalk *walk, SixAnswers *answers, const double *from)
+{
+    double q[6];
+    double ignored;
+    for (size_t joint = 0; joint < 6; joint++) {
+        q[joint] = from[joint];
+    }
+    const double residual = six_polish(walk->chain, q, walk->target, &ignored);
+    const SixAnswer answer = six_wrapped(walk->chain, q, residual);
+    bool is_known = false;
+    for (size_t k = 0; k < answers->count; k++) {
+        is_known = is_known || six_distance(answers->list[k].q, answer.q, walk->chain->slides) <= 0.0001;
+    }
+    if (residual <= 1e-12 && !is_known) {
+        six_keep(answers, &answer, walk->chain->slides);
+    }
+}
+
+static double six_product(const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < 6; k++) {
+        sum += a[k] * b[k];
+    }
+    return sum;
+}
+
+/* Five steps of Gauss elimination with complete pivoting; the factors stay below the diagonal. The order of the rows, which are moved, and
+ * that of the columns, which are not. */
+static bool six_cut(double matrix[6][6], double *right, size_t *rows, size_t *columns)
+{
+    double first = 0.0;
+    for (size_t k = 0; k < 6; k++) {
+        rows[k] = k;
+        columns[k] = k;
+    }
+    for (size_t k = 0; k < 5; k++) {
+        double most = 0.0;
+        size_t row = k;
+        size_t place = k;
+        for (size_t i = k; i < 6; i++) {
+            for (size_t j = k; j < 6; j++) {
+                const double entry = fabs(matrix[i][columns[j]]);
+                if (entry > most) {
+                    most = entry;
+                    row = i;
+                    place = j;
+                }
+            }
+        }
+        first = k == 0 ? most : first;
+        if (most <= 0.001 * first || !isfinite(most)) {
+            return false;
+        }
+        const double over = right[row];
+        const size_t row_of = rows[row];
+        const size_t column = columns[place];
+        right[row] = right[k];
+        rows[row] = rows[k];
+        columns[place] = columns[k];
+        right[k] = over;
+        rows[k] = row_of;
+        columns[k] = column;
+        for (size_t j = 0; j < 6; j++) {
+            const double entry = matrix[row][j];
+            matrix[row][j] = matrix[k][j];
+            matrix[k][j] = entry;
+        }
+        for (size_t i = k + 1; i < 6; i++) {
+            const double factor = matrix[i][column] / matrix[k][column];
+            for (size_t j = k + 1; j < 6; j++) {
+                matrix[i][columns[j]] -= factor * matrix[k][columns[j]];
+            }
+            matrix[i][column] = factor;
+            right[i] -= factor * over;
+        }
+    }
+    return true;
+}
+
+/* The joints that the first five equations give, for a value of the last column. */
+static void six_substituted(double matrix[6][6], const double *right, const size_t *columns, double last, double *x)
+{
+    x[columns[5]] = last;
+    for (size_t k = 5; k-- > 0;) {
+        double known = 0.0;
+        for (size_t j = k + 1; j < 6; j++) {
+            known += matrix[k][columns[j]] * x[columns[j]];
+        }
+        x[columns[k]] = (right[k] - known) / matrix[k][columns[k]];
+    }
+}
+
+/* The section at the joints of a place; not where more than one direction leads nowhere. */
+static bool six_section(const SixChain *chain, const SixRigid *target, SixPlace *at)
+{
+    const double zero[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    SixReach reach;
+    double matrix[6][6];
+    double right[6];
+    size_t rows[6];
+    size_t columns[6];
+    six_reach(chain, at->q, &reach);
+    six_jacobian(chain, &reach, matrix);
+    six_miss(&reach, target, right);
+    if (!six_cut(matrix, right, rows, columns)) {
+        return false;
+    }
+    at->across[rows[5]] = 1.0;
+    for (size_t k = 5; k-- > 0;) {
+        double sum = 0.0;
+        for (size_t i = k + 1; i < 6; i++) {
+            sum += matrix[i][columns[k]] * at->across[rows[i]];
+        }
+        at->across[rows[k]] = -sum;
+    }
+    six_substituted(matrix, zero, columns, 1.0, at->along);
+    six_substituted(matrix, right, columns, 0.0, at->step);
+    const double width = six_norm(at->across), length = six_norm(at->along);
+    for (size_t k = 0; k < 6; k++) {
+        at->across[k] = at->across[k] / width;
+        at->along[k] = at->along[k] / length;
+    }
+    const double share = six_product(at->step, at->along);
+    for (size_t k = 0; k < 6; k++) {
+        at->step[k] -= share * at->along[k];
+    }
+    at->value = right[5] / width;
+    at->slope = fabs(matrix[5][columns[5]]) / (width * length);
+    return true;
+}
+
+static bool six_is_near(const SixPlace *at)
+{
+    return at->slope <= 0.01 && fabs(at->value) <= 0.001;
+}
+
+/* The same with the directions that go on from another one's. */
+static void six_align(SixPlace *at, const SixPlace *other)
+{
+    const bool is_back = six_product(at->along, other->along) < 0.0;
+    const bool is_under = six_product(at->across, other->across) < 0.0;
+    for (size_t k = 0; k < 6; k++) {
+        at->along[k] = is_back ? -at->along[k] : at->along[k];
+        at->across[k] = is_under ? -at->across[k] : at->across[k];
+    }
+    at->value = is_under ? -at->value : at->value;
+}
+
+/* Steps across the curve; whether they lead to it. */
+static bool six_settle(const SixWalk *walk, SixPlace *at, int rounds)
+{
+    for (int round = 0; round < rounds; round++) {
+        if (!six_section(walk->chain, walk->target, at)) {
+            return false;
+        }
+        const double longest = six_greatest(at->step);
+        if (!isfinite(longest) || (round >= 2 && at->slope > 0.05)) {
+            return false;
+        }
+        const double share = longest > 0.5 ? 0.5 / longest : 1.0;
+        for (size_t k = 0; k < 6; k++) {
+            at->q[k] += share * at->step[k];
+        }
+        if (longest <= 1e-9) {
+            return six_section(walk->chain, walk->target, at) && six_is_near(at);
+        }
+    }
+    return false;
+}
+
+/* The joints moved along a way by a share of it. */
+static void six_between(const double *q, const double *way, double share, double *out)
+{
+    for (size_t k = 0; k < 6; k++) {
+        out[k] = q[k] + share * way[k];
+    }
+}
+
+/* Adds the answer between two places where the sixth equation has different signs, by false position. */
+static void six_change(const SixWalk *walk, const SixPlace *a, const SixPlace *b, SixAnswers *answers)
+{
+    double low = a->value;
+    double high = b->value;
+    if ((low <= 0.0) == (high <= 0.0) || six_more(fabs(low), fabs(high)) <= 1e-13) {
+        return;
+    }
+    SixPlace near = *a;
+    SixPlace far = *b;
+    int side = 0;
+    for (int round = 0; round < 16; round++) {
+        double way[6];
+        SixPlace middle;
+        for (size_t k = 0; k < 6; k++) {
+            way[k] = far.q[k] - near.q[k];
+        }
+        six_between(near.q, way, low / (low - high), middle.q);
+        if (!six_settle(walk, &middle, 5)) {
+            break;
+        }
+        six_align(&middle, a);
+        if ((middle.value <= 0.0) == (low <= 0.0)) {
+            near = middle;
+            low = middle.value;
+            high = side < 0 ? 0.5 * high : far.value;
+            side = -1;
+        } else {
+            far = middle;
+            low = side > 0 ? 0.5 * low : near.value;
+            high = middle.value;
+            side = 1;
+        }
+        if (fabs(middle.value) <= 2e-15) {
+            break;
+        }
+    }
+    six_find(walk, answers, fabs(near.value) <= fabs(far.value) ? near.q : far.q);
+}
+
+/* Where the sixth equation comes near zero and goes away again, there may be two answers, or a double one. */
+static void six_dip(const SixWalk *walk, const SixPlace *a, const SixPlace *b, const SixPlace *c, SixAnswers *answers)
+{
+    const double low = a->value, least = b->value, high = c->value;
+    const bool is_dip = fabs(least) < fabs(low) && fabs(least) < fabs(high) && fabs(least) > 1e-13;
+    if (!is_dip || (low <= 0.0) != (least <= 0.0) || (high <= 0.0) != (least <= 0.0)) {
+        return;
+    }
+    const double share = 0.5 * (low - high) / (low - least - least + high);
+    const SixPlace *end = share < 0.0 ? a : c;
+    double way[6];
+    SixPlace vertex;
+    for (size_t k = 0; k < 6; k++) {
+        way[k] = end->q[k] - b->q[k];
+    }
+    six_between(b->q, way, fabs(share), vertex.q);
+    if (six_settle(walk, &vertex, 5)) {
+        six_align(&vertex, b);
+        six_change(walk, b, &vertex, answers);
+        six_change(walk, &vertex, end, answers);
+        six_find(walk, answers, vertex.q);
+    }
+}
+
+/* A step along the curve, shorter where it bends; not where it ends. */
+static bool six_pace(const SixWalk *walk, const SixPlace *at, double *stride, SixPlace *next)
+{
+    while (*stride >= 0.015 * 0.1) {
+        six_between(at->q, at->along, *stride, next->q);
+        if (six_settle(walk, next, 5)) {
+            const bool is_straight = fabs(six_product(next->along, at->along)) > 0.9;
+            if (is_straight && six_distance(next->q, at->q, walk->chain->slides) <= 2.0 * *stride) {
+                *stride = six_less(2.0 * *stride, 0.1);
+                six_align(next, at);
+                return true;
+            }
+        }
+        *stride *= 0.5;
+    }
+    return false;
+}
+
+/* Walks from home until the curve closes or ends; whether it closed. The level becomes the most that was missed. */
+static bool six_leads_home(SixWalk *walk, const SixPlace *home, SixAnswers *answers, double *level)
+{
+    const bool *slides = walk->chain->slides;
+    SixPlace before = *home;
+    SixPlace at = *home;
+    double stride = 0.1;
+    bool is_away = false;
+    for (int pace = 0; pace < 400; pace++) {
+        SixPlace next;
+        if (!six_pace(walk, &at, &stride, &next)) {
+            return false;
+        }
+        *level = six_more(*level, fabs(next.value));
+        six_change(walk, &at, &next, answers);
+        six_dip(walk, &before, &at, &next, answers);
+        for (size_t k = 0; k < walk->count; k++) {
+            walk->open[k] = walk->open[k] && six_distance(walk->starts[k].q, next.q, slides) > 0.1;
+        }
+        before = at;
+        at = next;
+        const double way = six_distance(at.q, home->q, slides);
+        is_away = is_away || way > 3.0 * 0.1;
+        if (is_away && way <= 0.1 && six_product(at.along, home->along) > 0.5) {
+            SixPlace end = *home;
+            six_align(&end, &at);
+            for (size_t k = 0; k < 6; k++) {
+                const double turns = slides[k] ? 0.0 : round((at.q[k] - end.q[k]) / TAU);
+                end.q[k] = end.q[k] + TAU * turns;
+            }
+            six_change(walk, &at, &end, answers);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Begins at these joints too if there is a curve next to them. */
+static void six_begin(SixWalk *walk, const double *q)
+{
+    if (walk->count == SIX_ROOM) {
+        return;
+    }
+    SixPlace *start = &walk->starts[walk->count];
+    for (size_t k = 0; k < 6; k++) {
+        start->q[k] = q[k];
+    }
+    if (six_settle(walk, start, 12)) {
+        walk->open[walk->count] = true;
+        walk->count++;
+    }
+}
+
+/* Walks along the curves next to answers, and to candidates that led to none, both ways if they do not close, and adds answers where the
+ * sixth equation changes its sign; of a curve that misses nothing, a family, one member. */
+static void six_walk(const SixChain *chain, const SixRigid *target, SixAnswers *answers)
+{
+    SixWalk walk;
+    walk.chain = chain;
+    walk.target = target;
+    walk.count = 0;
+    for (size_t k = 0; k < answers->count; k++) {
+        SixPlace at;
+        for (size_t joint = 0; joint < 6; joint++) {
+            at.q[joint] = answers->list[k].q[joint];
+        }
+        if (six_section(chain, target, &at) && six_is_near(&at)) {
+            six_begin(&walk, at.q);
+        }
+    }
+    for (size_t k = 0; k < answers->far_count; k++) {
+        six_begin(&walk, answers->far[k]);
+    }
+    for (size_t k = 0; k < answers->lost_count; k++) {
+        six_begin(&walk, answers->lost[k].q);
+    }
+    for (size_t index = 0; index < walk.count; index++) {
+        if (!walk.open[index]) {
+            continue;
+        }
+        walk.open[index] = false;
+        const SixPlace start = walk.starts[index];
+        double level = fabs(start.value);
+        SixPlace home = start;
+        if (!six_leads_home(&walk, &home, answers, &level)) {
+            for (size_t k = 0; k < 6; k++) {
+                home.along[k] = -1.0 * start.along[k];
+            }
+            six_leads_home(&walk, &home, answers, &level);
+        }
+        if (level <= 1e-13) {
+            six_find(&walk, answers, start.q);
+        }
+    }
+}
+
 /* How far the target is put aside, by attempt. */
 static const double SIX_DISTURBANCES[SIX_RUNS] = {0.0, 0.0, 0.0, 0.0, 0.0001, 0.0001, 0.001, 0.001};
 
@@ -2625,21 +3026,46 @@ static bool six_is_infinite(const SixChain *chain, const double *q)
     return false;
 }
 
+/* Whether two joint vectors are nearly the same, turns counted. */
+static bool six_is_alike(const double *a, const double *b)
+{
+    const bool ways[6] = {true, true, true, true, true, true};
+    return six_distance(a, b, ways) <= 0.01;
+}
+
 static void six_lose(SixAnswers *answers, const double *q)
 {
     if (answers->lost_count == SIX_ROOM) {
         return;
     }
     SixAnswer *lost = &answers->lost[answers->lost_count];
-    bool is_finite = true;
+    bool is_kept = true;
+    for (size_t k = 0; k < answers->lost_count; k++) {
+        is_kept = is_kept && !six_is_alike(answers->lost[k].q, q);
+    }
     for (size_t joint = 0; joint < 6; joint++) {
-        is_finite = is_finite && isfinite(q[joint]);
+        is_kept = is_kept && isfinite(q[joint]);
         lost->q[joint] = q[joint];
         lost->free[joint] = false;
     }
     lost->lost = true;
     lost->residual = 0.0;
-    answers->lost_count += is_finite ? 1 : 0;
+    answers->lost_count += is_kept ? 1 : 0;
+}
+
+/* Remembers a candidate off the real line, or one that led to no answer, at a target aside: a curve may be next to it. */
+static void six_remember(SixAnswers *answers, const double *q)
+{
+    bool is_new = answers->far_count < SIX_ROOM;
+    for (size_t k = 0; k < answers->far_count; k++) {
+        is_new = is_new && !six_is_alike(answers->far[k], q);
+    }
+    if (is_new) {
+        for (size_t joint = 0; joint < 6; joint++) {
+            answers->far[answers->far_count][joint] = q[joint];
+        }
+        answers->far_count++;
+    }
 }
 
 /* Adds the answers of one formulation; whether it can be trusted to have found all. */
@@ -2649,7 +3075,8 @@ static bool six_run(const SixChain *chain, size_t attempt, double size, const Si
     const SixRigid motion = six_aside(size, attempt);
     const SixRigid displacement = six_after(&motion, goal);
     SixCandidates candidates;
-    if (!six_candidates(chain, formulation, &displacement, attempt, &candidates)) {
+    const double deepest = size > 0.0 ? 1.0 : 0.01;
+    if (!six_candidates(chain, formulation, &displacement, attempt, deepest, &candidates)) {
         return false;
     }
     const SixRigid near = six_after(&displacement, &chain->last);
@@ -2660,14 +3087,24 @@ static bool six_run(const SixChain *chain, size_t attempt, double size, const Si
     SixAnswers own;
     own.count = 0;
     own.lost_count = 0;
+    own.far_count = 0;
     for (size_t k = 0; k < candidates.count; k++) {
         const double depth = candidates.list[k].depth, deep = depth * depth;
         double *q = candidates.list[k].q;
-        if (deep > 10000000.0 * six_more(worst, 1e-11) || six_is_infinite(chain, q)) {
+        const bool is_far = deep > 10000000.0 * six_more(worst, 1e-11);
+        if ((is_far && !(size > 0.0)) || six_is_infinite(chain, q)) {
             continue;
         }
         double start, ignored;
         q[missing] = six_closing(chain, q, missing, &near);
+        double first[6];
+        for (size_t joint = 0; joint < 6; joint++) {
+            first[joint] = q[joint];
+        }
+        if (is_far) {
+            six_remember(answers, first);
+            continue;
+        }
         double residual = six_polish(chain, q, &near, &start);
         double last[6];
         for (size_t joint = 0; joint < 6; joint++) {
@@ -2682,15 +3119,12 @@ static bool six_run(const SixChain *chain, size_t attempt, double size, const Si
                 residual = six_led(chain, attempt, size, goal, q, last);
             }
         }
+        if (size > 0.0 && (residual > 1e-12 || depth > 0.0)) {
+            six_remember(answers, first);
+        }
         if (residual <= 1e-12) {
-            SixAnswer answer;
+            const SixAnswer answer = six_wrapped(chain, q, residual);
             worst = depth == 0.0 ? six_more(worst, start) : worst;
-            for (size_t joint = 0; joint < 6; joint++) {
-                answer.q[joint] = chain->slides[joint] ? q[joint] : wrap(q[joint]);
-                answer.free[joint] = false;
-            }
-            answer.lost = false;
-            answer.residual = residual;
             six_keep(answers, &answer, chain->slides);
             six_keep(&own, &answer, chain->slides);
         } else if (deep <= 1000.0 * six_more(worst, 1e-11)) {
@@ -2733,17 +3167,23 @@ static void six_solve(const SixChain *chain, const double *target, SixAnswers *a
     const SixRigid end = six_after(&displacement, &chain->last);
     answers->count = 0;
     answers->lost_count = 0;
+    answers->far_count = 0;
+    size_t runs = 0;
     bool is_trusted = false;
     for (size_t attempt = 0; attempt < SIX_RUNS; attempt++) {
         const double size = SIX_DISTURBANCES[attempt];
-        if (size > 0.0 && !(SIX_DISTURBANCES[attempt - 1] > 0.0)) {
-            answers->lost_count = 0;
-        }
-        if (six_run(chain, attempt, size, &displacement, &end, answers)) {
+        runs++;
+        /* One run aside shows too little of what may be beside it. */
+        const bool is_first_aside = size > 0.0 && !(SIX_DISTURBANCES[attempt - 1] > 0.0);
+        answers->lost_count = is_first_aside ? 0 : answers->lost_count;
+        if (six_run(chain, attempt, size, &displacement, &end, answers) && !is_first_aside) {
             answers->lost_count = 0;
             is_trusted = attempt == 0;
             break;
         }
+    }
+    if (runs > 1) {
+        six_walk(chain, &end, answers);
     }
     for (size_t k = 0; k < answers->count; k++) {
         SixAnswer answer = answers->list[k];

@@ -521,6 +521,8 @@ mod six_axes {
         count: usize,
         lost: [[f64; 6]; ROOM],
         lost_count: usize,
+        far: [[f64; 6]; ROOM],
+        far_count: usize,
     }
 
     impl Answers {
@@ -530,13 +532,33 @@ mod six_axes {
 
         fn none() -> Self {
             let none = Answer { q: [0.0; 6], free: [false; 6], lost: false, residual: 0.0 };
-            Answers { list: [none; 2 * ROOM], count: 0, lost: [[0.0; 6]; ROOM], lost_count: 0 }
+            let (lost, far) = ([[0.0; 6]; ROOM], [[0.0; 6]; ROOM]);
+            Answers { list: [none; 2 * ROOM], count: 0, lost, lost_count: 0, far, far_count: 0 }
         }
 
         fn lose(&mut self, q: [f64; 6]) {
-            if self.lost_count < ROOM && q.iter().all(|value| value.is_finite()) {
+            let is_new = !is_among(&q, &self.lost[..self.lost_count]);
+            if self.lost_count < ROOM && is_new && q.iter().all(|value| value.is_finite()) {
                 self.lost[self.lost_count] = q;
                 self.lost_count += 1;
+            }
+        }
+
+        /// Remembers a candidate off the real line, or one that led to no answer, at a target aside: a curve may be next to it.
+        fn remember(&mut self, q: [f64; 6]) {
+            if self.far_count < ROOM && !is_among(&q, &self.far[..self.far_count]) {
+                self.far[self.far_count] = q;
+                self.far_count += 1;
+            }
+        }
+
+        /// Polishes joints that a walk along a curve has led to, and keeps them if they are an answer that is not known.
+        fn find(&mut self, chain: &Chain, mut q: [f64; 6], target: &Rigid) {
+            let residual = chain.polish(&mut q, target).1;
+            let q = chain.wrapped(&q);
+            let is_known = self.as_slice().iter().any(|known| distance(&known.q, &q, &chain.slides) <= 0.0001);
+            if residual <= 1e-12 && !is_known {
+                self.keep(Answer { q, free: [false; 6], lost: false, residual }, &chain.slides);
             }
         }
 
@@ -581,6 +603,11 @@ mod six_axes {
             most = f64::max(most, (way - TAU * turns).abs());
         }
         most
+    }
+
+    /// Whether one of the joint vectors known is nearly `q`, turns counted.
+    fn is_among(q: &[f64; 6], known: &[[f64; 6]]) -> bool {
+        known.iter().any(|other| distance(other, q, &[true; 6]) <= 0.01)
     }
 
     fn dot(a: &Vector, b: &Vector) -> f64 {
@@ -751,8 +778,28 @@ mod six_axes {
     const SLIDING: [(usize, usize, f64); 8] =
         [(0, 0, 0.0), (8, 11, 1.0), (12, 7, -1.0), (3, 5, 2.0), (9, 12, -2.0), (13, 8, 2.0), (4, 0, -2.0), (5, 1, -1.0)];
 
-    fn rows(slides: bool, near: &[Products; 14], far: &[Products; 14]) -> Rows {
+    /// The same of directions, with the line of a joint that slides: ten stay, four of them stand among the others, in pairs `s - x r = 0` and
+    /// `-r - x s = 0`.
+    const UNMOVED_DIRECTED: [usize; 6] = [0, 1, 2, 3, 6, 7];
+    const PAIRED: [(usize, usize, f64); 4] = [(10, 9, 1.0), (9, 10, -1.0), (13, 11, 1.0), (11, 13, -1.0)];
+    const SLIDING_DIRECTED: [(usize, usize, f64); 4] = [(8, 11, 1.0), (12, 7, -1.0), (4, 0, -1.0), (5, 3, -1.0)];
+
+    fn rows(slides: bool, is_directed: bool, near: &[Products; 14], far: &[Products; 14]) -> Rows {
         let sum = |function: usize| difference(&near[function], &far[function].map(|entry| -entry));
+        if slides && is_directed {
+            let still = |k: usize| difference(&near[k], &far[k]);
+            let times = |row: Row, factor: f64| row.map(|entry| factor * entry);
+            let sliding = |k: usize| SLIDING_DIRECTED[k - 4];
+            return Rows {
+                still: UNMOVED_DIRECTED.map(still),
+                constant: core::array::from_fn(|k| {
+                    if k < 4 { times(still(PAIRED[k].0), PAIRED[k].2) } else { still(sliding(k).0) }
+                }),
+                linear: core::array::from_fn(|k| {
+                    if k < 4 { still(PAIRED[k].1) } else { times(sum(sliding(k).1), sliding(k).2) }
+                }),
+            };
+        }
         if slides {
             let constant = core::array::from_fn(|column| if column == 0 { -2.0 } else { 0.0 });
             return Rows {
@@ -1364,17 +1411,21 @@ mod six_axes {
             let displacement = Rigid { translation, ..displacement };
             let target = displacement.after(&self.last);
             let mut answers = Answers::none();
-            let mut is_trusted = false;
+            let (mut is_trusted, mut runs) = (false, 0);
             for attempt in 0..DISTURBANCES.len() {
                 let size = DISTURBANCES[attempt];
-                if size > 0.0 && DISTURBANCES[attempt - 1] == 0.0 {
-                    answers.lost_count = 0;
-                }
-                if self.run(attempt, size, &displacement, &target, &mut answers) {
+                runs += 1;
+                // One run aside shows too little of what may be beside it.
+                let is_first_aside = size > 0.0 && DISTURBANCES[attempt - 1] == 0.0;
+                answers.lost_count = if is_first_aside { 0 } else { answers.lost_count };
+                if self.run(attempt, size, &displacement, &target, &mut answers) && !is_first_aside {
                     answers.lost_count = 0;
                     is_trusted = attempt == 0;
                     break;
                 }
+            }
+            if runs > 1 {
+                self.walk(&target, &mut answers);
             }
             for answer in &mut answers.list[..answers.count] {
                 answer.free = if is_trusted { [false; 6] } else { self.free(&answer.q) };
@@ -1393,6 +1444,70 @@ mod six_axes {
             core::array::from_fn(|joint| if self.slides[joint] { q[joint] * self.length } else { q[joint] })
         }
 
+        /// The joints with angles in (-pi, pi].
+        fn wrapped(&self, q: &[f64; 6]) -> [f64; 6] {
+            core::array::from_fn(|joint| if self.slides[joint] { q[joint] } else { wrap(q[joint]) })
+        }
+
+        /// Walks along the curves next to answers, and to candidates that led to none.
+        fn walk(&self, target: &Rigid, answers: &mut Answers) {
+            let mut walk = Walk { chain: self, target, starts: [None; ROOM], count: 0 };
+            for answer in answers.as_slice() {
+                if self.section(&answer.q, target).is_some_and(|section| section.is_near()) {
+                    walk.begin(answer.q);
+                }
+            }
+            answers.far[..answers.far_count].iter().for_each(|q| walk.begin(*q));
+            answers.lost[..answers.lost_count].iter().for_each(|q| walk.begin(*q));
+            walk.run(answers);
+        }
+
+        /// The section at `q`; `None` where more than one direction leads nowhere.
+        fn section(&self, q: &[f64; 6], target: &Rigid) -> Option<Section> {
+            let reach = self.reach(q);
+            let (mut matrix, mut right) = (self.jacobian(&reach), miss(&reach, target));
+            let (rows, columns) = cut(&mut matrix, &mut right)?;
+            let mut across = [0.0; 6];
+            across[rows[5]] = 1.0;
+            for k in (0..5).rev() {
+                across[rows[k]] = -(k + 1..6).map(|i| matrix[i][columns[k]] * across[rows[i]]).sum::<f64>();
+            }
+            let [mut along, mut step] = [([0.0; 6], 1.0), (right, 0.0)].map(|(right, last)| {
+                let mut x = [0.0; 6];
+                x[columns[5]] = last;
+                for k in (0..5).rev() {
+                    let known = (k + 1..6).map(|j| matrix[k][columns[j]] * x[columns[j]]).sum::<f64>();
+                    x[columns[k]] = (right[k] - known) / matrix[k][columns[k]];
+                }
+                x
+            });
+            let lengths = [norm(&across), norm(&along)];
+            across = across.map(|entry| entry / lengths[0]);
+            along = along.map(|entry| entry / lengths[1]);
+            let share = product(&step, &along);
+            step.iter_mut().zip(&along).for_each(|(entry, over)| *entry -= share * over);
+            let slope = matrix[5][columns[5]].abs() / (lengths[0] * lengths[1]);
+            Some(Section { step, along, across, value: right[5] / lengths[0], slope })
+        }
+
+        /// Steps across the curve from `q`.
+        fn settled(&self, mut q: [f64; 6], target: &Rigid, rounds: usize) -> Option<Place> {
+            for round in 0..rounds {
+                let section = self.section(&q, target)?;
+                let longest = size(&section.step);
+                if !longest.is_finite() || (round >= 2 && section.slope > 0.05) {
+                    return None;
+                }
+                let share = if longest > 0.5 { 0.5 / longest } else { 1.0 };
+                q.iter_mut().zip(&section.step).for_each(|(value, step)| *value += share * step);
+                if longest <= 1e-9 {
+                    let section = self.section(&q, target)?;
+                    return if section.is_near() { Some(Place { q, section }) } else { None };
+                }
+            }
+            None
+        }
+
         fn axis(&self, joint: usize) -> Axis {
             Axis { direction: self.directions[joint], point: self.points[joint], slides: self.slides[joint] }
         }
@@ -1406,17 +1521,25 @@ mod six_axes {
         fn run(&self, attempt: usize, size: f64, goal: &Rigid, target: &Rigid, answers: &mut Answers) -> bool {
             let displacement = &aside(size, attempt).after(goal);
             let formulation = self.formulations[attempt % self.formulations.len()];
-            let Some(candidates) = self.candidates(formulation, displacement, attempt) else { return false };
+            let deepest = if size > 0.0 { 1.0 } else { 0.01 };
+            let candidates = self.candidates(formulation, displacement, attempt, deepest);
+            let Some(candidates) = candidates else { return false };
             let near = displacement.after(&self.last);
             let (known, mut lost, mut worst, mut own) = (answers.count, 0, 0.0, Answers::none());
             for candidate in &candidates.list[..candidates.count] {
                 let deep = candidate.depth * candidate.depth;
-                if deep > 10000000.0 * f64::max(worst, 1e-11) || self.is_infinite(&candidate.q) {
+                let is_far = deep > 10000000.0 * f64::max(worst, 1e-11);
+                if (is_far && size <= 0.0) || self.is_infinite(&candidate.q) {
                     continue;
                 }
                 let mut q = candidate.q;
                 let missing = formulation.joint(3);
                 q[missing] = self.closing(&q, missing, &near);
+                let first = q;
+                if is_far {
+                    answers.remember(first);
+                    continue;
+                }
                 let (start, mut residual) = self.polish(&mut q, &near);
                 let mut last = q;
                 if size > 0.0 {
@@ -1426,10 +1549,12 @@ mod six_axes {
                         (last, residual) = self.led(attempt, size, goal, &mut q);
                     }
                 }
+                if size > 0.0 && (residual > 1e-12 || candidate.depth > 0.0) {
+                    answers.remember(first);
+                }
                 if residual <= 1e-12 {
                     worst = if candidate.depth == 0.0 { f64::max(worst, start) } else { worst };
-                    let q = core::array::from_fn(|joint| if self.slides[joint] { q[joint] } else { wrap(q[joint]) });
-                    let answer = Answer { q, free: [false; 6], lost: false, residual };
+                    let answer = Answer { q: self.wrapped(&q), free: [false; 6], lost: false, residual };
                     answers.keep(answer, &self.slides);
                     own.keep(answer, &self.slides);
                 } else if deep <= 1000.0 * f64::max(worst, 1e-11) {
@@ -1477,7 +1602,7 @@ mod six_axes {
             }
         }
 
-        fn candidates(&self, formulation: Formulation, displacement: &Rigid, attempt: usize) -> Option<Candidates> {
+        fn candidates(&self, formulation: Formulation, displacement: &Rigid, attempt: usize, deepest: f64) -> Option<Candidates> {
             let axis = |steps: usize, ahead: bool| {
                 let Figure { direction, point, .. } = self.place(formulation, steps, ahead, displacement);
                 Axis { direction, point, slides: self.slides[formulation.joint(steps)] }
@@ -1486,7 +1611,7 @@ mod six_axes {
             let [ahead, behind] = [true, false].map(|ahead| self.place(formulation, 3, ahead, displacement));
             let near = profile(&hidden, across, &axis(1, true), &axis(2, true), &ahead);
             let far = profile(&hidden, across, &axis(5, false), &axis(4, false), &behind);
-            let reduced = Reduced::new(rows(hidden.slides, &near, &far));
+            let reduced = Reduced::new(rows(hidden.slides, ahead.side.is_some(), &near, &far));
             let doubled = formulation.joint(if formulation.second { 2 } else { 1 });
             let pencil = Pencil::new(&reduced, Doubled { second: formulation.second, slides: self.slides[doubled] })?;
             let (origin, matrix, conditioning) = standard(&pencil, attempt)?;
@@ -1499,7 +1624,7 @@ mod six_axes {
             for is_real in [true, false] {
                 for value in values.iter().filter(|value| (value.im == 0.0) == is_real) {
                     let depth = value.im.abs() / (1.0 + value.re * value.re + value.im * value.im);
-                    if depth <= 0.01 {
+                    if depth <= deepest {
                         let half = origin + angle(1.0, value.re + value.im);
                         let first = if hidden.slides { 2.0 * (half.sin() / half.cos()) } else { 2.0 * half };
                         found.list[found.count] = Candidate { q: reader.values(first, &form.eigenvector(value.re)), depth };
@@ -1617,6 +1742,222 @@ mod six_axes {
             }
             free
         }
+    }
+
+    /// The Jacobian at a joint vector: the shortest step behind which only `value` is missed, the tangent, the sum of equations that no joint
+    /// changes, and by how much joints change it after all.
+    #[derive(Clone, Copy)]
+    struct Section {
+        step: [f64; 6],
+        along: [f64; 6],
+        across: [f64; 6],
+        value: f64,
+        slope: f64,
+    }
+
+    impl Section {
+        /// The same with the directions that go on from another one's.
+        fn aligned(mut self, other: &Section) -> Section {
+            if product(&self.along, &other.along) < 0.0 {
+                self.along = self.along.map(|entry| -entry);
+            }
+            if product(&self.across, &other.across) < 0.0 {
+                self.across = self.across.map(|entry| -entry);
+                self.value = -self.value;
+            }
+            self
+        }
+
+        fn is_near(&self) -> bool {
+            self.slope <= 0.01 && self.value.abs() <= 0.001
+        }
+    }
+
+    /// A place on a curve.
+    #[derive(Clone, Copy)]
+    struct Place {
+        q: [f64; 6],
+        section: Section,
+    }
+
+    /// A walk along curves all along which the target is nearly reached: next to a family, isolated answers may stand anywhere on them.
+    struct Walk<'a> {
+        chain: &'a Chain,
+        target: &'a Rigid,
+        /// Where walks begin; those that another one has passed are left out.
+        starts: [Option<Place>; ROOM],
+        count: usize,
+    }
+
+    impl Walk<'_> {
+        /// Begins at `q` too if there is a curve next to it.
+        fn begin(&mut self, q: [f64; 6]) {
+            if self.count < ROOM {
+                if let Some(place) = self.chain.settled(q, self.target, 12) {
+                    self.starts[self.count] = Some(place);
+                    self.count += 1;
+                }
+            }
+        }
+
+        /// Walks along the curves, both ways if they do not close, and adds answers where the sixth equation changes its sign; of a
+        /// curve that misses nothing, a family, one member.
+        fn run(mut self, answers: &mut Answers) {
+            for index in 0..self.count {
+                let Some(start) = self.starts[index].take() else { continue };
+                let mut level = start.section.value.abs();
+                for way in [1.0, -1.0] {
+                    let mut first = start;
+                    first.section.along = first.section.along.map(|entry| way * entry);
+                    if self.leads_home(first, answers, &mut level) {
+                        break;
+                    }
+                }
+                if level <= 1e-13 {
+                    answers.find(self.chain, start.q, self.target);
+                }
+            }
+        }
+
+        /// Walks from `home` until the curve closes or ends; whether it closed. `level` becomes the most that was missed.
+        fn leads_home(&mut self, home: Place, answers: &mut Answers, level: &mut f64) -> bool {
+            let slides = &self.chain.slides;
+            let (mut before, mut at, mut stride, mut is_away) = (home, home, 0.1, false);
+            for _ in 0..400 {
+                let Some(next) = self.pace(&at, &mut stride) else { return false };
+                *level = f64::max(*level, next.section.value.abs());
+                self.change(&at, &next, answers);
+                self.dip([&before, &at, &next], answers);
+                for start in &mut self.starts[..self.count] {
+                    *start = start.filter(|start| distance(&start.q, &next.q, slides) > 0.1);
+                }
+                (before, at) = (at, next);
+                let way = distance(&at.q, &home.q, slides);
+                is_away |= way > 3.0 * 0.1;
+                if is_away && way <= 0.1 && product(&at.section.along, &home.section.along) > 0.5 {
+                    let end = Place { q: beside(&home.q, &at.q, slides), section: home.section.aligned(&at.section) };
+                    self.change(&at, &end, answers);
+                    return true;
+                }
+            }
+            false
+        }
+
+        /// A step along the curve, shorter where it bends; `None` where it ends.
+        fn pace(&self, at: &Place, stride: &mut f64) -> Option<Place> {
+            while *stride >= 0.015 * 0.1 {
+                let ahead = between(&at.q, &at.section.along, *stride);
+                if let Some(next) = self.chain.settled(ahead, self.target, 5) {
+                    let is_straight = product(&next.section.along, &at.section.along).abs() > 0.9;
+                    if is_straight && distance(&next.q, &at.q, &self.chain.slides) <= 2.0 * *stride {
+                        *stride = f64::min(2.0 * *stride, 0.1);
+                        return Some(Place { section: next.section.aligned(&at.section), ..next });
+                    }
+                }
+                *stride *= 0.5;
+            }
+            None
+        }
+
+        /// Adds the answer between two places where the sixth equation has different signs, by false position.
+        fn change(&self, a: &Place, b: &Place, answers: &mut Answers) {
+            let (mut low, mut high) = (a.section.value, b.section.value);
+            if (low <= 0.0) == (high <= 0.0) || f64::max(low.abs(), high.abs()) <= 1e-13 {
+                return;
+            }
+            let (mut near, mut far, mut side) = (*a, *b, 0.0);
+            for _ in 0..16 {
+                let way: [f64; 6] = core::array::from_fn(|joint| far.q[joint] - near.q[joint]);
+                let middle = between(&near.q, &way, low / (low - high));
+                let Some(place) = self.chain.settled(middle, self.target, 5) else { break };
+                let section = place.section.aligned(&a.section);
+                if (section.value <= 0.0) == (low <= 0.0) {
+                    near = Place { section, ..place };
+                    high = if side < 0.0 { 0.5 * high } else { far.section.value };
+                    (low, side) = (section.value, -1.0);
+                } else {
+                    far = Place { section, ..place };
+                    low = if side > 0.0 { 0.5 * low } else { near.section.value };
+                    (high, side) = (section.value, 1.0);
+                }
+                if section.value.abs() <= 2e-15 {
+                    break;
+                }
+            }
+            let best = if near.section.value.abs() <= far.section.value.abs() { near } else { far };
+            answers.find(self.chain, best.q, self.target);
+        }
+
+        /// Where the sixth equation comes near zero and goes away again, there may be two answers, or a double one.
+        fn dip(&self, [a, b, c]: [&Place; 3], answers: &mut Answers) {
+            let [low, least, high] = [a, b, c].map(|place| place.section.value);
+            let is_dip = least.abs() < low.abs() && least.abs() < high.abs() && least.abs() > 1e-13;
+            if !is_dip || (low <= 0.0) != (least <= 0.0) || (high <= 0.0) != (least <= 0.0) {
+                return;
+            }
+            let share = 0.5 * (low - high) / (low - least - least + high);
+            let end = if share < 0.0 { a } else { c };
+            let way: [f64; 6] = core::array::from_fn(|joint| end.q[joint] - b.q[joint]);
+            if let Some(place) = self.chain.settled(between(&b.q, &way, share.abs()), self.target, 5) {
+                let vertex = Place { section: place.section.aligned(&b.section), ..place };
+                self.change(b, &vertex, answers);
+                self.change(&vertex, end, answers);
+                answers.find(self.chain, vertex.q, self.target);
+            }
+        }
+    }
+
+    /// Five steps of Gauss elimination with complete pivoting; the factors stay below the diagonal. The order of the rows, which are moved,
+    /// and that of the columns, which are not.
+    fn cut(matrix: &mut [[f64; 6]; 6], right: &mut [f64; 6]) -> Option<([usize; 6], [usize; 6])> {
+        let (mut rows, mut columns, mut first) = ([0, 1, 2, 3, 4, 5], [0, 1, 2, 3, 4, 5], 0.0);
+        for k in 0..5 {
+            let (mut most, mut row, mut place) = (0.0, k, k);
+            for i in k..6 {
+                for j in k..6 {
+                    let entry = matrix[i][columns[j]].abs();
+                    if entry > most {
+                        (most, row, place) = (entry, i, j);
+                    }
+                }
+            }
+            first = if k == 0 { most } else { first };
+            if most <= 0.001 * first || !most.is_finite() {
+                return None;
+            }
+            matrix.swap(k, row);
+            right.swap(k, row);
+            rows.swap(k, row);
+            columns.swap(k, place);
+            let (pivot, over) = (matrix[k], right[k]);
+            for i in k + 1..6 {
+                let factor = matrix[i][columns[k]] / pivot[columns[k]];
+                for &column in &columns[k + 1..] {
+                    matrix[i][column] -= factor * pivot[column];
+                }
+                matrix[i][columns[k]] = factor;
+                right[i] -= factor * over;
+            }
+        }
+        Some((rows, columns))
+    }
+
+    fn product(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>()
+    }
+
+    /// `q` moved along `way` by a share of it.
+    fn between(q: &[f64; 6], way: &[f64; 6], share: f64) -> [f64; 6] {
+        core::array::from_fn(|joint| q[joint] + share * way[joint])
+    }
+
+    /// `q` with the turns of its angles that are nearest to `other`.
+    fn beside(q: &[f64; 6], other: &[f64; 6], slides: &[bool; 6]) -> [f64; 6] {
+        core::array::from_fn(|joint| {
+            let way = other[joint] - q[joint];
+            let turns = if slides[joint] { 0.0 } else { (way / TAU).round() };
+            q[joint] + TAU * turns
+        })
     }
 
     fn norm(v: &[f64; 6]) -> f64 {

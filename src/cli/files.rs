@@ -14,7 +14,7 @@ use crate::{Error, ErrorKind, Result};
 /// The longest file for IKFast that a folder gets, in bytes: the others are the same solver.
 const IKFAST_LIMIT: usize = 80_000;
 /// The same for one that solves an eigenvalue problem.
-const SIX_AXES_LIMIT: usize = 125_000;
+const SIX_AXES_LIMIT: usize = 135_000;
 
 /// The file of the numeric checks.
 pub const CHECKS: &str = "6_check.csv";

@@ -42,5 +42,6 @@ fn fill(skeleton: &str, outline: &impl Serialize) -> String {
     environment.set_lstrip_blocks(true);
     environment.set_keep_trailing_newline(true);
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
+    environment.add_filter("number", printer::number);
     environment.render_str(skeleton, outline).expect("the outline has every value that the skeleton names")
 }

@@ -147,18 +147,18 @@ impl Outline {
     /// The outline of a file that computes in single precision.
     pub fn single(program: &Program, language: &dyn Language) -> Self {
         let dampings = SINGLE_DAMPINGS.iter().map(|&damping| number(damping)).collect();
-        let outline = Outline::new(program, language);
-        Outline {
-            tolerances: Tolerances::single(),
-            dampings,
-            six_axes: six_axes::text(program, language, true),
-            about: outline.about.and("Single precision"),
-            ..outline
-        }
+        let outline = Outline::with(program, language, six_axes::text(program, language, true));
+        let about = outline.about.and("Single precision");
+        Outline { tolerances: Tolerances::single(), dampings, about, ..outline }
     }
 
     /// The outline of a valid program.
     pub fn new(program: &Program, language: &dyn Language) -> Self {
+        Outline::with(program, language, six_axes::text(program, language, false))
+    }
+
+    /// The outline with this text of what finds six joints together.
+    fn with(program: &Program, language: &dyn Language, six_axes: String) -> Self {
         let (names, tables) = (Names::new(program, language), Table::all(program));
         let (extra, lanes) = (extra_unknowns(program), false);
         let mut scene = Scene { program, language, names, extra, tables, mirror: None, lanes };
@@ -215,7 +215,7 @@ impl Outline {
                 .filter(|&joint| is_angle(program.joints[joint].value))
                 .collect(),
             samples: scene.tables.clone(),
-            six_axes: six_axes::text(program, language, false),
+            six_axes,
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),
             forward,
             size_of,

@@ -3,38 +3,15 @@
 use serde::Serialize;
 
 use super::printer::{Language, number};
-use crate::solver::template::{Constants, ROOM, Rigid, SixAxes};
+use crate::solver::template::{Constants, Curve, ROOM, Rigid, SixAxes};
 use crate::solver::{Program, Step};
 
 /// Everything that the skeletons name.
 #[derive(Serialize)]
 struct Kernel {
     room: usize,
-    max_steps: usize,
-    rounds: usize,
-    merge: String,
-    accept: String,
-    sound: String,
-    clear: String,
-    accurate: String,
-    unknown: String,
-    off: String,
-    far_off: String,
-    disturbances: Vec<String>,
-    direction: Vec<String>,
-    origins: Vec<String>,
-    sound_origin: String,
-    blurred: String,
-    crowded: String,
-    long: String,
-    stages: usize,
-    steps: usize,
-    exact: String,
-    rounding: String,
-    shortened: usize,
-    longest: String,
-    singular: String,
-    weak: String,
+    #[serde(flatten)]
+    constants: Constants,
     chains: Vec<ChainText>,
 }
 
@@ -77,7 +54,8 @@ pub(super) fn text(program: &Program, language: &dyn Language, single: bool) -> 
         return String::new();
     }
     let constants = if single { single_constants() } else { Constants::new() };
-    super::fill(language.six_axes(), &Kernel::new(&constants, &chains))
+    let chains = chains.into_iter().map(ChainText::new).collect();
+    super::fill(language.six_axes(), &Kernel { room: ROOM, constants, chains })
 }
 
 /// Shares of rounding in double precision become about those of rounding in single precision.
@@ -100,46 +78,14 @@ fn single_constants() -> Constants {
         rounding: 1e-5,
         singular: 2e-3,
         weak: 1e-2,
+        apart: 2e-2,
+        curve: Curve { level: 1e-5, settled: 1e-4, ..Constants::new().curve },
         ..Constants::new()
     }
 }
 
 fn numbers(values: &[f64]) -> Vec<String> {
     values.iter().map(|value| number(*value)).collect()
-}
-
-impl Kernel {
-    fn new(constants: &Constants, chains: &[&SixAxes]) -> Self {
-        Kernel {
-            room: ROOM,
-            max_steps: constants.max_steps,
-            rounds: constants.rounds,
-            merge: number(constants.merge),
-            accept: number(constants.accept),
-            sound: number(constants.sound),
-            clear: number(constants.clear),
-            accurate: number(constants.accurate),
-            unknown: number(constants.unknown),
-            off: number(constants.off),
-            far_off: number(constants.far_off),
-            disturbances: numbers(&constants.disturbances),
-            direction: numbers(&constants.direction),
-            origins: numbers(&constants.origins),
-            sound_origin: number(constants.sound_origin),
-            blurred: number(constants.blurred),
-            crowded: number(constants.crowded),
-            long: number(constants.long),
-            stages: constants.stages,
-            steps: constants.steps,
-            exact: number(constants.exact),
-            rounding: number(constants.rounding),
-            shortened: constants.shortened,
-            longest: number(constants.longest),
-            singular: number(constants.singular),
-            weak: number(constants.weak),
-            chains: chains.iter().map(|six| ChainText::new(six)).collect(),
-        }
-    }
 }
 
 impl ChainText {

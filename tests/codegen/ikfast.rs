@@ -137,6 +137,15 @@ fn a_plugin_answers_like_the_program() {
     }
 }
 
+/// Six joints in any place, turning and sliding.
+#[test]
+fn a_plugin_of_six_axes_answers_like_the_program() {
+    for stored in named(&["crx_like", "general_4r2p", "general_5r1p", "general_6r", "jaco_like"]) {
+        let Some(total) = compare(&stored, 60) else { return };
+        assert!(total >= 120, "{}: {total}", stored.name);
+    }
+}
+
 /// PUMA without its last joint aims its tool.
 #[test]
 fn a_ray_is_a_translation_and_a_direction() {

@@ -38,6 +38,21 @@ fn printed_eigenvalue_problems_answer_like_the_program() {
     }
 }
 
+/// Next to families too, where walks along curves find the answers: the targets of the derivation's check.
+#[test]
+fn printed_walks_along_curves_answer_like_the_program() {
+    for stored in named(&["crx_like", "jaco_like", "general_5r1p"]) {
+        let singular = |row: &csv::StringRecord| row[0].contains("singular");
+        let numbers = |row: csv::StringRecord| row.iter().skip(1).take(12).map(|word| word.parse().unwrap()).collect();
+        let path = format!("{}/derivations/{}/6_check.csv", env!("CARGO_MANIFEST_DIR"), stored.name);
+        let mut file = csv::Reader::from_path(path).unwrap();
+        let targets: Vec<Vec<f64>> = file.records().map(Result::unwrap).filter(singular).map(numbers).collect();
+        if let Some(report) = compare(&stored.program, &targets) {
+            assert!(report.answers > 150 && report.unequal == 0, "{}: {report:?}", stored.name);
+        }
+    }
+}
+
 #[test]
 #[ignore = "minutes: ten thousand targets each"]
 fn every_printed_eigenvalue_problem_answers_like_the_program() {

@@ -1,6 +1,7 @@
 //! Any six revolute joints by one eigenvalue problem: `roots::Hessenberg`, `solver::template`, `derive::template`.
 
 mod counts;
+mod curve;
 mod derivations;
 mod eigenvalues;
 mod program;
@@ -8,6 +9,7 @@ mod regular;
 mod robots;
 mod sliding;
 mod solver;
+mod split;
 mod study;
 
 use std::f64::consts::{PI, TAU};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::program::program;
-use super::{Determinant, Regular, fits, ranked, slides};
+use super::{Determinant, Regular, fits, ranked};
 use crate::derive::certificate::{check_head, refused, unread, written};
 use crate::derive::closure::Mechanism;
 use crate::derive::planner::{self, Evidence};
@@ -115,7 +115,7 @@ impl Entry {
     fn prove(&self, chain: &Chain) -> Result<Regular> {
         let formulation = self.formulation;
         let name = format!("the formulation that hides joint {}", formulation.hidden + 1);
-        if !formulation.fits(&slides(chain)) || self.determinants.iter().all(|determinant| determinant.value == 0) {
+        if !formulation.is_valid() || self.determinants.iter().all(|determinant| determinant.value == 0) {
             return Err(refused(format!("{name} is not shown to be regular")));
         }
         for determinant in &self.determinants {

@@ -40,7 +40,7 @@ pub struct Regular {
 pub fn formulations(chain: &Chain) -> Result<Vec<Regular>> {
     fits(chain)?;
     let mut regular = Vec::new();
-    for formulation in all().filter(|formulation| formulation.fits(&slides(chain))) {
+    for formulation in all() {
         let primes = primes_below(1 << 31).enumerate();
         let found = primes.map(|(seed, prime)| Determinant::evaluate(chain, formulation, prime, seed as u64));
         let determinants: Vec<Determinant> = found.filter_map(Result::ok).take(PRIMES).collect();

@@ -16,6 +16,8 @@ pub(super) const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
 pub(super) const SOUND: f64 = 1e-9;
 /// A complex pair with a smaller imaginary part, as a share of `1 + |x|^2`, may be a double root that rounding has parted.
 pub(super) const BLURRED: f64 = 1e-2;
+/// More than the depth of any eigenvalue.
+pub(super) const DEEPEST: f64 = 1.0;
 /// Two real eigenvalues closer than this share of `1 + |x|^2` have eigenvectors that rounding mixes.
 pub(super) const CROWDED: f64 = 1e-8;
 
@@ -54,13 +56,15 @@ struct Reader<'a> {
 }
 
 impl Candidates {
-    /// The candidates; each `attempt` begins with another origin of the half angle. `None` when the pencil is singular for this target,
+    /// The candidates, of eigenvalues no farther off the real line than `deepest`; each `attempt` begins with another origin of the half
+    /// angle. `None` when the pencil is singular for this target,
     /// or not finite.
     pub fn new(
         equations: &Equations<f64>,
         formulation: Formulation,
         slides: &[bool; 6],
         attempt: usize,
+        deepest: f64,
     ) -> Option<Self> {
         let reduced = Reduced::new(&Rows::new(equations));
         let doubled = Doubled { second: formulation.second, slides: slides[formulation.doubled()], square: 1.0 };
@@ -74,7 +78,7 @@ impl Candidates {
         let depth = |value: &Eigenvalue| value.im.abs() / (1.0 + value.re * value.re + value.im * value.im);
         let (real, near) =
             (values.iter().filter(|value| value.im == 0.0), values.iter().filter(|value| value.im != 0.0));
-        for value in real.chain(near.filter(|value| depth(value) <= BLURRED)) {
+        for value in real.chain(near.filter(|value| depth(value) <= deepest)) {
             let half = origin + angle(1.0, value.re + value.im);
             let hidden = if slides[formulation.hidden] { 2.0 * (half.sin() / half.cos()) } else { 2.0 * half };
             let q = reader.values(hidden, &form.eigenvector(value.re));

@@ -1,10 +1,12 @@
 //! The numbers that the solver decides by, for those who print it ([`Constants`]).
 
-use super::{candidates, polish, reduce, solve};
+use serde::Serialize;
+
+use super::{candidates, curve, polish, reduce, solve};
 use crate::roots::EIGEN_STEPS;
 
 /// What the modules beside this one define.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub(crate) struct Constants {
     pub merge: f64,
     pub accept: f64,
@@ -29,10 +31,52 @@ pub(crate) struct Constants {
     pub longest: f64,
     pub singular: f64,
     pub weak: f64,
+    pub apart: f64,
+    pub alike: f64,
+    pub deepest: f64,
     /// QR steps for one deflation.
     pub max_steps: usize,
     /// Rounds of inverse iteration.
     pub rounds: usize,
+    pub curve: Curve,
+}
+
+/// What walks along curves decide by.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Curve {
+    pub rank: f64,
+    pub steep: f64,
+    pub flat: f64,
+    pub early: usize,
+    pub adrift: f64,
+    pub level: f64,
+    pub settled: f64,
+    pub stride: f64,
+    pub short: f64,
+    pub rounds: usize,
+    pub few: usize,
+    pub paces: usize,
+    pub narrowed: usize,
+}
+
+impl Curve {
+    fn new() -> Self {
+        Curve {
+            rank: curve::RANK,
+            steep: curve::STEEP,
+            adrift: curve::ADRIFT,
+            level: curve::LEVEL,
+            settled: curve::SETTLED,
+            stride: curve::STRIDE,
+            short: curve::SHORT,
+            flat: curve::FLAT,
+            early: curve::EARLY,
+            rounds: curve::ROUNDS,
+            few: curve::FEW,
+            paces: curve::PACES,
+            narrowed: curve::NARROWED,
+        }
+    }
 }
 
 impl Constants {
@@ -65,6 +109,10 @@ impl Constants {
             longest: polish::LONGEST,
             singular: polish::SINGULAR,
             weak: reduce::WEAK,
+            apart: solve::APART,
+            alike: solve::ALIKE,
+            deepest: candidates::DEEPEST,
+            curve: Curve::new(),
         }
     }
 }

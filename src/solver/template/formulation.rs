@@ -2,7 +2,7 @@
 //!
 //! Whichever joint is called first, the loop says `E1 E2 ... E6 = G`, with the axes behind the target moved to the other side of it. The
 //! line of the fourth axis is left alone by `E4`, so `E1` takes `E2 E3 (line 4)` to `G E6^-1 E5^-1 (line 4)`: two joints on each side of
-//! the hidden one. Each joint may turn or slide; the first and the fourth may not both slide.
+//! the hidden one. Each joint may turn or slide.
 
 use serde::{Deserialize, Serialize};
 
@@ -30,9 +30,9 @@ impl Formulation {
         self.joint(if self.second { 2 } else { 1 })
     }
 
-    /// Whether there is an eigenvalue problem for joints of which these slide.
-    pub fn fits(&self, slides: &[bool; 6]) -> bool {
-        self.hidden < 6 && !(slides[self.hidden] && slides[self.joint(3)])
+    /// Whether it is one: whether there is such a joint.
+    pub fn is_valid(&self) -> bool {
+        self.hidden < 6
     }
 }
 
@@ -43,6 +43,8 @@ pub struct Equations<T> {
     pub square: T,
     /// Whether the hidden joint slides.
     pub slides: bool,
+    /// Whether what is moved are directions with a line, and not a line alone: the fourth joint slides.
+    pub is_directed: bool,
     /// What the hidden joint moves: products of the joints 1 and 2 behind it.
     pub turned: Profile<T>,
     /// Where it moves that to: products of the joints 5 and 4 behind it, with the sines of their angles reversed.
@@ -72,6 +74,7 @@ impl<T: Scalar> Equations<T> {
         Equations {
             square: axes[formulation.hidden].square,
             slides: axes[formulation.hidden].slides,
+            is_directed: axes[formulation.joint(3)].slides,
             turned: Profile::new(frame, &axis(1, true), &axis(2, true), &place(3, true)),
             reached: Profile::new(frame, &axis(5, false), &axis(4, false), &place(3, false)),
         }

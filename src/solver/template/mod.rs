@@ -7,6 +7,7 @@
 
 mod candidates;
 mod constants;
+mod curve;
 mod formulation;
 mod linear;
 mod pencil;
@@ -19,7 +20,7 @@ mod screw;
 mod six_axes;
 mod solve;
 
-pub(crate) use constants::Constants;
+pub(crate) use constants::{Constants, Curve};
 pub use formulation::{Equations, Formulation};
 pub use pencil::SIZE;
 pub use polish::{Links, Rigid};

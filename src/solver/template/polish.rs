@@ -66,7 +66,7 @@ pub struct Links {
 }
 
 /// What a joint vector reaches.
-struct Reach {
+pub(super) struct Reach {
     axes: [Vector<f64>; 6],
     origins: [Vector<f64>; 6],
     end: Rigid,
@@ -86,7 +86,7 @@ pub(super) const SINGULAR: f64 = 1e-6;
 pub(super) const LONGEST: f64 = 0.5;
 
 impl Links {
-    fn reach(&self, q: &[f64; 6]) -> Reach {
+    pub(super) fn reach(&self, q: &[f64; 6]) -> Reach {
         let (mut axes, mut origins) = ([[0.0; 3]; 6], [[0.0; 3]; 6]);
         let mut frame = self.steps[0];
         for joint in 0..6 {
@@ -118,7 +118,7 @@ impl Links {
     }
 
     /// How far the end is from `target`: the way, in the unit of lengths, and the turn (rad).
-    fn miss(reach: &Reach, target: &Rigid) -> [f64; 6] {
+    pub(super) fn miss(reach: &Reach, target: &Rigid) -> [f64; 6] {
         let way = sub(&target.translation, &reach.end.translation);
         let turns = [0, 1, 2].map(|index| cross(&reach.end.column(index), &target.column(index)));
         let turn = [0, 1, 2].map(|k| 0.5 * (turns[0][k] + turns[1][k] + turns[2][k]));
@@ -183,7 +183,7 @@ impl Links {
     }
 
     /// The derivatives of the end's place and turn by the joints, in columns.
-    fn jacobian(&self, reach: &Reach) -> [[f64; 6]; 6] {
+    pub(super) fn jacobian(&self, reach: &Reach) -> [[f64; 6]; 6] {
         let mut matrix = [[0.0; 6]; 6];
         for (joint, (axis, origin)) in reach.axes.iter().zip(&reach.origins).enumerate() {
             let (way, turn) = if self.slides[joint] {
@@ -213,6 +213,6 @@ fn length(v: &[f64; 6]) -> f64 {
     v.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
-fn size(miss: &[f64; 6]) -> f64 {
+pub(super) fn size(miss: &[f64; 6]) -> f64 {
     miss.iter().fold(0.0, |most, entry| if entry.abs() > most || entry.is_nan() { entry.abs() } else { most })
 }

@@ -45,12 +45,16 @@ impl<T: Scalar> Rows<T> {
         }
     }
 
-    /// A slide by `2 x w` is `exp(2 x N)` with `N^3 = 0`, so that `b - a = x N (a + b)` for all fourteen functions.
+    /// A slide by `2 x w` is `exp(2 x N)` with `N^3 = 0`, so that `b - a = x N (a + b)` for all fourteen functions. Of directions it leaves
+    /// ten alone. Four of them stand among the moving ones: `r = 0` and `s = 0` as `s - x r = 0` and `-r - x s = 0`, which say the same for
+    /// all `x` but `i` and `-i`.
     fn of_slide(equations: &Equations<T>) -> Self {
         let (near, far) = (&equations.turned.functions, &equations.reached.functions);
         let square = equations.square;
+        let (unmoved, sliding) =
+            if equations.is_directed { (&UNMOVED_DIRECTED, &SLIDING_DIRECTED) } else { (&UNMOVED, &SLIDING) };
         let image = |k: usize| {
-            let (_, function, factor) = SLIDING[k];
+            let (_, function, factor) = sliding[k];
             let row = sum(&near[function], &far[function]);
             match factor {
                 Factor::One => row,
@@ -58,6 +62,7 @@ impl<T: Scalar> Rows<T> {
                 Factor::MinusTwo => row.map(|entry| -(entry + entry)),
                 Factor::MinusSquare => row.map(|entry| -(entry * square)),
                 Factor::TwoSquares => row.map(|entry| (entry + entry) * square),
+                Factor::Still | Factor::StillBack => difference(&near[function], &far[function]),
                 Factor::Constant => std::array::from_fn(|column| match column {
                     0 => -(square + square),
                     _ => square + -square,
@@ -65,8 +70,11 @@ impl<T: Scalar> Rows<T> {
             }
         };
         Rows {
-            still: UNMOVED.map(|k| difference(&near[k], &far[k])),
-            constant: std::array::from_fn(|k| difference(&near[SLIDING[k].0], &far[SLIDING[k].0])),
+            still: unmoved.map(|k| difference(&near[k], &far[k])),
+            constant: std::array::from_fn(|k| match sliding[k] {
+                (function, _, Factor::StillBack) => difference(&near[function], &far[function]).map(|entry| -entry),
+                (function, ..) => difference(&near[function], &far[function]),
+            }),
             linear: std::array::from_fn(image),
         }
     }
@@ -83,6 +91,9 @@ enum Factor {
     MinusTwo,
     MinusSquare,
     TwoSquares,
+    /// Both functions stay; of `StillBack` the first one's sign changes.
+    Still,
+    StillBack,
     /// Whatever the function is, the image is the constant `-w.w`, from both sides.
     Constant,
 }
@@ -98,6 +109,22 @@ const SLIDING: [(usize, usize, Factor); MOVING] = [
     (STILL + TURNING + 3, STILL + 2, Factor::TwoSquares),
     (TURNING, 0, Factor::MinusTwo),
     (TURNING + 1, 1, Factor::Minus),
+];
+
+/// The same of the functions `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`, for a fourth joint that slides: directions stay.
+const UNMOVED_DIRECTED: [usize; STILL] = [0, 1, 2, 3, STILL, STILL + 1];
+
+/// `N (p x l) = w x l`, `N (p.a) = w.a`, `N (p.(l x a)) = w.(l x a)`; the first four
+/// stay.
+const SLIDING_DIRECTED: [(usize, usize, Factor); MOVING] = [
+    (STILL + TURNING, STILL + 3, Factor::Still),
+    (STILL + 3, STILL + TURNING, Factor::StillBack),
+    (STILL + TURNING + 3, STILL + TURNING + 1, Factor::Still),
+    (STILL + TURNING + 1, STILL + TURNING + 3, Factor::StillBack),
+    (STILL + 2, STILL + TURNING + 1, Factor::One),
+    (STILL + TURNING + 2, STILL + 1, Factor::MinusSquare),
+    (TURNING, 0, Factor::Minus),
+    (TURNING + 1, 3, Factor::Minus),
 ];
 
 /// `a + b` in both sides' products.

@@ -52,7 +52,7 @@ impl SixAxes {
         let suits = |(joint, slides): (&JointValue, &bool)| matches!(joint, JointValue::Plain(_)) == *slides;
         let suit = parts.joints.iter().zip(&parts.slides).all(suits);
         ensure(suit, "six axes: angles, and plain values of joints that slide, are allowed")?;
-        let known = !parts.formulations.is_empty() && parts.formulations.iter().all(|f| f.fits(&parts.slides));
+        let known = !parts.formulations.is_empty() && parts.formulations.iter().all(Formulation::is_valid);
         ensure(known, "six axes: one formulation at least, which hides one of joints 0 to 5, is allowed")?;
         let layout = Layout { lines: parts.lines, slides: parts.slides, length: parts.length };
         let solver = Template::new(&layout, parts.formulations.clone());

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::candidates::Candidates;
+use super::candidates::{BLURRED, Candidates, DEEPEST};
+use super::curve::Walk;
 use super::formulation::{Equations, Formulation};
 use super::polish::{Links, Rigid};
 use super::profile::Frame;
@@ -34,6 +35,10 @@ const MOST_RUNS: usize = 8;
 /// How far aside the target is put for each of them: where solutions share a hidden angle, or a family of solutions stands at the same
 /// target, the eigenvectors of isolated ones are only found next to it.
 pub(super) const DISTURBANCES: [f64; MOST_RUNS] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3];
+/// Candidates that are no farther than this from one that is known are not remembered again.
+pub(super) const ALIKE: f64 = 1e-2;
+/// An answer on a curve that is no farther than this from one that is known is that one.
+pub(super) const APART: f64 = 1e-4;
 /// A way of so many length scales stands for an infinite one.
 pub(super) const LONG: f64 = 1e4;
 /// Stages in which a candidate next to the target is led to it.
@@ -70,6 +75,8 @@ pub struct Answers {
     count: usize,
     lost: [[f64; 6]; ROOM],
     lost_count: usize,
+    far: [[f64; 6]; ROOM],
+    far_count: usize,
     /// How many formulations were run.
     pub runs: usize,
     /// Whether the last of them could be trusted.
@@ -93,8 +100,10 @@ pub struct Template {
 impl Answers {
     fn none() -> Self {
         let none = Answer { q: [0.0; 6], free: [false; 6], residual: 0.0 };
-        let lost = [[0.0; 6]; ROOM];
-        Answers { list: [none; ROOM], count: 0, lost, lost_count: 0, runs: 0, is_trusted: false, start: 0.0 }
+        let (lost, far) = ([[0.0; 6]; ROOM], [[0.0; 6]; ROOM]);
+        let list = [none; ROOM];
+        let (is_trusted, start) = (false, 0.0);
+        Answers { list, count: 0, lost, lost_count: 0, far, far_count: 0, runs: 0, is_trusted, start }
     }
 
     /// The answers.
@@ -109,9 +118,28 @@ impl Answers {
     }
 
     fn lose(&mut self, q: [f64; 6]) {
-        if self.lost_count < ROOM && q.iter().all(|value| value.is_finite()) {
+        let is_new = !is_among(&q, &self.lost[..self.lost_count]);
+        if self.lost_count < ROOM && is_new && q.iter().all(|value| value.is_finite()) {
             self.lost[self.lost_count] = q;
             self.lost_count += 1;
+        }
+    }
+
+    /// Remembers a candidate off the real line, or one that led to no answer, at a target aside: a curve may be next to it.
+    fn remember(&mut self, q: [f64; 6]) {
+        if self.far_count < ROOM && !is_among(&q, &self.far[..self.far_count]) {
+            self.far[self.far_count] = q;
+            self.far_count += 1;
+        }
+    }
+
+    /// Polishes joints that a walk along a curve has led to, and keeps them if they are an answer that is not known.
+    pub(super) fn find(&mut self, links: &Links, mut q: [f64; 6], target: &Rigid) {
+        let residual = links.polish(&mut q, target).1;
+        let q = wrapped(&q, &links.slides);
+        let is_known = self.as_slice().iter().any(|known| distance(&known.q, &q, &links.slides) <= APART);
+        if residual <= ACCEPT && !is_known {
+            self.keep(Answer { q, free: [false; 6], residual }, &links.slides);
         }
     }
 
@@ -132,7 +160,7 @@ impl Answers {
 }
 
 /// The largest difference of two joint vectors, of angles by the shorter way round.
-fn distance(a: &[f64; 6], b: &[f64; 6], slides: &[bool; 6]) -> f64 {
+pub(super) fn distance(a: &[f64; 6], b: &[f64; 6], slides: &[bool; 6]) -> f64 {
     let mut most = 0.0_f64;
     for joint in 0..6 {
         let way = a[joint] - b[joint];
@@ -140,6 +168,16 @@ fn distance(a: &[f64; 6], b: &[f64; 6], slides: &[bool; 6]) -> f64 {
         most = most.max((way - TAU * turns).abs());
     }
     most
+}
+
+/// Whether one of the joint vectors known is nearly `q`, turns counted.
+fn is_among(q: &[f64; 6], known: &[[f64; 6]]) -> bool {
+    known.iter().any(|other| distance(other, q, &[true; 6]) <= ALIKE)
+}
+
+/// The joints with angles in (-pi, pi].
+fn wrapped(q: &[f64; 6], slides: &[bool; 6]) -> [f64; 6] {
+    std::array::from_fn(|joint| if slides[joint] { q[joint] } else { wrap(q[joint]) })
 }
 
 impl Template {
@@ -196,11 +234,16 @@ impl Template {
         let mut answers = Answers::none();
         for (attempt, size) in DISTURBANCES.into_iter().enumerate().take(most) {
             answers.runs += 1;
-            answers.lost_count = if size > 0.0 && DISTURBANCES[attempt - 1] == 0.0 { 0 } else { answers.lost_count };
-            if self.run(attempt, size, &displacement, &target, &mut answers) {
+            // One run aside shows too little of what may be beside it.
+            let is_first_aside = size > 0.0 && DISTURBANCES[attempt - 1] == 0.0;
+            answers.lost_count = if is_first_aside { 0 } else { answers.lost_count };
+            if self.run(attempt, size, &displacement, &target, &mut answers) && !is_first_aside {
                 answers.is_trusted = true;
                 break;
             }
+        }
+        if answers.runs > 1 {
+            self.walk(&target, &mut answers);
         }
         for answer in &mut answers.list[..answers.count] {
             // A run that can be trusted at once has seen no family.
@@ -213,6 +256,18 @@ impl Template {
         answers
     }
 
+    /// Walks along the curves next to answers, and to candidates that led to none.
+    fn walk(&self, target: &Rigid, answers: &mut Answers) {
+        let mut walk = Walk::new(&self.links, target);
+        for answer in answers.as_slice() {
+            if walk.is_curve(&answer.q) {
+                walk.begin(answer.q);
+            }
+        }
+        answers.far[..answers.far_count].iter().chain(answers.lost()).for_each(|q| walk.begin(*q));
+        walk.run(answers);
+    }
+
     /// Adds the answers of one formulation, solved for a displacement that may be a little aside from the target and then led to it;
     /// whether it can be trusted to have found all.
     fn run(&self, attempt: usize, size: f64, goal: &Rigid, target: &Rigid, answers: &mut Answers) -> bool {
@@ -223,16 +278,24 @@ impl Template {
         let (frame, slides) = (&self.frames[formulation.hidden], &self.links.slides);
         let figures = [&self.figures, &carried(displacement), &carried(&back)];
         let equations = Equations::new(formulation, frame, &self.axes, figures);
-        let Some(candidates) = Candidates::new(&equations, formulation, slides, attempt) else { return false };
+        let deepest = if size > 0.0 { DEEPEST } else { BLURRED };
+        let candidates = Candidates::new(&equations, formulation, slides, attempt, deepest);
+        let Some(candidates) = candidates else { return false };
         let (near, mut lost, mut worst) = (displacement.after(&self.last), 0, 0.0_f64);
         let (known, mut own) = (answers.count, Answers::none());
         for candidate in &candidates.list[..candidates.count] {
-            if candidate.depth * candidate.depth > FAR_OFF * worst.max(UNKNOWN) || self.is_infinite(&candidate.q) {
+            let is_far = candidate.depth * candidate.depth > FAR_OFF * worst.max(UNKNOWN);
+            if (is_far && size <= 0.0) || self.is_infinite(&candidate.q) {
                 continue;
             }
             let mut q = candidate.q;
             let missing = formulation.joint(3);
             q[missing] = self.links.closing(&q, missing, &near);
+            let first = q;
+            if is_far {
+                answers.remember(first);
+                continue;
+            }
             let (start, mut residual) = self.links.polish(&mut q, &near);
             let mut last = q;
             if size > 0.0 {
@@ -242,10 +305,12 @@ impl Template {
                     (last, residual) = self.led(attempt, size, goal, &mut q);
                 }
             }
+            if size > 0.0 && (residual > ACCEPT || candidate.depth > 0.0) {
+                answers.remember(first);
+            }
             if residual <= ACCEPT {
                 worst = if candidate.depth == 0.0 { worst.max(start) } else { worst };
-                let q = std::array::from_fn(|joint| if slides[joint] { q[joint] } else { wrap(q[joint]) });
-                let answer = Answer { q, free: [false; 6], residual };
+                let answer = Answer { q: wrapped(&q, slides), free: [false; 6], residual };
                 answers.keep(answer, slides);
                 own.keep(answer, slides);
             } else if candidate.depth * candidate.depth <= OFF * worst.max(UNKNOWN) {

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Times the printed solvers of six axes, Rust and C, at random targets, and counts lost joints.
+
+    python3 benches/six_axes/printed.py [--poses 100000] [--folders general_6r,crx_like] > record.csv
+
+Needs rustc and cc. Each target is made of random joints (angles in (-pi, pi], ways in [-1, 1] lengths); it is lost when no answer is
+within 1e-6 of them. `us_mean` is processor time of all solving over the number of targets, so that other work on the machine does not count
+but by its use of the caches; the percentiles are wall time.
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDERS = "general_6r general_5r1p general_4r2p crx_like xarm6_like jaco_like booster_leg_like ur5_calibrated".split()
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def sliding(folder):
+    """The indices of the joints that slide."""
+    text = (folder / "0_chain.toml").read_text()
+    return [index for index, joint in enumerate(text.split("[[joint]]")[1:]) if re.search(r'type\s*=\s*"prismatic"', joint)]
+
+
+def build(name, work):
+    """The two programs that measure a folder's solver: language, bytes of the solver, path."""
+    folder = ROOT / "derivations" / name
+    slides = sum(1 << joint for joint in sliding(folder))
+    rust = folder / "5_solver.rs"
+    main = (HERE / "printed.rs").read_text().replace("SOLVER", str(rust)).replace("SLIDES", str(slides))
+    (work / f"{name}.rs").write_text(main)
+    subprocess.run(["rustc", "--edition", "2024", "-O", "-A", "warnings", f"{name}.rs", "-o", f"{name}_rust"], cwd=work, check=True)
+    c = folder / "5_solver.c"
+    flags = ["-O2", f"-DNAME={name}", f"-DCAPACITY={name.upper()}_CAPACITY", f"-DSLIDES={slides}", f'-DSOLVER="{c}"']
+    subprocess.run(["cc", "-std=gnu99", *flags, str(HERE / "printed.c"), "-o", f"{name}_c", "-lm"], cwd=work, check=True)
+    return [("C99 -O2", c.stat().st_size, work / f"{name}_c"), ("Rust -O", rust.stat().st_size, work / f"{name}_rust")]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--poses", type=int, default=100_000)
+    parser.add_argument("--folders", type=lambda text: text.split(","), default=FOLDERS)
+    arguments = parser.parse_args()
+    print("solver,language,bytes,poses,lost,answers_per_pose,us_mean,us_p10,us_p50,us_p90,us_p99.9")
+    with tempfile.TemporaryDirectory() as work:
+        for name in arguments.folders:
+            for language, size, program in build(name, pathlib.Path(work)):
+                output = subprocess.run([program, str(arguments.poses)], check=True, capture_output=True, text=True)
+                sys.stderr.write(output.stderr)
+                print(f"{name},{language},{size},{arguments.poses},{output.stdout.strip()}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
