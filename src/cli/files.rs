@@ -12,7 +12,7 @@ use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest file for IKFast that a folder gets, in bytes: the others are the same solver.
-const IKFAST_LIMIT: usize = 80_000;
+const IKFAST_LIMIT: usize = 90_000;
 /// The same for one that solves an eigenvalue problem.
 const SIX_AXES_LIMIT: usize = 135_000;
 

@@ -2,7 +2,7 @@
 
 use num_traits::Signed;
 
-use super::circle::{Quotient, on_circle};
+use super::circle::{Quotient, divided, on_circle};
 use super::half_angle::{HalfAngle, HalfAngles};
 use super::slack::Slack;
 use super::template::{Form, Template};
@@ -356,7 +356,12 @@ impl<'a> Builder<'a> {
         let put: Vec<(usize, Operand)> = match self.place.value {
             JointValue::Angle { cosine, sine } => {
                 let (c, s) = quotient(cosine).zip(quotient(sine)).ok_or_else(missing)?;
-                let [c, s] = on_circle([c, s], &mut self.assembler);
+                let has_root = self.form == Form::Angle && steps.iter().any(|step| matches!(step, Step::Roots { .. }));
+                let [c, s] = if has_root && c.bottom == s.bottom {
+                    divided([c, s], &mut self.assembler)
+                } else {
+                    on_circle([c, s], &mut self.assembler)
+                };
                 vec![(cosine, c), (sine, s)]
             }
             JointValue::Plain(_) if self.form == Form::Lengths && values.is_empty() => Vec::new(),

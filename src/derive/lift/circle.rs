@@ -1,4 +1,4 @@
-//! Values of unknowns as quotients, and cosines and sines put on the circle: [`on_circle`].
+//! Values of unknowns as quotients, and cosines and sines put on the circle: [`on_circle`], [`divided`].
 
 use crate::derive::assemble::Assembler;
 use crate::solver::Operand;
@@ -35,4 +35,11 @@ pub(super) fn on_circle(values: [Quotient; 2], assembler: &mut Assembler) -> [Op
     let length = assembler.sqrt(sum);
     let unit = assembler.div(Operand::Constant(1.0), length);
     sides.map(|side| assembler.mul(side, unit))
+}
+
+/// A cosine and a sine of one denominator that are on the circle but for rounding: those of [`super::Form::Angle`] are, as
+/// `w^2 = A^2 + B^2 - C^2` is taken of the numbers that they are quotients of.
+pub(super) fn divided(values: [Quotient; 2], assembler: &mut Assembler) -> [Operand; 2] {
+    let unit = assembler.div(Operand::Constant(1.0), values[0].bottom);
+    values.map(|value| assembler.mul(value.top, unit))
 }
