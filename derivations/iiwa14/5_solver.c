@@ -180,6 +180,7 @@ int iiwa14_nearest(const iiwa14_solution *list, int count, const double *referen
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -614,8 +615,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -623,7 +625,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -987,14 +989,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1573,14 +1579,14 @@ typedef struct {
  */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r21 = shared->r19 * shared->r19, r22 = shared->r20 * shared->r20;
-    if (!is_away(r21 + r22, 28240.0)) {
+    const double r21 = shared->r19 * shared->r19, r22 = shared->r20 * shared->r20, r23 = r21 + r22;
+    if (!is_away(r23, 28240.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r21 - r22, known->f2 * (42.01190307520001 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double w5 = roots0.values[i0], r28 = w5 * shared->r19, r29 = w5 * shared->r20;
-        const double r34 = 1.0 / sqrt(fmax(r29 * r29 + r28 * r28, 0.0)), c5 = 0.0 - r29 * r34, s5 = r28 * r34;
+        const double w5 = roots0.values[i0], r30 = 1.0 / r23, c5 = 0.0 - w5 * shared->r20 * r30;
+        const double s5 = w5 * shared->r19 * r30;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1725,17 +1731,17 @@ typedef struct {
  */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r9 = shared->r2 * shared->r2, r10 = shared->r4 * shared->r4, r12 = shared->r8 * shared->r8;
-    const double r13 = r12 + r12;
-    if (!is_away(r9 + r10, 16.0 * r13)) {
+    const double r9 = shared->r2 * shared->r2, r10 = shared->r4 * shared->r4, r11 = r9 + r10;
+    const double r12 = shared->r8 * shared->r8, r13 = r12 + r12;
+    if (!is_away(r11, 16.0 * r13)) {
         return;
     }
     const double f1 = 1.0;
     const Roots roots0 = square_roots(shared->r5 * shared->r5 - r9 - r10, sqrt(fmax(r13, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r22 = w1 * shared->r2 - (0.0 - shared->r4 * shared->r5);
-        const double r25 = shared->r2 * shared->r5 - w1 * shared->r4;
-        const double r30 = 1.0 / sqrt(fmax(r25 * r25 + r22 * r22, 0.0)), c1 = r25 * r30, s1 = r22 * r30;
+        const double r26 = 1.0 / r11, r27 = (shared->r2 * shared->r5 - w1 * shared->r4) * r26, c1 = r27;
+        const double s1 = r22 * r26;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1795,8 +1801,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double r26 = shared->r24 * shared->r24 - 0.11289600000000001;
     const Roots roots0 = square_roots(r26, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r27 = 0.336 * w4, r28 = 0.336 * shared->r24;
-        const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r27 * r27, 0.0)), c4 = 0.0 - r28 * r33, s4 = r27 * r33;
+        const double w4 = roots0.values[i0], r30 = 0.0 - 8.857709750566892 * (0.336 * shared->r24), c4 = r30;
+        const double s4 = 8.857709750566892 * (0.336 * w4);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;

@@ -385,6 +385,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -556,11 +557,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r26 = shared.r24 * shared.r24 - 0.11289600000000001;
     let roots0 = square_roots(r26, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r27 = 0.336 * w4;
-        let r28 = 0.336 * shared.r24;
-        let r33 = 1.0 / f64::max(r28 * r28 + r27 * r27, 0.0).sqrt();
-        let c4 = 0.0 - r28 * r33;
-        let s4 = r27 * r33;
+        let r30 = 0.0 - 8.857709750566892 * (0.336 * shared.r24);
+        let c4 = r30;
+        let s4 = 8.857709750566892 * (0.336 * w4);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c4, s4, ..*known };
         block_3(p, &next, answers);
     }
@@ -594,19 +593,20 @@ struct Shared3 {
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r9 = shared.r2 * shared.r2;
     let r10 = shared.r4 * shared.r4;
+    let r11 = r9 + r10;
     let r12 = shared.r8 * shared.r8;
     let r13 = r12 + r12;
-    if !is_away(r9 + r10, 16.0 * r13) {
+    if !is_away(r11, 16.0 * r13) {
         return;
     }
     let f1 = 1.0;
     let roots0 = square_roots(shared.r5 * shared.r5 - r9 - r10, f64::max(r13, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
         let r22 = w1 * shared.r2 - (0.0 - shared.r4 * shared.r5);
-        let r25 = shared.r2 * shared.r5 - w1 * shared.r4;
-        let r30 = 1.0 / f64::max(r25 * r25 + r22 * r22, 0.0).sqrt();
-        let c1 = r25 * r30;
-        let s1 = r22 * r30;
+        let r26 = 1.0 / r11;
+        let r27 = (shared.r2 * shared.r5 - w1 * shared.r4) * r26;
+        let c1 = r27;
+        let s1 = r22 * r26;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, f1, ..*known };
         block_4(p, &next, answers);
     }
@@ -726,16 +726,15 @@ struct Shared5 {
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r21 = shared.r19 * shared.r19;
     let r22 = shared.r20 * shared.r20;
-    if !is_away(r21 + r22, 28240.0) {
+    let r23 = r21 + r22;
+    if !is_away(r23, 28240.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r21 - r22, known.f2 * (42.01190307520001 * known.f1));
     for (i0, &w5) in roots0.as_slice().iter().enumerate().take(1) {
-        let r28 = w5 * shared.r19;
-        let r29 = w5 * shared.r20;
-        let r34 = 1.0 / f64::max(r29 * r29 + r28 * r28, 0.0).sqrt();
-        let c5 = 0.0 - r29 * r34;
-        let s5 = r28 * r34;
+        let r30 = 1.0 / r23;
+        let c5 = 0.0 - w5 * shared.r20 * r30;
+        let s5 = w5 * shared.r19 * r30;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c5, s5, ..*known };
         block_6(p, &next, answers);
     }
@@ -1360,12 +1359,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1714,15 +1717,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

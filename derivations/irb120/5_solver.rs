@@ -382,6 +382,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -534,19 +535,18 @@ struct Shared1 {
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r6 = shared.r1 * shared.r1;
     let r7 = shared.r3 * shared.r3;
+    let r8 = r6 + r7;
     let r9 = shared.r5 * shared.r5;
     let r10 = r9 + r9;
-    if !is_away(r6 + r7, 16.0 * r10) {
+    if !is_away(r8, 16.0 * r10) {
         return;
     }
     let f1 = 1.0;
     let roots0 = square_roots(0.0 - r6 - r7, f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r15 = w1 * shared.r1;
-        let r16 = w1 * shared.r3;
-        let r21 = 1.0 / f64::max(r16 * r16 + r15 * r15, 0.0).sqrt();
-        let c1 = 0.0 - r16 * r21;
-        let s1 = r15 * r21;
+        let r17 = 1.0 / r8;
+        let c1 = 0.0 - w1 * shared.r3 * r17;
+        let s1 = w1 * shared.r1 * r17;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -597,11 +597,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r27 = shared.r24 * shared.r24 - 0.00142884 - 0.026595086400000002;
     let roots0 = square_roots(r27, 1.4142135623730951 * known.f1);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r32 = 0.0378 * w3 - (0.0 - 0.16308 * shared.r24);
-        let r35 = 0.16308 * w3 - 0.0378 * shared.r24;
-        let r40 = 1.0 / f64::max(r35 * r35 + r32 * r32, 0.0).sqrt();
-        let c3 = r35 * r40;
-        let s3 = r32 * r40;
+        let r36 = 35.683793403054324 * (0.16308 * w3 - 0.0378 * shared.r24);
+        let r37 = 35.683793403054324 * (0.0378 * w3 - (0.0 - 0.16308 * shared.r24));
+        let c3 = r36;
+        let s3 = r37;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -696,16 +695,15 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13;
     let r16 = shared.r14 * shared.r14;
-    if !is_away(r15 + r16, 6784.0) {
+    let r17 = r15 + r16;
+    if !is_away(r17, 6784.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, known.f2 * (20.591260281974 * known.f1));
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r22 = w4 * shared.r13;
-        let r23 = w4 * shared.r14;
-        let r28 = 1.0 / f64::max(r23 * r23 + r22 * r22, 0.0).sqrt();
-        let c4 = r23 * r28;
-        let s4 = r22 * r28;
+        let r24 = 1.0 / r17;
+        let c4 = w4 * shared.r14 * r24;
+        let s4 = w4 * shared.r13 * r24;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -1322,12 +1320,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1669,15 +1671,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

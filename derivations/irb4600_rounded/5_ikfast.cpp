@@ -126,6 +126,9 @@ static const double ADRIFT = 1e-7;
 static const double ALONE = 1e-13;
 /* How far a free joint is moved to see whether an answer lies on a family. */
 static const double ASIDE = 0.1;
+static const int NARROWS = 3;
+static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -657,14 +660,13 @@ static bool is_isolated(const bool *free)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
-static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
+/* The triangle of a step's equations, the right side in the last column. */
+static void triangle(const Parameters *p, const double *q, double damping, const bool *held, double columns[JOINTS + 1][ROWS])
 {
     double at[PLACES];
     place(q, at);
     const Jacobian j = jacobian(p, at);
     const Equations f = equations(p, at);
-    double columns[JOINTS + 1][ROWS] = {{0.0}};
     double size = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
         double square = 0.0;
@@ -682,8 +684,29 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
         columns[i][EQUATIONS + i] = held[i] ? 1.0 : sqrt(damping * size);
     }
     reflect(columns);
+}
+
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. The rows are turned into a triangle by reflections. */
+static bool newton_step(const Parameters *p, const double *q, double damping, const bool *held, double *step)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}};
+    triangle(p, q, damping, held, columns);
     return substituted(columns, step);
 }
+
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
+    triangle(p, q, 0.0, NONE_FREE, columns);
+    for (size_t i = 0; i < JOINTS; i++) {
+        least = fmin(least, fabs(columns[i][i]));
+        most = fmax(most, fabs(columns[i][i]));
+    }
+    return least / most;
+}
+
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
@@ -1035,11 +1058,26 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
+    double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
-    return leads_aside(p, q, free, ASIDE, bound) || leads_aside(p, q, free, -ASIDE, bound);
+    for (int narrow = 0; narrow < NARROWS; narrow++) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
+            return false;
+        }
+        if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
+            return true;
+        }
+        way /= 8.0;
+    }
+    return false;
 }
 
 /* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
@@ -1237,7 +1275,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         if (has_member(answers, branch, free)) {
             return;
         }
-        if (!fit.accepted && fit.relative <= ADRIFT) {
+        if (RESOLUTION <= fit.relative && fit.relative <= ADRIFT) {
             polish(p, q, &fit, free);
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
@@ -1524,15 +1562,15 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14;
-    if (!is_away(r15 + r16, 4240000.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
+    if (!is_away(r17, 6784.0)) {
         return;
     }
     const double r22 = 3162.2776601683795 * (known->f2 * (20.591260281974 * known->f1));
     const Roots roots0 = square_roots(0.0 - r15 - r16, r22);
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double w4 = roots0.values[i0], r23 = w4 * shared->r13, r24 = w4 * shared->r14;
-        const double r29 = 1.0 / sqrt(fmax(r24 * r24 + r23 * r23, 0.0)), c4 = r24 * r29, s4 = r23 * r29;
+        const double w4 = roots0.values[i0], r25 = 1.0 / r17, c4 = w4 * shared->r14 * r25;
+        const double s4 = w4 * shared->r13 * r25;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1602,7 +1640,7 @@ typedef struct {
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r25 = shared->r9 * shared->r9 + shared->r12 * shared->r12;
-    if (!is_away(r25, 593980.2803052878)) {
+    if (!is_away(r25, 950.3684484884604)) {
         return;
     }
     const double f2 = 1.0, r28 = shared->r9 * shared->r17 - shared->r12 * shared->r15;
@@ -1675,7 +1713,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w3 = roots0.values[i0];
         const double r39 = 0.3150000001485 * w3 - (0.0 - 1.7280148494671985 * shared->r30);
         const double r42 = 1.7280148494671985 * w3 - 0.3150000001485 * shared->r30;
-        const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r39 * r39, 0.0)), c3 = r42 * r47, s3 = r39 * r47;
+        const double c3 = 0.3241217583793501 * r42, s3 = 0.3241217583793501 * r39;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1718,16 +1756,16 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
-    const double r10 = r9 + r9;
-    if (!is_away(r6 + r7, 10000.0 * r10)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 16.0 * r10)) {
         return;
     }
     const double f1 = 1.0;
     const Roots roots0 = square_roots(0.0 - r6 - r7, 3162.2776601683795 * sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r16 = w1 * shared->r1, r17 = w1 * shared->r3;
-        const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c1 = 0.0 - r17 * r22, s1 = r16 * r22;
+        const double w1 = roots0.values[i0], r18 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r18;
+        const double s1 = w1 * shared->r1 * r18;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

@@ -178,6 +178,7 @@ int irb4600_tool0_nearest(const irb4600_tool0_solution *list, int count, const d
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -747,8 +748,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -756,7 +758,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -1113,14 +1115,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1672,15 +1678,15 @@ typedef struct {
  */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14;
-    if (!is_away(r15 + r16, 6784.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
+    if (!is_away(r17, 6784.0)) {
         return;
     }
     const double r22 = 3162.2776601683795 * (known->f2 * (20.591260281974 * known->f1));
     const Roots roots0 = square_roots(0.0 - r15 - r16, r22);
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double w4 = roots0.values[i0], r23 = w4 * shared->r13, r24 = w4 * shared->r14;
-        const double r29 = 1.0 / sqrt(fmax(r24 * r24 + r23 * r23, 0.0)), c4 = r24 * r29, s4 = r23 * r29;
+        const double w4 = roots0.values[i0], r25 = 1.0 / r17, c4 = w4 * shared->r14 * r25;
+        const double s4 = w4 * shared->r13 * r25;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1823,7 +1829,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double w3 = roots0.values[i0];
         const double r39 = 0.3150000001485 * w3 - (0.0 - 1.7280148494671985 * shared->r30);
         const double r42 = 1.7280148494671985 * w3 - 0.3150000001485 * shared->r30;
-        const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r39 * r39, 0.0)), c3 = r42 * r47, s3 = r39 * r47;
+        const double c3 = 0.3241217583793501 * r42, s3 = 0.3241217583793501 * r39;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1866,16 +1872,16 @@ typedef struct {
  */
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
-    const double r10 = r9 + r9;
-    if (!is_away(r6 + r7, 16.0 * r10)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 16.0 * r10)) {
         return;
     }
     const double f1 = 1.0;
     const Roots roots0 = square_roots(0.0 - r6 - r7, 3162.2776601683795 * sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r16 = w1 * shared->r1, r17 = w1 * shared->r3;
-        const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c1 = 0.0 - r17 * r22, s1 = r16 * r22;
+        const double w1 = roots0.values[i0], r18 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r18;
+        const double s1 = w1 * shared->r1 * r18;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

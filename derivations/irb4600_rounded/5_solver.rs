@@ -381,6 +381,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -557,20 +558,19 @@ struct Shared1 {
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r6 = shared.r1 * shared.r1;
     let r7 = shared.r3 * shared.r3;
+    let r8 = r6 + r7;
     let r9 = shared.r5 * shared.r5;
     let r10 = r9 + r9;
-    if !is_away(r6 + r7, 16.0 * r10) {
+    if !is_away(r8, 16.0 * r10) {
         return;
     }
     let f1 = 1.0;
     let r15 = 3162.2776601683795 * f64::max(r10, 0.0).sqrt();
     let roots0 = square_roots(0.0 - r6 - r7, r15);
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r16 = w1 * shared.r1;
-        let r17 = w1 * shared.r3;
-        let r22 = 1.0 / f64::max(r17 * r17 + r16 * r16, 0.0).sqrt();
-        let c1 = 0.0 - r17 * r22;
-        let s1 = r16 * r22;
+        let r18 = 1.0 / r8;
+        let c1 = 0.0 - w1 * shared.r3 * r18;
+        let s1 = w1 * shared.r1 * r18;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -627,9 +627,8 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
         let r39 = 0.3150000001485 * w3 - (0.0 - 1.7280148494671985 * shared.r30);
         let r42 = 1.7280148494671985 * w3 - 0.3150000001485 * shared.r30;
-        let r47 = 1.0 / f64::max(r42 * r42 + r39 * r39, 0.0).sqrt();
-        let c3 = r42 * r47;
-        let s3 = r39 * r47;
+        let c3 = 0.3241217583793501 * r42;
+        let s3 = 0.3241217583793501 * r39;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -727,17 +726,16 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13;
     let r16 = shared.r14 * shared.r14;
-    if !is_away(r15 + r16, 6784.0) {
+    let r17 = r15 + r16;
+    if !is_away(r17, 6784.0) {
         return;
     }
     let r22 = 3162.2776601683795 * (known.f2 * (20.591260281974 * known.f1));
     let roots0 = square_roots(0.0 - r15 - r16, r22);
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r23 = w4 * shared.r13;
-        let r24 = w4 * shared.r14;
-        let r29 = 1.0 / f64::max(r24 * r24 + r23 * r23, 0.0).sqrt();
-        let c4 = r24 * r29;
-        let s4 = r23 * r29;
+        let r25 = 1.0 / r17;
+        let c4 = w4 * shared.r14 * r25;
+        let s4 = w4 * shared.r13 * r25;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -1574,12 +1572,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1921,15 +1923,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

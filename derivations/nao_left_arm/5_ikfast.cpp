@@ -127,6 +127,7 @@ static const double ALONE = 1e-13;
 static const double ASIDE = 0.1;
 static const int NARROWS = 3;
 static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -507,8 +508,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -516,7 +518,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -863,14 +865,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1391,15 +1397,14 @@ typedef struct {
  */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8;
-    if (!is_away(r9 + r10, 976.0)) {
+    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8, r11 = r9 + r10;
+    if (!is_away(r11, 976.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r9 - r10, known->f1 * (7.810249675906654 * known->fr));
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double w3 = roots0.values[i0], r16 = w3 * shared->r7, r17 = w3 * shared->r8;
-        const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c3 = 0.0 - r17 * r22;
-        const double s3 = 0.0 - r16 * r22;
+        const double w3 = roots0.values[i0], r18 = 1.0 / r11, c3 = 0.0 - w3 * shared->r8 * r18;
+        const double s3 = 0.0 - w3 * shared->r7 * r18;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1500,16 +1505,16 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r21 = shared->r10 * shared->r10, r22 = shared->r16 * shared->r16;
+    const double r21 = shared->r10 * shared->r10, r22 = shared->r16 * shared->r16, r23 = r21 + r22;
     const double r26 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
-    if (!is_away(r21 + r22, 16.0 * r26)) {
+    if (!is_away(r23, 16.0 * r26)) {
         return;
     }
     const double f1 = 1.0;
     const Roots roots0 = square_roots(0.0 - r21 - r22, known->fr * sqrt(fmax(r26, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r32 = w1 * shared->r10, r33 = w1 * shared->r16;
-        const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r32 * r32, 0.0)), c1 = r33 * r38, s1 = r32 * r38;
+        const double w1 = roots0.values[i0], r34 = 1.0 / r23, c1 = w1 * shared->r16 * r34;
+        const double s1 = w1 * shared->r10 * r34;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1583,17 +1588,17 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r70 = shared->r26 * shared->r26, r71 = shared->r35 * shared->r35;
+    const double r70 = shared->r26 * shared->r26, r71 = shared->r35 * shared->r35, r72 = r70 + r71;
     const double r75 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
-    if (!is_away(r70 + r71, 16.0 * r75)) {
+    if (!is_away(r72, 16.0 * r75)) {
         return;
     }
     const double fr = 1.0;
     const Roots roots0 = square_roots(shared->r52 * shared->r52 - r70 - r71, sqrt(fmax(r75, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double wr = roots0.values[i0], r84 = wr * shared->r26 - (0.0 - shared->r35 * shared->r52);
-        const double r87 = shared->r26 * shared->r52 - wr * shared->r35;
-        const double r92 = 1.0 / sqrt(fmax(r87 * r87 + r84 * r84, 0.0)), cr = r87 * r92, sr = r84 * r92;
+        const double r88 = 1.0 / r72, r89 = (shared->r26 * shared->r52 - wr * shared->r35) * r88, cr = r89;
+        const double sr = r84 * r88;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;

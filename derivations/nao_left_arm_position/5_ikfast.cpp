@@ -126,6 +126,7 @@ static const double ALONE = 1e-13;
 static const double ASIDE = 0.1;
 static const int NARROWS = 3;
 static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -489,8 +490,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -498,7 +500,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -838,14 +840,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1322,16 +1328,16 @@ typedef struct {
  */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r7 = shared->r1 * shared->r1, r8 = p->px * p->px;
+    const double r7 = shared->r1 * shared->r1, r8 = p->px * p->px, r9 = r7 + r8;
     const double r12 = shared->r6 * shared->r6 + p->magnitude * p->magnitude;
-    if (!is_away(r7 + r8, 16.0 * r12)) {
+    if (!is_away(r9, 16.0 * r12)) {
         return;
     }
     const Roots roots0 = square_roots(shared->r4 * shared->r4 - r7 - r8, known->f4 * sqrt(fmax(r12, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r22 = w1 * shared->r1 - (0.0 - p->px * shared->r4);
-        const double r25 = p->px * w1 - shared->r1 * shared->r4;
-        const double r30 = 1.0 / sqrt(fmax(r25 * r25 + r22 * r22, 0.0)), c1 = r25 * r30, s1 = r22 * r30;
+        const double w1 = roots0.values[i0], r26 = 1.0 / r9;
+        const double r28 = (w1 * shared->r1 - (0.0 - p->px * shared->r4)) * r26;
+        const double c1 = (p->px * w1 - shared->r1 * shared->r4) * r26, s1 = r28;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1393,16 +1399,16 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r13 = shared->r3 * shared->r3;
-    if (!is_away(r13 + 0.0005701111289999999, 32.0)) {
+    const double r13 = shared->r3 * shared->r3, r14 = r13 + 0.0005701111289999999;
+    if (!is_away(r14, 32.0)) {
         return;
     }
     const double f4 = 1.0, r16 = shared->r12 * shared->r12 - 0.0005701111289999999;
     const Roots roots0 = square_roots(r16 - r13, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r20 = 0.023877 * w4 - shared->r3 * shared->r12;
-        const double r23 = w4 * shared->r3 + 0.023877 * shared->r12;
-        const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r20 * r20, 0.0)), c4 = 0.0 - r23 * r28, s4 = r20 * r28;
+        const double w4 = roots0.values[i0], r24 = 1.0 / r14;
+        const double r25 = (w4 * shared->r3 + 0.023877 * shared->r12) * r24;
+        const double r27 = (0.023877 * w4 - shared->r3 * shared->r12) * r24, c4 = 0.0 - r25, s4 = r27;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;

@@ -185,6 +185,7 @@ int nao_legs_nearest(const nao_legs_solution *list, int count, const double *ref
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -781,8 +782,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -790,7 +792,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -1182,14 +1184,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1811,16 +1817,15 @@ typedef struct {
  */
 INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r34 = shared->r32 * shared->r32, r35 = shared->r33 * shared->r33;
-    if (!is_away(r34 + r35, 36992.0)) {
+    const double r34 = shared->r32 * shared->r32, r35 = shared->r33 * shared->r33, r36 = r34 + r35;
+    if (!is_away(r36, 36992.0)) {
         return;
     }
     const double r40 = known->right_f3 * (48.08326112068523 * known->right_f2);
     const Roots roots0 = square_roots(0.0 - r34 - r35, r40);
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double right_w5 = roots0.values[i0], r41 = right_w5 * shared->r32, r42 = right_w5 * shared->r33;
-        const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r41 * r41, 0.0)), right_c5 = 0.0 - r42 * r47;
-        const double right_s5 = r41 * r47;
+        const double right_w5 = roots0.values[i0], r43 = 1.0 / r36;
+        const double right_c5 = 0.0 - right_w5 * shared->r33 * r43, right_s5 = right_w5 * shared->r32 * r43;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1970,9 +1975,8 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951 * known->right_f2);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w4 = roots0.values[i0], r32 = 0.02058 * right_w4, r33 = 0.02058 * shared->r28;
-        const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r32 * r32, 0.0)), right_c4 = 0.0 - r33 * r38;
-        const double right_s4 = r32 * r38;
+        const double right_w4 = roots0.values[i0], r35 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
+        const double right_c4 = r35, right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -2017,17 +2021,16 @@ typedef struct {
  */
 INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r31 = shared->r22 * shared->r22, r32 = shared->r25 * shared->r25;
+    const double r31 = shared->r22 * shared->r22, r32 = shared->r25 * shared->r25, r33 = r31 + r32;
     const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
-    if (!is_away(r31 + r32, 16.0 * r36)) {
+    if (!is_away(r33, 16.0 * r36)) {
         return;
     }
     const double right_f2 = 1.0;
     const Roots roots0 = square_roots(0.0 - r31 - r32, sqrt(fmax(r36, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w2 = roots0.values[i0], r41 = right_w2 * shared->r22, r42 = right_w2 * shared->r25;
-        const double r47 = 1.0 / sqrt(fmax(r42 * r42 + r41 * r41, 0.0)), right_c2 = r42 * r47;
-        const double right_s2 = 0.0 - r41 * r47;
+        const double right_w2 = roots0.values[i0], r43 = 1.0 / r33, right_c2 = right_w2 * shared->r25 * r43;
+        const double right_s2 = 0.0 - right_w2 * shared->r22 * r43;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -2252,16 +2255,15 @@ typedef struct {
  */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10;
-    if (!is_away(r11 + r12, 191.99999999999997)) {
+    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10, r13 = r11 + r12;
+    if (!is_away(r13, 191.99999999999997)) {
         return;
     }
     const double r17 = known->left_f5 * (3.4641016151377544 * known->left_f6);
     const Roots roots0 = square_roots(0.0 - r11 - r12, r17);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r18 = left_w1 * shared->r6, r19 = left_w1 * shared->r10;
-        const double r24 = 1.0 / sqrt(fmax(r19 * r19 + r18 * r18, 0.0)), left_c1 = 0.0 - r19 * r24;
-        const double left_s1 = r18 * r24;
+        const double left_w1 = roots0.values[i0], r20 = 1.0 / r13, left_c1 = 0.0 - left_w1 * shared->r10 * r20;
+        const double left_s1 = left_w1 * shared->r6 * r20;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -2424,17 +2426,16 @@ typedef struct {
  */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18;
+    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18, r26 = r24 + r25;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    if (!is_away(r24 + r25, 16.0 * r29)) {
+    if (!is_away(r26, 16.0 * r29)) {
         return;
     }
     const double left_f6 = 1.0;
     const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(fmax(r29, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w6 = roots0.values[i0], r34 = left_w6 * shared->r11, r35 = left_w6 * shared->r18;
-        const double r40 = 1.0 / sqrt(fmax(r35 * r35 + r34 * r34, 0.0)), left_c6 = 0.0 - r35 * r40;
-        const double left_s6 = r34 * r40;
+        const double left_w6 = roots0.values[i0], r36 = 1.0 / r26, left_c6 = 0.0 - left_w6 * shared->r18 * r36;
+        const double left_s6 = left_w6 * shared->r11 * r36;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -2498,9 +2499,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0], r31 = 0.02058 * left_w4, r32 = 0.02058 * shared->r28;
-        const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), left_c4 = 0.0 - r32 * r37;
-        const double left_s4 = r31 * r37;
+        const double left_w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
+        const double left_c4 = r34, left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

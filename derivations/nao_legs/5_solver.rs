@@ -378,6 +378,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -573,11 +574,9 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r31 = 0.02058 * left_w4;
-        let r32 = 0.02058 * shared.r28;
-        let r37 = 1.0 / f64::max(r32 * r32 + r31 * r31, 0.0).sqrt();
-        let left_c4 = 0.0 - r32 * r37;
-        let left_s4 = r31 * r37;
+        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28);
+        let left_c4 = r34;
+        let left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
         let next = Known { branch: i0, last: 2, close: roots0.close, left_c4, left_s4, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -613,18 +612,17 @@ struct Shared2 {
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r24 = shared.r11 * shared.r11;
     let r25 = shared.r18 * shared.r18;
+    let r26 = r24 + r25;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
-    if !is_away(r24 + r25, 16.0 * r29) {
+    if !is_away(r26, 16.0 * r29) {
         return;
     }
     let left_f6 = 1.0;
     let roots0 = square_roots(0.0 - r24 - r25, f64::max(r29, 0.0).sqrt());
     for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r34 = left_w6 * shared.r11;
-        let r35 = left_w6 * shared.r18;
-        let r40 = 1.0 / f64::max(r35 * r35 + r34 * r34, 0.0).sqrt();
-        let left_c6 = 0.0 - r35 * r40;
-        let left_s6 = r34 * r40;
+        let r36 = 1.0 / r26;
+        let left_c6 = 0.0 - left_w6 * shared.r18 * r36;
+        let left_s6 = left_w6 * shared.r11 * r36;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, left_c6, left_s6, left_f6, ..*known };
         block_3(p, &next, answers);
     }
@@ -766,17 +764,16 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r11 = shared.r6 * shared.r6;
     let r12 = shared.r10 * shared.r10;
-    if !is_away(r11 + r12, 191.99999999999997) {
+    let r13 = r11 + r12;
+    if !is_away(r13, 191.99999999999997) {
         return;
     }
     let r17 = known.left_f5 * (3.4641016151377544 * known.left_f6);
     let roots0 = square_roots(0.0 - r11 - r12, r17);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r18 = left_w1 * shared.r6;
-        let r19 = left_w1 * shared.r10;
-        let r24 = 1.0 / f64::max(r19 * r19 + r18 * r18, 0.0).sqrt();
-        let left_c1 = 0.0 - r19 * r24;
-        let left_s1 = r18 * r24;
+        let r20 = 1.0 / r13;
+        let left_c1 = 0.0 - left_w1 * shared.r10 * r20;
+        let left_s1 = left_w1 * shared.r6 * r20;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_5(p, &next, answers);
     }
@@ -964,18 +961,17 @@ struct Shared8 {
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     let r31 = shared.r22 * shared.r22;
     let r32 = shared.r25 * shared.r25;
+    let r33 = r31 + r32;
     let r36 = shared.r29 * shared.r29 + shared.r30 * shared.r30;
-    if !is_away(r31 + r32, 16.0 * r36) {
+    if !is_away(r33, 16.0 * r36) {
         return;
     }
     let right_f2 = 1.0;
     let roots0 = square_roots(0.0 - r31 - r32, f64::max(r36, 0.0).sqrt());
     for (i0, &right_w2) in roots0.as_slice().iter().enumerate() {
-        let r41 = right_w2 * shared.r22;
-        let r42 = right_w2 * shared.r25;
-        let r47 = 1.0 / f64::max(r42 * r42 + r41 * r41, 0.0).sqrt();
-        let right_c2 = r42 * r47;
-        let right_s2 = 0.0 - r41 * r47;
+        let r43 = 1.0 / r33;
+        let right_c2 = right_w2 * shared.r25 * r43;
+        let right_s2 = 0.0 - right_w2 * shared.r22 * r43;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, right_c2, right_s2, right_f2, ..*known };
         block_9(p, &next, answers);
     }
@@ -1030,11 +1026,9 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951 * known.right_f2);
     for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
-        let r32 = 0.02058 * right_w4;
-        let r33 = 0.02058 * shared.r28;
-        let r38 = 1.0 / f64::max(r33 * r33 + r32 * r32, 0.0).sqrt();
-        let right_c4 = 0.0 - r33 * r38;
-        let right_s4 = r32 * r38;
+        let r35 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28);
+        let right_c4 = r35;
+        let right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c4, right_s4, ..*known };
         block_10(p, &next, answers);
     }
@@ -1148,17 +1142,16 @@ struct Shared11 {
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r34 = shared.r32 * shared.r32;
     let r35 = shared.r33 * shared.r33;
-    if !is_away(r34 + r35, 36992.0) {
+    let r36 = r34 + r35;
+    if !is_away(r36, 36992.0) {
         return;
     }
     let r40 = known.right_f3 * (48.08326112068523 * known.right_f2);
     let roots0 = square_roots(0.0 - r34 - r35, r40);
     for (i0, &right_w5) in roots0.as_slice().iter().enumerate().take(1) {
-        let r41 = right_w5 * shared.r32;
-        let r42 = right_w5 * shared.r33;
-        let r47 = 1.0 / f64::max(r42 * r42 + r41 * r41, 0.0).sqrt();
-        let right_c5 = 0.0 - r42 * r47;
-        let right_s5 = r41 * r47;
+        let r43 = 1.0 / r36;
+        let right_c5 = 0.0 - right_w5 * shared.r33 * r43;
+        let right_s5 = right_w5 * shared.r32 * r43;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, right_c5, right_s5, ..*known };
         block_12(p, &next, answers);
     }
@@ -2035,12 +2028,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -2417,15 +2414,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

@@ -191,6 +191,7 @@ int nao_legs_poses_nearest(const nao_legs_poses_solution *list, int count, const
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -831,8 +832,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -840,7 +842,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -1232,14 +1234,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1919,16 +1925,15 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
  */
 static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r42 = shared->r17 * shared->r17, r43 = shared->r24 * shared->r24;
+    const double r42 = shared->r17 * shared->r17, r43 = shared->r24 * shared->r24, r44 = r42 + r43;
     const double r47 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 16.0 * r47))) {
+    if (!(is_near(shared->r37, shared->r41) && is_away(r44, 16.0 * r47))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r42 - r43, sqrt(fmax(r47, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w6 = roots0.values[i0], r52 = right_w6 * shared->r17, r53 = right_w6 * shared->r24;
-        const double r58 = 1.0 / sqrt(fmax(r53 * r53 + r52 * r52, 0.0)), right_c6 = r53 * r58;
-        const double right_s6 = r52 * r58;
+        const double right_w6 = roots0.values[i0], r54 = 1.0 / r44, right_c6 = right_w6 * shared->r24 * r54;
+        const double right_s6 = right_w6 * shared->r17 * r54;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -1968,15 +1973,14 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
  */
 static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r42 = shared->r26 * shared->r26, r43 = shared->r28 * shared->r28;
-    if (!(is_near(shared->r37, shared->r41) && is_away(r42 + r43, 288.0))) {
+    const double r42 = shared->r26 * shared->r26, r43 = shared->r28 * shared->r28, r44 = r42 + r43;
+    if (!(is_near(shared->r37, shared->r41) && is_away(r44, 288.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r42 - r43, 4.242640687119285);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w6 = roots0.values[i0], r47 = right_w6 * shared->r26, r48 = right_w6 * shared->r28;
-        const double r53 = 1.0 / sqrt(fmax(r48 * r48 + r47 * r47, 0.0)), right_c6 = 0.0 - r48 * r53;
-        const double right_s6 = r47 * r53;
+        const double right_w6 = roots0.values[i0], r49 = 1.0 / r44;
+        const double right_c6 = 0.0 - right_w6 * shared->r28 * r49, right_s6 = right_w6 * shared->r26 * r49;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
@@ -2044,9 +2048,8 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w4 = roots0.values[i0], r31 = 0.02058 * right_w4, r32 = 0.02058 * shared->r28;
-        const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), right_c4 = 0.0 - r32 * r37;
-        const double right_s4 = r31 * r37;
+        const double right_w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
+        const double right_c4 = r34, right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -2292,16 +2295,15 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
  */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r41 = shared->r17 * shared->r17, r42 = shared->r24 * shared->r24;
+    const double r41 = shared->r17 * shared->r17, r42 = shared->r24 * shared->r24, r43 = r41 + r42;
     const double r46 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 16.0 * r46))) {
+    if (!(is_near(shared->r36, shared->r40) && is_away(r43, 16.0 * r46))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r41 - r42, sqrt(fmax(r46, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w6 = roots0.values[i0], r51 = left_w6 * shared->r17, r52 = left_w6 * shared->r24;
-        const double r57 = 1.0 / sqrt(fmax(r52 * r52 + r51 * r51, 0.0)), left_c6 = 0.0 - r52 * r57;
-        const double left_s6 = r51 * r57;
+        const double left_w6 = roots0.values[i0], r53 = 1.0 / r43, left_c6 = 0.0 - left_w6 * shared->r24 * r53;
+        const double left_s6 = left_w6 * shared->r17 * r53;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -2341,15 +2343,14 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
  */
 static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r41 = shared->r26 * shared->r26, r42 = shared->r28 * shared->r28;
-    if (!(is_near(shared->r36, shared->r40) && is_away(r41 + r42, 288.0))) {
+    const double r41 = shared->r26 * shared->r26, r42 = shared->r28 * shared->r28, r43 = r41 + r42;
+    if (!(is_near(shared->r36, shared->r40) && is_away(r43, 288.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r41 - r42, 4.242640687119285);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w6 = roots0.values[i0], r46 = left_w6 * shared->r26, r47 = left_w6 * shared->r28;
-        const double r52 = 1.0 / sqrt(fmax(r47 * r47 + r46 * r46, 0.0)), left_c6 = 0.0 - r47 * r52;
-        const double left_s6 = r46 * r52;
+        const double left_w6 = roots0.values[i0], r48 = 1.0 / r43, left_c6 = 0.0 - left_w6 * shared->r28 * r48;
+        const double left_s6 = left_w6 * shared->r26 * r48;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
@@ -2417,9 +2418,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0], r31 = 0.02058 * left_w4, r32 = 0.02058 * shared->r28;
-        const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), left_c4 = 0.0 - r32 * r37;
-        const double left_s4 = r31 * r37;
+        const double left_w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
+        const double left_c4 = r34, left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -2489,16 +2489,15 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
  */
 static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r68 = shared->r19 * shared->r19, r69 = shared->r32 * shared->r32;
+    const double r68 = shared->r19 * shared->r19, r69 = shared->r32 * shared->r32, r70 = r68 + r69;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 16.0 * r73))) {
+    if (!(is_near(shared->r64, shared->r67) && is_away(r70, 16.0 * r73))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r78 = left_w1 * shared->r19, r81 = left_w1 * shared->r32;
-        const double r88 = 1.0 / sqrt(fmax(r81 * r81 + r78 * r78, 0.0)), left_c1 = r81 * r88;
-        const double left_s1 = r78 * r88;
+        const double left_w1 = roots0.values[i0], r84 = 1.0 / r70, left_c1 = left_w1 * shared->r32 * r84;
+        const double left_s1 = left_w1 * shared->r19 * r84;
         Known next = NOTHING_KNOWN;
         next.branch = 1 + i0;
         next.last = 3;
@@ -2538,16 +2537,15 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
  */
 static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r68 = shared->r41 * shared->r41, r69 = shared->r54 * shared->r54;
+    const double r68 = shared->r41 * shared->r41, r69 = shared->r54 * shared->r54, r70 = r68 + r69;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_away(r68 + r69, 16.0 * r73))) {
+    if (!(is_near(shared->r64, shared->r67) && is_away(r70, 16.0 * r73))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w1 = roots0.values[i0], r78 = left_w1 * shared->r41, r81 = left_w1 * shared->r54;
-        const double r89 = 1.0 / sqrt(fmax(r81 * r81 + r78 * r78, 0.0)), left_c1 = 0.0 - r81 * r89;
-        const double left_s1 = r78 * r89;
+        const double left_w1 = roots0.values[i0], r85 = 1.0 / r70, left_c1 = 0.0 - left_w1 * shared->r54 * r85;
+        const double left_s1 = left_w1 * shared->r41 * r85;
         Known next = NOTHING_KNOWN;
         next.branch = 4 + i0;
         next.last = 6;

@@ -383,6 +383,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -615,17 +616,16 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r68 = shared.r19 * shared.r19;
     let r69 = shared.r32 * shared.r32;
+    let r70 = r68 + r69;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 16.0 * r73)) {
+    if !(is_near(shared.r64, shared.r67) && is_away(r70, 16.0 * r73)) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r78 = left_w1 * shared.r19;
-        let r81 = left_w1 * shared.r32;
-        let r88 = 1.0 / f64::max(r81 * r81 + r78 * r78, 0.0).sqrt();
-        let left_c1 = r81 * r88;
-        let left_s1 = r78 * r88;
+        let r84 = 1.0 / r70;
+        let left_c1 = left_w1 * shared.r32 * r84;
+        let left_s1 = left_w1 * shared.r19 * r84;
         let next = Known { branch: 1 + i0, last: 3, close: roots0.close, left_c1, left_s1, ..NOTHING_KNOWN };
         again_2(p, &next, answers);
     }
@@ -651,17 +651,16 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r68 = shared.r41 * shared.r41;
     let r69 = shared.r54 * shared.r54;
+    let r70 = r68 + r69;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_away(r68 + r69, 16.0 * r73)) {
+    if !(is_near(shared.r64, shared.r67) && is_away(r70, 16.0 * r73)) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r78 = left_w1 * shared.r41;
-        let r81 = left_w1 * shared.r54;
-        let r89 = 1.0 / f64::max(r81 * r81 + r78 * r78, 0.0).sqrt();
-        let left_c1 = 0.0 - r81 * r89;
-        let left_s1 = r78 * r89;
+        let r85 = 1.0 / r70;
+        let left_c1 = 0.0 - left_w1 * shared.r54 * r85;
+        let left_s1 = left_w1 * shared.r41 * r85;
         let next = Known { branch: 4 + i0, last: 6, close: roots0.close, left_c1, left_s1, ..NOTHING_KNOWN };
         again_2(p, &next, answers);
     }
@@ -715,11 +714,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r31 = 0.02058 * left_w4;
-        let r32 = 0.02058 * shared.r28;
-        let r37 = 1.0 / f64::max(r32 * r32 + r31 * r31, 0.0).sqrt();
-        let left_c4 = 0.0 - r32 * r37;
-        let left_s4 = r31 * r37;
+        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28);
+        let left_c4 = r34;
+        let left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
         block_3(p, &next, answers);
     }
@@ -786,17 +783,16 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r41 = shared.r17 * shared.r17;
     let r42 = shared.r24 * shared.r24;
+    let r43 = r41 + r42;
     let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 16.0 * r46)) {
+    if !(is_near(shared.r36, shared.r40) && is_away(r43, 16.0 * r46)) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, f64::max(r46, 0.0).sqrt());
     for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r51 = left_w6 * shared.r17;
-        let r52 = left_w6 * shared.r24;
-        let r57 = 1.0 / f64::max(r52 * r52 + r51 * r51, 0.0).sqrt();
-        let left_c6 = 0.0 - r52 * r57;
-        let left_s6 = r51 * r57;
+        let r53 = 1.0 / r43;
+        let left_c6 = 0.0 - left_w6 * shared.r24 * r53;
+        let left_s6 = left_w6 * shared.r17 * r53;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c6, left_s6, ..*known };
         again_4(p, &next, answers);
     }
@@ -822,16 +818,15 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r41 = shared.r26 * shared.r26;
     let r42 = shared.r28 * shared.r28;
-    if !(is_near(shared.r36, shared.r40) && is_away(r41 + r42, 288.0)) {
+    let r43 = r41 + r42;
+    if !(is_near(shared.r36, shared.r40) && is_away(r43, 288.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, 4.242640687119285);
     for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r46 = left_w6 * shared.r26;
-        let r47 = left_w6 * shared.r28;
-        let r52 = 1.0 / f64::max(r47 * r47 + r46 * r46, 0.0).sqrt();
-        let left_c6 = 0.0 - r47 * r52;
-        let left_s6 = r46 * r52;
+        let r48 = 1.0 / r43;
+        let left_c6 = 0.0 - left_w6 * shared.r28 * r48;
+        let left_s6 = left_w6 * shared.r26 * r48;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c6, left_s6, ..*known };
         again_4(p, &next, answers);
     }
@@ -1049,11 +1044,9 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
-        let r31 = 0.02058 * right_w4;
-        let r32 = 0.02058 * shared.r28;
-        let r37 = 1.0 / f64::max(r32 * r32 + r31 * r31, 0.0).sqrt();
-        let right_c4 = 0.0 - r32 * r37;
-        let right_s4 = r31 * r37;
+        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28);
+        let right_c4 = r34;
+        let right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c4, right_s4, ..*known };
         block_8(p, &next, answers);
     }
@@ -1121,17 +1114,16 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     let r42 = shared.r17 * shared.r17;
     let r43 = shared.r24 * shared.r24;
+    let r44 = r42 + r43;
     let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 16.0 * r47)) {
+    if !(is_near(shared.r37, shared.r41) && is_away(r44, 16.0 * r47)) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, f64::max(r47, 0.0).sqrt());
     for (i0, &right_w6) in roots0.as_slice().iter().enumerate() {
-        let r52 = right_w6 * shared.r17;
-        let r53 = right_w6 * shared.r24;
-        let r58 = 1.0 / f64::max(r53 * r53 + r52 * r52, 0.0).sqrt();
-        let right_c6 = r53 * r58;
-        let right_s6 = r52 * r58;
+        let r54 = 1.0 / r44;
+        let right_c6 = right_w6 * shared.r24 * r54;
+        let right_s6 = right_w6 * shared.r17 * r54;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c6, right_s6, ..*known };
         again_9(p, &next, answers);
     }
@@ -1157,16 +1149,15 @@ fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     let r42 = shared.r26 * shared.r26;
     let r43 = shared.r28 * shared.r28;
-    if !(is_near(shared.r37, shared.r41) && is_away(r42 + r43, 288.0)) {
+    let r44 = r42 + r43;
+    if !(is_near(shared.r37, shared.r41) && is_away(r44, 288.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, 4.242640687119285);
     for (i0, &right_w6) in roots0.as_slice().iter().enumerate() {
-        let r47 = right_w6 * shared.r26;
-        let r48 = right_w6 * shared.r28;
-        let r53 = 1.0 / f64::max(r48 * r48 + r47 * r47, 0.0).sqrt();
-        let right_c6 = 0.0 - r48 * r53;
-        let right_s6 = r47 * r53;
+        let r49 = 1.0 / r44;
+        let right_c6 = 0.0 - right_w6 * shared.r28 * r49;
+        let right_s6 = right_w6 * shared.r26 * r49;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c6, right_s6, ..*known };
         again_9(p, &next, answers);
     }
@@ -2160,12 +2151,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -2542,15 +2537,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

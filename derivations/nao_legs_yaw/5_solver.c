@@ -196,6 +196,7 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -1133,8 +1134,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -1142,7 +1144,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -1555,14 +1557,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -2292,16 +2298,15 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
  */
 static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68;
+    const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68, r88 = r86 + r87;
     const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 16.0 * r91))) {
+    if (!(is_near(shared->r81, shared->r85) && is_away(r88, 16.0 * r91))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, sqrt(fmax(r91, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w9 = roots0.values[i0], r96 = right_w9 * shared->r57, r97 = right_w9 * shared->r68;
-        const double r102 = 1.0 / sqrt(fmax(r97 * r97 + r96 * r96, 0.0)), right_c9 = r97 * r102;
-        const double right_s9 = r96 * r102;
+        const double right_w9 = roots0.values[i0], r98 = 1.0 / r88, right_c9 = right_w9 * shared->r68 * r98;
+        const double right_s9 = right_w9 * shared->r57 * r98;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -2341,15 +2346,14 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
  */
 static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
-    const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r86 + r87, 43808.0))) {
+    const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72, r88 = r86 + r87;
+    if (!(is_near(shared->r81, shared->r85) && is_away(r88, 43808.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w9 = roots0.values[i0], r91 = right_w9 * shared->r70, r92 = right_w9 * shared->r72;
-        const double r97 = 1.0 / sqrt(fmax(r92 * r92 + r91 * r91, 0.0)), right_c9 = 0.0 - r92 * r97;
-        const double right_s9 = r91 * r97;
+        const double right_w9 = roots0.values[i0], r93 = 1.0 / r88;
+        const double right_c9 = 0.0 - right_w9 * shared->r72 * r93, right_s9 = right_w9 * shared->r70 * r93;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
@@ -2430,9 +2434,8 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r43, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w7 = roots0.values[i0], r44 = 0.02058 * right_w7, r45 = 0.02058 * shared->r41;
-        const double r50 = 1.0 / sqrt(fmax(r45 * r45 + r44 * r44, 0.0)), right_c7 = 0.0 - r45 * r50;
-        const double right_s7 = r44 * r50;
+        const double right_w7 = roots0.values[i0], r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r41);
+        const double right_c7 = r47, right_s7 = 2361.0721534205795 * (0.02058 * right_w7);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -2693,16 +2696,15 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
  */
 static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68;
+    const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68, r87 = r85 + r86;
     const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 16.0 * r90))) {
+    if (!(is_near(shared->r80, shared->r84) && is_away(r87, 16.0 * r90))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, sqrt(fmax(r90, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w9 = roots0.values[i0], r95 = left_w9 * shared->r57, r96 = left_w9 * shared->r68;
-        const double r101 = 1.0 / sqrt(fmax(r96 * r96 + r95 * r95, 0.0)), left_c9 = 0.0 - r96 * r101;
-        const double left_s9 = r95 * r101;
+        const double left_w9 = roots0.values[i0], r97 = 1.0 / r87, left_c9 = 0.0 - left_w9 * shared->r68 * r97;
+        const double left_s9 = left_w9 * shared->r57 * r97;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -2742,15 +2744,14 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
  */
 static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r85 + r86, 43808.0))) {
+    const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72, r87 = r85 + r86;
+    if (!(is_near(shared->r80, shared->r84) && is_away(r87, 43808.0))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w9 = roots0.values[i0], r90 = left_w9 * shared->r70, r91 = left_w9 * shared->r72;
-        const double r96 = 1.0 / sqrt(fmax(r91 * r91 + r90 * r90, 0.0)), left_c9 = 0.0 - r91 * r96;
-        const double left_s9 = r90 * r96;
+        const double left_w9 = roots0.values[i0], r92 = 1.0 / r87, left_c9 = 0.0 - left_w9 * shared->r72 * r92;
+        const double left_s9 = left_w9 * shared->r70 * r92;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;
@@ -2828,9 +2829,8 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r43, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w7 = roots0.values[i0], r44 = 0.02058 * left_w7, r45 = 0.02058 * shared->r41;
-        const double r50 = 1.0 / sqrt(fmax(r45 * r45 + r44 * r44, 0.0)), left_c7 = 0.0 - r45 * r50;
-        const double left_s7 = r44 * r50;
+        const double left_w7 = roots0.values[i0], r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r41);
+        const double left_c7 = r47, left_s7 = 2361.0721534205795 * (0.02058 * left_w7);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -2903,16 +2903,15 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
  */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110;
+    const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110, r148 = r146 + r147;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 16.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r148, 16.0 * r151))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0], r156 = left_w4 * shared->r98, r160 = left_w4 * shared->r110;
-        const double r167 = 1.0 / sqrt(fmax(r160 * r160 + r156 * r156, 0.0)), left_c4 = r160 * r167;
-        const double left_s4 = 0.0 - r156 * r167;
+        const double left_w4 = roots0.values[i0], r163 = 1.0 / r148, left_c4 = left_w4 * shared->r110 * r163;
+        const double left_s4 = 0.0 - left_w4 * shared->r98 * r163;
         Known next = *known;
         next.branch = 7 * known->branch + 1 + i0;
         next.last = 7 * known->last;
@@ -2952,16 +2951,16 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
  */
 static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132;
+    const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132, r148 = r146 + r147;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r146 + r147, 16.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145) && is_away(r148, 16.0 * r151))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double left_w4 = roots0.values[i0], r156 = left_w4 * shared->r120, r160 = left_w4 * shared->r132;
-        const double r168 = 1.0 / sqrt(fmax(r160 * r160 + r156 * r156, 0.0)), left_c4 = 0.0 - r160 * r168;
-        const double left_s4 = 0.0 - r156 * r168;
+        const double left_w4 = roots0.values[i0], r164 = 1.0 / r148;
+        const double left_c4 = 0.0 - left_w4 * shared->r132 * r164;
+        const double left_s4 = 0.0 - left_w4 * shared->r120 * r164;
         Known next = *known;
         next.branch = 7 * known->branch + 4 + i0;
         next.last = 7 * known->last;

@@ -391,6 +391,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -1080,18 +1081,16 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r146 = shared.r98 * shared.r98;
     let r147 = shared.r110 * shared.r110;
+    let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 16.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145) && is_away(r148, 16.0 * r151)) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r156 = left_w4 * shared.r98;
-        let r160 = left_w4 * shared.r110;
-        let r166 = f64::max(r160 * r160 + r156 * r156, 0.0).sqrt();
-        let r167 = 1.0 / r166;
-        let left_c4 = r160 * r167;
-        let left_s4 = 0.0 - r156 * r167;
+        let r163 = 1.0 / r148;
+        let left_c4 = left_w4 * shared.r110 * r163;
+        let left_s4 = 0.0 - left_w4 * shared.r98 * r163;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
         again_5(p, &next, answers);
     }
@@ -1117,18 +1116,16 @@ fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r146 = shared.r120 * shared.r120;
     let r147 = shared.r132 * shared.r132;
+    let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r146 + r147, 16.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145) && is_away(r148, 16.0 * r151)) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r156 = left_w4 * shared.r120;
-        let r160 = left_w4 * shared.r132;
-        let r167 = f64::max(r160 * r160 + r156 * r156, 0.0).sqrt();
-        let r168 = 1.0 / r167;
-        let left_c4 = 0.0 - r160 * r168;
-        let left_s4 = 0.0 - r156 * r168;
+        let r164 = 1.0 / r148;
+        let left_c4 = 0.0 - left_w4 * shared.r132 * r164;
+        let left_s4 = 0.0 - left_w4 * shared.r120 * r164;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
         again_5(p, &next, answers);
     }
@@ -1186,11 +1183,9 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
     let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
     let roots0 = square_roots(r43, 1.4142135623730951);
     for (i0, &left_w7) in roots0.as_slice().iter().enumerate() {
-        let r44 = 0.02058 * left_w7;
-        let r45 = 0.02058 * shared.r41;
-        let r50 = 1.0 / f64::max(r45 * r45 + r44 * r44, 0.0).sqrt();
-        let left_c7 = 0.0 - r45 * r50;
-        let left_s7 = r44 * r50;
+        let r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r41);
+        let left_c7 = r47;
+        let left_s7 = 2361.0721534205795 * (0.02058 * left_w7);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, left_c7, left_s7, ..*known };
         block_6(p, &next, answers);
     }
@@ -1274,17 +1269,16 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r85 = shared.r57 * shared.r57;
     let r86 = shared.r68 * shared.r68;
+    let r87 = r85 + r86;
     let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 16.0 * r90)) {
+    if !(is_near(shared.r80, shared.r84) && is_away(r87, 16.0 * r90)) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, f64::max(r90, 0.0).sqrt());
     for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r95 = left_w9 * shared.r57;
-        let r96 = left_w9 * shared.r68;
-        let r101 = 1.0 / f64::max(r96 * r96 + r95 * r95, 0.0).sqrt();
-        let left_c9 = 0.0 - r96 * r101;
-        let left_s9 = r95 * r101;
+        let r97 = 1.0 / r87;
+        let left_c9 = 0.0 - left_w9 * shared.r68 * r97;
+        let left_s9 = left_w9 * shared.r57 * r97;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
     }
@@ -1310,16 +1304,15 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r85 = shared.r70 * shared.r70;
     let r86 = shared.r72 * shared.r72;
-    if !(is_near(shared.r80, shared.r84) && is_away(r85 + r86, 43808.0)) {
+    let r87 = r85 + r86;
+    if !(is_near(shared.r80, shared.r84) && is_away(r87, 43808.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
     for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r90 = left_w9 * shared.r70;
-        let r91 = left_w9 * shared.r72;
-        let r96 = 1.0 / f64::max(r91 * r91 + r90 * r90, 0.0).sqrt();
-        let left_c9 = 0.0 - r91 * r96;
-        let left_s9 = r90 * r96;
+        let r92 = 1.0 / r87;
+        let left_c9 = 0.0 - left_w9 * shared.r72 * r92;
+        let left_s9 = left_w9 * shared.r70 * r92;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
     }
@@ -1557,11 +1550,9 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
     let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
     let roots0 = square_roots(r43, 1.4142135623730951);
     for (i0, &right_w7) in roots0.as_slice().iter().enumerate() {
-        let r44 = 0.02058 * right_w7;
-        let r45 = 0.02058 * shared.r41;
-        let r50 = 1.0 / f64::max(r45 * r45 + r44 * r44, 0.0).sqrt();
-        let right_c7 = 0.0 - r45 * r50;
-        let right_s7 = r44 * r50;
+        let r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r41);
+        let right_c7 = r47;
+        let right_s7 = 2361.0721534205795 * (0.02058 * right_w7);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c7, right_s7, ..*known };
         block_11(p, &next, answers);
     }
@@ -1646,17 +1637,16 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r86 = shared.r57 * shared.r57;
     let r87 = shared.r68 * shared.r68;
+    let r88 = r86 + r87;
     let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 16.0 * r91)) {
+    if !(is_near(shared.r81, shared.r85) && is_away(r88, 16.0 * r91)) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, f64::max(r91, 0.0).sqrt());
     for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r96 = right_w9 * shared.r57;
-        let r97 = right_w9 * shared.r68;
-        let r102 = 1.0 / f64::max(r97 * r97 + r96 * r96, 0.0).sqrt();
-        let right_c9 = r97 * r102;
-        let right_s9 = r96 * r102;
+        let r98 = 1.0 / r88;
+        let right_c9 = right_w9 * shared.r68 * r98;
+        let right_s9 = right_w9 * shared.r57 * r98;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
     }
@@ -1682,16 +1672,15 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r86 = shared.r70 * shared.r70;
     let r87 = shared.r72 * shared.r72;
-    if !(is_near(shared.r81, shared.r85) && is_away(r86 + r87, 43808.0)) {
+    let r88 = r86 + r87;
+    if !(is_near(shared.r81, shared.r85) && is_away(r88, 43808.0)) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
     for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r91 = right_w9 * shared.r70;
-        let r92 = right_w9 * shared.r72;
-        let r97 = 1.0 / f64::max(r92 * r92 + r91 * r91, 0.0).sqrt();
-        let right_c9 = 0.0 - r92 * r97;
-        let right_s9 = r91 * r97;
+        let r93 = 1.0 / r88;
+        let right_c9 = 0.0 - right_w9 * shared.r72 * r93;
+        let right_s9 = right_w9 * shared.r70 * r93;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
     }
@@ -2842,12 +2831,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -3245,15 +3238,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

@@ -354,6 +354,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -576,18 +577,19 @@ struct Shared2 {
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r70 = shared.r26 * shared.r26;
     let r71 = shared.r35 * shared.r35;
+    let r72 = r70 + r71;
     let r75 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
-    if !is_away(r70 + r71, 16.0 * r75) {
+    if !is_away(r72, 16.0 * r75) {
         return;
     }
     let fr = 1.0;
     let roots0 = square_roots(shared.r52 * shared.r52 - r70 - r71, f64::max(r75, 0.0).sqrt());
     for (i0, &wr) in roots0.as_slice().iter().enumerate() {
         let r84 = wr * shared.r26 - (0.0 - shared.r35 * shared.r52);
-        let r87 = shared.r26 * shared.r52 - wr * shared.r35;
-        let r92 = 1.0 / f64::max(r87 * r87 + r84 * r84, 0.0).sqrt();
-        let cr = r87 * r92;
-        let sr = r84 * r92;
+        let r88 = 1.0 / r72;
+        let r89 = (shared.r26 * shared.r52 - wr * shared.r35) * r88;
+        let cr = r89;
+        let sr = r84 * r88;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, cr, sr, fr, ..*known };
         block_3(p, &next, answers);
     }
@@ -644,18 +646,17 @@ struct Shared3 {
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r21 = shared.r10 * shared.r10;
     let r22 = shared.r16 * shared.r16;
+    let r23 = r21 + r22;
     let r26 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
-    if !is_away(r21 + r22, 16.0 * r26) {
+    if !is_away(r23, 16.0 * r26) {
         return;
     }
     let f1 = 1.0;
     let roots0 = square_roots(0.0 - r21 - r22, known.fr * f64::max(r26, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r32 = w1 * shared.r10;
-        let r33 = w1 * shared.r16;
-        let r38 = 1.0 / f64::max(r33 * r33 + r32 * r32, 0.0).sqrt();
-        let c1 = r33 * r38;
-        let s1 = r32 * r38;
+        let r34 = 1.0 / r23;
+        let c1 = w1 * shared.r16 * r34;
+        let s1 = w1 * shared.r10 * r34;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, f1, ..*known };
         block_4(p, &next, answers);
     }
@@ -739,16 +740,15 @@ struct Shared5 {
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r9 = shared.r7 * shared.r7;
     let r10 = shared.r8 * shared.r8;
-    if !is_away(r9 + r10, 976.0) {
+    let r11 = r9 + r10;
+    if !is_away(r11, 976.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r9 - r10, known.f1 * (7.810249675906654 * known.fr));
     for (i0, &w3) in roots0.as_slice().iter().enumerate().take(1) {
-        let r16 = w3 * shared.r7;
-        let r17 = w3 * shared.r8;
-        let r22 = 1.0 / f64::max(r17 * r17 + r16 * r16, 0.0).sqrt();
-        let c3 = 0.0 - r17 * r22;
-        let s3 = 0.0 - r16 * r22;
+        let r18 = 1.0 / r11;
+        let c3 = 0.0 - w3 * shared.r8 * r18;
+        let s3 = 0.0 - w3 * shared.r7 * r18;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c3, s3, ..*known };
         block_6(p, &next, answers);
     }
@@ -1276,12 +1276,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1616,15 +1620,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

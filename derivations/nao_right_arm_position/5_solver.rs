@@ -357,6 +357,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -459,7 +460,8 @@ struct Shared2 {
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r13 = shared.r3 * shared.r3;
-    if !is_away(r13 + 0.0005701111289999999, 32.0) {
+    let r14 = r13 + 0.0005701111289999999;
+    if !is_away(r14, 32.0) {
         return;
     }
     let f4 = 1.0;
@@ -467,10 +469,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let roots0 = square_roots(r16 - r13, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
         let r21 = 0.023877 * w4 - (0.0 - shared.r3 * shared.r12);
-        let r24 = w4 * shared.r3 - 0.023877 * shared.r12;
-        let r29 = 1.0 / f64::max(r24 * r24 + r21 * r21, 0.0).sqrt();
-        let c4 = r24 * r29;
-        let s4 = r21 * r29;
+        let r25 = 1.0 / r14;
+        let r26 = (w4 * shared.r3 - 0.023877 * shared.r12) * r25;
+        let c4 = r26;
+        let s4 = r21 * r25;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c4, s4, f4, ..*known };
         block_3(p, &next, answers);
     }
@@ -522,17 +524,17 @@ struct Shared3 {
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r7 = shared.r1 * shared.r1;
     let r8 = p.px * p.px;
+    let r9 = r7 + r8;
     let r12 = shared.r6 * shared.r6 + p.magnitude * p.magnitude;
-    if !is_away(r7 + r8, 16.0 * r12) {
+    if !is_away(r9, 16.0 * r12) {
         return;
     }
     let roots0 = square_roots(shared.r4 * shared.r4 - r7 - r8, known.f4 * f64::max(r12, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r22 = w1 * shared.r1 - (0.0 - p.px * shared.r4);
-        let r25 = p.px * w1 - shared.r1 * shared.r4;
-        let r30 = 1.0 / f64::max(r25 * r25 + r22 * r22, 0.0).sqrt();
-        let c1 = r25 * r30;
-        let s1 = r22 * r30;
+        let r26 = 1.0 / r9;
+        let r28 = (w1 * shared.r1 - (0.0 - p.px * shared.r4)) * r26;
+        let c1 = (p.px * w1 - shared.r1 * shared.r4) * r26;
+        let s1 = r28;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -986,12 +988,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1319,15 +1325,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

@@ -178,6 +178,7 @@ int nao_right_leg_nearest(const nao_right_leg_solution *list, int count, const d
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -645,8 +646,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -654,7 +656,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -1011,14 +1013,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1568,14 +1574,14 @@ typedef struct {
  */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10;
-    if (!is_away(r11 + r12, 191.99999999999997)) {
+    const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10, r13 = r11 + r12;
+    if (!is_away(r13, 191.99999999999997)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r11 - r12, known->f5 * (3.4641016151377544 * known->f6));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r18 = w1 * shared->r6, r19 = w1 * shared->r10;
-        const double r24 = 1.0 / sqrt(fmax(r19 * r19 + r18 * r18, 0.0)), c1 = 0.0 - r19 * r24, s1 = r18 * r24;
+        const double w1 = roots0.values[i0], r20 = 1.0 / r13, c1 = 0.0 - w1 * shared->r10 * r20;
+        const double s1 = w1 * shared->r6 * r20;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1732,16 +1738,16 @@ typedef struct {
  */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18;
+    const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18, r26 = r24 + r25;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    if (!is_away(r24 + r25, 16.0 * r29)) {
+    if (!is_away(r26, 16.0 * r29)) {
         return;
     }
     const double f6 = 1.0;
     const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(fmax(r29, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w6 = roots0.values[i0], r34 = w6 * shared->r11, r35 = w6 * shared->r18;
-        const double r40 = 1.0 / sqrt(fmax(r35 * r35 + r34 * r34, 0.0)), c6 = r35 * r40, s6 = r34 * r40;
+        const double w6 = roots0.values[i0], r36 = 1.0 / r26, c6 = w6 * shared->r18 * r36;
+        const double s6 = w6 * shared->r11 * r36;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1805,8 +1811,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r31 = 0.02058 * w4, r32 = 0.02058 * shared->r28;
-        const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), c4 = 0.0 - r32 * r37, s4 = r31 * r37;
+        const double w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28), c4 = r34;
+        const double s4 = 2361.0721534205795 * (0.02058 * w4);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

@@ -125,6 +125,7 @@ static const double ALONE = 1e-13;
 static const double ASIDE = 0.1;
 static const int NARROWS = 3;
 static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -480,8 +481,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -489,7 +491,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -822,14 +824,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1317,8 +1323,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     const double r15 = shared->r13 * shared->r13 - 0.16000000000000003;
     const Roots roots0 = square_roots(r15, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r16 = 0.4 * w2, r17 = 0.4 * shared->r13;
-        const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c2 = 0.0 - r17 * r22, s2 = r16 * r22;
+        const double w2 = roots0.values[i0], r19 = 0.0 - 6.249999999999999 * (0.4 * shared->r13), c2 = r19;
+        const double s2 = 6.249999999999999 * (0.4 * w2);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

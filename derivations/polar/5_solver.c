@@ -162,6 +162,7 @@ int polar_nearest(const polar_solution *list, int count, const double *reference
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -502,8 +503,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -511,7 +513,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -846,14 +848,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1328,15 +1334,15 @@ typedef struct {
  */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r9 = shared->r2 * shared->r2, r10 = shared->r3 * shared->r3;
+    const double r9 = shared->r2 * shared->r2, r10 = shared->r3 * shared->r3, r11 = r9 + r10;
     const double r14 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
-    if (!is_away(r9 + r10, 16.0 * r14)) {
+    if (!is_away(r11, 16.0 * r14)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r9 - r10, known->f1 * sqrt(fmax(r14, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r20 = w2 * shared->r2, r21 = w2 * shared->r3;
-        const double r26 = 1.0 / sqrt(fmax(r21 * r21 + r20 * r20, 0.0)), c2 = 0.0 - r21 * r26, s2 = r20 * r26;
+        const double w2 = roots0.values[i0], r22 = 1.0 / r11, c2 = 0.0 - w2 * shared->r3 * r22;
+        const double s2 = w2 * shared->r2 * r22;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1393,15 +1399,15 @@ COLD static void again_2(const Parameters *p, const Known *known, Answers *answe
  */
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r0 = p->pz * p->pz, r1 = p->px * p->px, r3 = p->magnitude * p->magnitude, r4 = r3 + r3;
-    if (!is_away(r0 + r1, 16.0 * r4)) {
+    const double r0 = p->pz * p->pz, r1 = p->px * p->px, r2 = r0 + r1, r3 = p->magnitude * p->magnitude;
+    const double r4 = r3 + r3;
+    if (!is_away(r2, 16.0 * r4)) {
         return;
     }
     const double f1 = 1.0;
     const Roots roots0 = square_roots(0.0 - r0 - r1, sqrt(fmax(r4, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r9 = p->pz * w1, r10 = p->px * w1;
-        const double r15 = 1.0 / sqrt(fmax(r10 * r10 + r9 * r9, 0.0)), c1 = r10 * r15, s1 = 0.0 - r9 * r15;
+        const double w1 = roots0.values[i0], r11 = 1.0 / r2, c1 = p->px * w1 * r11, s1 = 0.0 - p->pz * w1 * r11;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

@@ -354,6 +354,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -426,19 +427,18 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r0 = p.pz * p.pz;
     let r1 = p.px * p.px;
+    let r2 = r0 + r1;
     let r3 = p.magnitude * p.magnitude;
     let r4 = r3 + r3;
-    if !is_away(r0 + r1, 16.0 * r4) {
+    if !is_away(r2, 16.0 * r4) {
         return;
     }
     let f1 = 1.0;
     let roots0 = square_roots(0.0 - r0 - r1, f64::max(r4, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r9 = p.pz * w1;
-        let r10 = p.px * w1;
-        let r15 = 1.0 / f64::max(r10 * r10 + r9 * r9, 0.0).sqrt();
-        let c1 = r10 * r15;
-        let s1 = 0.0 - r9 * r15;
+        let r11 = 1.0 / r2;
+        let c1 = p.px * w1 * r11;
+        let s1 = 0.0 - p.pz * w1 * r11;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -492,17 +492,16 @@ struct Shared2 {
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r9 = shared.r2 * shared.r2;
     let r10 = shared.r3 * shared.r3;
+    let r11 = r9 + r10;
     let r14 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
-    if !is_away(r9 + r10, 16.0 * r14) {
+    if !is_away(r11, 16.0 * r14) {
         return;
     }
     let roots0 = square_roots(0.0 - r9 - r10, known.f1 * f64::max(r14, 0.0).sqrt());
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let r20 = w2 * shared.r2;
-        let r21 = w2 * shared.r3;
-        let r26 = 1.0 / f64::max(r21 * r21 + r20 * r20, 0.0).sqrt();
-        let c2 = 0.0 - r21 * r26;
-        let s2 = r20 * r26;
+        let r22 = 1.0 / r11;
+        let c2 = 0.0 - w2 * shared.r3 * r22;
+        let s2 = w2 * shared.r2 * r22;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c2, s2, ..*known };
         block_3(p, &next, answers);
     }
@@ -880,12 +879,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1206,15 +1209,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

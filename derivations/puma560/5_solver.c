@@ -178,6 +178,7 @@ int puma560_nearest(const puma560_solution *list, int count, const double *refer
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -598,8 +599,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -607,7 +609,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -964,14 +966,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1536,14 +1542,14 @@ typedef struct {
  */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14;
-    if (!is_away(r15 + r16, 6784.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
+    if (!is_away(r17, 6784.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r15 - r16, 20.591260281974 * known->f2);
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double w4 = roots0.values[i0], r21 = w4 * shared->r13, r22 = w4 * shared->r14;
-        const double r27 = 1.0 / sqrt(fmax(r22 * r22 + r21 * r21, 0.0)), c4 = r22 * r27, s4 = r21 * r27;
+        const double w4 = roots0.values[i0], r23 = 1.0 / r17, c4 = w4 * shared->r14 * r23;
+        const double s4 = w4 * shared->r13 * r23;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1680,8 +1686,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const Roots roots0 = square_roots(r7 - 0.1390562595901504, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r12 = 0.01753108 * w3 - (0.0 - 0.37290248 * shared->r5);
-        const double r15 = 0.37290248 * w3 - 0.01753108 * shared->r5;
-        const double r20 = 1.0 / sqrt(fmax(r15 * r15 + r12 * r12, 0.0)), c3 = r15 * r20, s3 = r12 * r20;
+        const double r16 = 7.17547488580693 * (0.37290248 * w3 - 0.01753108 * shared->r5), c3 = r16;
+        const double s3 = 7.17547488580693 * r12;
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1711,15 +1717,15 @@ typedef struct {
  */
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r2 = p->py * p->py, r3 = p->px * p->px, r5 = shared->r1 * shared->r1, r6 = r5 + r5;
-    if (!is_away(r2 + r3, 16.0 * r6)) {
+    const double r2 = p->py * p->py, r3 = p->px * p->px, r4 = r2 + r3, r5 = shared->r1 * shared->r1;
+    const double r6 = r5 + r5;
+    if (!is_away(r4, 16.0 * r6)) {
         return;
     }
     const Roots roots0 = square_roots(0.022515002499999996 - r2 - r3, sqrt(fmax(r6, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r14 = p->py * w1 - (0.0 - 0.15005 * p->px);
-        const double r17 = p->px * w1 - 0.15005 * p->py, r22 = 1.0 / sqrt(fmax(r17 * r17 + r14 * r14, 0.0));
-        const double c1 = r17 * r22, s1 = r14 * r22;
+        const double w1 = roots0.values[i0], r18 = 1.0 / r4, c1 = (p->px * w1 - 0.15005 * p->py) * r18;
+        const double s1 = (p->py * w1 - (0.0 - 0.15005 * p->px)) * r18;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

@@ -382,6 +382,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -528,18 +529,17 @@ struct Shared1 {
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r2 = p.py * p.py;
     let r3 = p.px * p.px;
+    let r4 = r2 + r3;
     let r5 = shared.r1 * shared.r1;
     let r6 = r5 + r5;
-    if !is_away(r2 + r3, 16.0 * r6) {
+    if !is_away(r4, 16.0 * r6) {
         return;
     }
     let roots0 = square_roots(0.022515002499999996 - r2 - r3, f64::max(r6, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r14 = p.py * w1 - (0.0 - 0.15005 * p.px);
-        let r17 = p.px * w1 - 0.15005 * p.py;
-        let r22 = 1.0 / f64::max(r17 * r17 + r14 * r14, 0.0).sqrt();
-        let c1 = r17 * r22;
-        let s1 = r14 * r22;
+        let r18 = 1.0 / r4;
+        let c1 = (p.px * w1 - 0.15005 * p.py) * r18;
+        let s1 = (p.py * w1 - (0.0 - 0.15005 * p.px)) * r18;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -565,10 +565,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let roots0 = square_roots(r7 - 0.1390562595901504, 1.4142135623730951);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
         let r12 = 0.01753108 * w3 - (0.0 - 0.37290248 * shared.r5);
-        let r15 = 0.37290248 * w3 - 0.01753108 * shared.r5;
-        let r20 = 1.0 / f64::max(r15 * r15 + r12 * r12, 0.0).sqrt();
-        let c3 = r15 * r20;
-        let s3 = r12 * r20;
+        let r16 = 7.17547488580693 * (0.37290248 * w3 - 0.01753108 * shared.r5);
+        let c3 = r16;
+        let s3 = 7.17547488580693 * r12;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -663,16 +662,15 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13;
     let r16 = shared.r14 * shared.r14;
-    if !is_away(r15 + r16, 6784.0) {
+    let r17 = r15 + r16;
+    if !is_away(r17, 6784.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, 20.591260281974 * known.f2);
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r21 = w4 * shared.r13;
-        let r22 = w4 * shared.r14;
-        let r27 = 1.0 / f64::max(r22 * r22 + r21 * r21, 0.0).sqrt();
-        let c4 = r22 * r27;
-        let s4 = r21 * r27;
+        let r23 = 1.0 / r17;
+        let c4 = w4 * shared.r14 * r23;
+        let s4 = w4 * shared.r13 * r23;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -1264,12 +1262,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1611,15 +1613,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

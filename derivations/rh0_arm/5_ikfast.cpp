@@ -125,6 +125,7 @@ static const double ALONE = 1e-13;
 static const double ASIDE = 0.1;
 static const int NARROWS = 3;
 static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -466,8 +467,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -475,7 +477,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -808,14 +810,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1266,16 +1272,16 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r5 = p->pz * p->pz, r6 = shared->r0 * shared->r0;
+    const double r5 = p->pz * p->pz, r6 = shared->r0 * shared->r0, r7 = r5 + r6;
     const double r10 = p->magnitude * p->magnitude + shared->r4 * shared->r4;
-    if (!is_away(r5 + r6, 16.0 * r10)) {
+    if (!is_away(r7, 16.0 * r10)) {
         return;
     }
     const Roots roots0 = square_roots(shared->r1 * shared->r1 - r5 - r6, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w14 = roots0.values[i0], r18 = shared->r0 * shared->r1 - p->pz * w14;
-        const double r21 = w14 * shared->r0 + p->pz * shared->r1;
-        const double r26 = 1.0 / sqrt(fmax(r21 * r21 + r18 * r18, 0.0)), c14 = 0.0 - r21 * r26, s14 = r18 * r26;
+        const double w14 = roots0.values[i0], r22 = 1.0 / r7;
+        const double r23 = (w14 * shared->r0 + p->pz * shared->r1) * r22;
+        const double r25 = (shared->r0 * shared->r1 - p->pz * w14) * r22, c14 = 0.0 - r23, s14 = r25;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1331,8 +1337,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     const double r11 = shared->r9 * shared->r9 - 0.011151359999999999;
     const Roots roots0 = square_roots(r11, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w16 = roots0.values[i0], r12 = 0.1056 * w16, r13 = 0.1056 * shared->r9;
-        const double r18 = 1.0 / sqrt(fmax(r13 * r13 + r12 * r12, 0.0)), c16 = r13 * r18, s16 = r12 * r18;
+        const double w16 = roots0.values[i0], c16 = 89.67516069788797 * (0.1056 * shared->r9);
+        const double s16 = 89.67516069788797 * (0.1056 * w16);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

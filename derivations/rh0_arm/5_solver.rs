@@ -354,6 +354,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -431,11 +432,8 @@ struct Shared1 {
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r9 * shared.r9 - 0.011151359999999999, 1.4142135623730951);
     for (i0, &w16) in roots0.as_slice().iter().enumerate() {
-        let r12 = 0.1056 * w16;
-        let r13 = 0.1056 * shared.r9;
-        let r18 = 1.0 / f64::max(r13 * r13 + r12 * r12, 0.0).sqrt();
-        let c16 = r13 * r18;
-        let s16 = r12 * r18;
+        let c16 = 89.67516069788797 * (0.1056 * shared.r9);
+        let s16 = 89.67516069788797 * (0.1056 * w16);
         let next = Known { branch: i0, last: 2, close: roots0.close, c16, s16, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -467,17 +465,17 @@ struct Shared2 {
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r5 = p.pz * p.pz;
     let r6 = shared.r0 * shared.r0;
+    let r7 = r5 + r6;
     let r10 = p.magnitude * p.magnitude + shared.r4 * shared.r4;
-    if !is_away(r5 + r6, 16.0 * r10) {
+    if !is_away(r7, 16.0 * r10) {
         return;
     }
     let roots0 = square_roots(shared.r1 * shared.r1 - r5 - r6, f64::max(r10, 0.0).sqrt());
     for (i0, &w14) in roots0.as_slice().iter().enumerate() {
-        let r18 = shared.r0 * shared.r1 - p.pz * w14;
-        let r21 = w14 * shared.r0 + p.pz * shared.r1;
-        let r26 = 1.0 / f64::max(r21 * r21 + r18 * r18, 0.0).sqrt();
-        let c14 = 0.0 - r21 * r26;
-        let s14 = r18 * r26;
+        let r22 = 1.0 / r7;
+        let r24 = 0.0 - (w14 * shared.r0 + p.pz * shared.r1) * r22;
+        let c14 = r24;
+        let s14 = (shared.r0 * shared.r1 - p.pz * w14) * r22;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c14, s14, ..*known };
         block_3(p, &next, answers);
     }
@@ -896,12 +894,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1222,15 +1224,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

@@ -128,6 +128,7 @@ static const double ALONE = 1e-13;
 static const double ASIDE = 0.1;
 static const int NARROWS = 3;
 static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -550,8 +551,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -559,7 +561,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -913,14 +915,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1426,14 +1432,14 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14;
-    if (!is_away(r15 + r16, 3200.0)) {
+    const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
+    if (!is_away(r17, 3200.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r15 - r16, known->f2 * (14.142135623730951 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double w4 = roots0.values[i0], r22 = w4 * shared->r13, r23 = w4 * shared->r14;
-        const double r28 = 1.0 / sqrt(fmax(r23 * r23 + r22 * r22, 0.0)), c4 = 0.0 - r23 * r28, s4 = r22 * r28;
+        const double w4 = roots0.values[i0], r24 = 1.0 / r17, c4 = 0.0 - w4 * shared->r14 * r24;
+        const double s4 = w4 * shared->r13 * r24;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1568,8 +1574,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 {
     const Roots roots0 = square_roots(shared->r32 * shared->r32 - 0.02458624, 1.4142135623730951 * known->f1);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r36 = 0.1568 * w3, r37 = 0.1568 * shared->r32;
-        const double r42 = 1.0 / sqrt(fmax(r37 * r37 + r36 * r36, 0.0)), c3 = 0.0 - r37 * r42, s3 = r36 * r42;
+        const double w3 = roots0.values[i0], r39 = 0.0 - 40.673157017909205 * (0.1568 * shared->r32), c3 = r39;
+        const double s3 = 40.673157017909205 * (0.1568 * w3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1613,17 +1619,16 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r13 = shared->r4 * shared->r4, r14 = shared->r8 * shared->r8;
+    const double r13 = shared->r4 * shared->r4, r14 = shared->r8 * shared->r8, r15 = r13 + r14;
     const double r18 = shared->r11 * shared->r11 + shared->r12 * shared->r12;
-    if (!is_away(r13 + r14, 16.0 * r18)) {
+    if (!is_away(r15, 16.0 * r18)) {
         return;
     }
     const double f1 = 1.0;
     const Roots roots0 = square_roots(0.0 - r13 - r14, sqrt(fmax(r18, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r23 = w1 * shared->r4, r24 = w1 * shared->r8;
-        const double r29 = 1.0 / sqrt(fmax(r24 * r24 + r23 * r23, 0.0)), c1 = 0.0 - r24 * r29;
-        const double s1 = 0.0 - r23 * r29;
+        const double w1 = roots0.values[i0], r25 = 1.0 / r15, c1 = 0.0 - w1 * shared->r8 * r25;
+        const double s1 = 0.0 - w1 * shared->r4 * r25;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

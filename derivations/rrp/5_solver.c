@@ -162,6 +162,7 @@ int rrp_nearest(const rrp_solution *list, int count, const double *reference, co
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -507,8 +508,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -516,7 +518,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -851,14 +853,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1376,14 +1382,15 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
  */
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r0 = p->py * p->py, r1 = p->px * p->px, r3 = p->magnitude * p->magnitude, r4 = r3 + r3;
-    if (!is_away(r0 + r1, 16.0 * r4)) {
+    const double r0 = p->py * p->py, r1 = p->px * p->px, r2 = r0 + r1, r3 = p->magnitude * p->magnitude;
+    const double r4 = r3 + r3;
+    if (!is_away(r2, 16.0 * r4)) {
         return;
     }
     const Roots roots0 = square_roots(0.010000000000000002 - r0 - r1, sqrt(fmax(r4, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r11 = 0.1 * p->px + p->py * w1, r14 = 0.1 * p->py - p->px * w1;
-        const double r19 = 1.0 / sqrt(fmax(r14 * r14 + r11 * r11, 0.0)), c1 = r14 * r19, s1 = 0.0 - r11 * r19;
+        const double w1 = roots0.values[i0], r15 = 1.0 / r2, c1 = (0.1 * p->py - p->px * w1) * r15;
+        const double s1 = 0.0 - (0.1 * p->px + p->py * w1) * r15;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

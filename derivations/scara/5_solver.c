@@ -176,6 +176,7 @@ int scara_nearest(const scara_solution *list, int count, const double *reference
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -564,8 +565,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -573,7 +575,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -915,14 +917,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1429,8 +1435,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double r13 = shared->r11 * shared->r11 - 0.031951562499999996;
     const Roots roots0 = square_roots(r13, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r14 = 0.17875 * w2, r15 = 0.17875 * shared->r11;
-        const double r20 = 1.0 / sqrt(fmax(r15 * r15 + r14 * r14, 0.0)), c2 = 0.0 - r15 * r20, s2 = r14 * r20;
+        const double w2 = roots0.values[i0], r17 = 0.0 - 31.297373954716615 * (0.17875 * shared->r11), c2 = r17;
+        const double s2 = 31.297373954716615 * (0.17875 * w2);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;

@@ -178,6 +178,7 @@ int spherical_wrist_nearest(const spherical_wrist_solution *list, int count, con
 #define ASIDE 0.1
 #define NARROWS 3
 #define SINGULAR 1e-13
+#define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -1179,8 +1180,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -1188,7 +1190,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -1545,14 +1547,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -2316,16 +2322,15 @@ typedef struct {
  */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r211 = shared->r199 * shared->r199, r212 = shared->r210 * shared->r210;
-    if (!is_away(r211 + r212, 711231.7843257814)) {
+    const double r211 = shared->r199 * shared->r199, r212 = shared->r210 * shared->r210, r213 = r211 + r212;
+    if (!is_away(r213, 711231.7843257814)) {
         return;
     }
     const double r218 = known->f2 * (known->f1 * (210.83639752272694 * known->f3));
     const Roots roots0 = square_roots(0.0 - r211 - r212, r218);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r219 = w4 * shared->r199, r220 = w4 * shared->r210;
-        const double r225 = 1.0 / sqrt(fmax(r220 * r220 + r219 * r219, 0.0)), c4 = 0.0 - r220 * r225;
-        const double s4 = 0.0 - r219 * r225;
+        const double w4 = roots0.values[i0], r221 = 1.0 / r213, c4 = 0.0 - w4 * shared->r210 * r221;
+        const double s4 = 0.0 - w4 * shared->r199 * r221;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;

@@ -128,6 +128,7 @@ static const double ALONE = 1e-13;
 static const double ASIDE = 0.1;
 static const int NARROWS = 3;
 static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -532,8 +533,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -541,7 +543,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -894,14 +896,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1402,14 +1408,14 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8;
-    if (!is_away(r9 + r10, 976.0)) {
+    const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8, r11 = r9 + r10;
+    if (!is_away(r11, 976.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r9 - r10, known->f2 * (7.810249675906654 * known->f1));
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double w4 = roots0.values[i0], r16 = w4 * shared->r7, r17 = w4 * shared->r8;
-        const double r22 = 1.0 / sqrt(fmax(r17 * r17 + r16 * r16, 0.0)), c4 = 0.0 - r17 * r22, s4 = r16 * r22;
+        const double w4 = roots0.values[i0], r18 = 1.0 / r11, c4 = 0.0 - w4 * shared->r8 * r18;
+        const double s4 = w4 * shared->r7 * r18;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1502,16 +1508,16 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r16 = shared->r6 * shared->r6, r17 = shared->r9 * shared->r9;
+    const double r16 = shared->r6 * shared->r6, r17 = shared->r9 * shared->r9, r18 = r16 + r17;
     const double r21 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
-    if (!is_away(r16 + r17, 16.0 * r21)) {
+    if (!is_away(r18, 16.0 * r21)) {
         return;
     }
     const double f2 = 1.0;
     const Roots roots0 = square_roots(0.0 - r16 - r17, known->f1 * sqrt(fmax(r21, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w2 = roots0.values[i0], r27 = w2 * shared->r6, r28 = w2 * shared->r9;
-        const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r27 * r27, 0.0)), c2 = 0.0 - r28 * r33, s2 = r27 * r33;
+        const double w2 = roots0.values[i0], r29 = 1.0 / r18, c2 = 0.0 - w2 * shared->r9 * r29;
+        const double s2 = w2 * shared->r6 * r29;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1579,16 +1585,16 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
-    const double r10 = r9 + r9;
-    if (!is_away(r6 + r7, 16.0 * r10)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 16.0 * r10)) {
         return;
     }
     const double f1 = 1.0;
     const Roots roots0 = square_roots(0.0 - r6 - r7, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r15 = w1 * shared->r1, r16 = w1 * shared->r3;
-        const double r21 = 1.0 / sqrt(fmax(r16 * r16 + r15 * r15, 0.0)), c1 = 0.0 - r16 * r21, s1 = r15 * r21;
+        const double w1 = roots0.values[i0], r17 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r17;
+        const double s1 = w1 * shared->r1 * r17;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

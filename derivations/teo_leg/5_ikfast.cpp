@@ -128,6 +128,7 @@ static const double ALONE = 1e-13;
 static const double ASIDE = 0.1;
 static const int NARROWS = 3;
 static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -551,8 +552,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -560,7 +562,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -914,14 +916,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1426,14 +1432,14 @@ typedef struct {
  */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5;
-    if (!is_away(r6 + r7, 128.0)) {
+    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
+    if (!is_away(r8, 128.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903 * known->f5);
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double w1 = roots0.values[i0], r12 = w1 * shared->r4, r13 = w1 * shared->r5;
-        const double r18 = 1.0 / sqrt(fmax(r13 * r13 + r12 * r12, 0.0)), c1 = 0.0 - r13 * r18, s1 = r12 * r18;
+        const double w1 = roots0.values[i0], r14 = 1.0 / r8, c1 = 0.0 - w1 * shared->r5 * r14;
+        const double s1 = w1 * shared->r4 * r14;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1543,16 +1549,16 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r15 = shared->r3 * shared->r3, r16 = shared->r5 * shared->r5;
-    if (!is_away(r15 + r16, 48.210559999999994)) {
+    const double r15 = shared->r3 * shared->r3, r16 = shared->r5 * shared->r5, r17 = r15 + r16;
+    if (!is_away(r17, 48.210559999999994)) {
         return;
     }
     const double f5 = 1.0;
     const Roots roots0 = square_roots(shared->r11 * shared->r11 - r15 - r16, 1.7358456152549973);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w5 = roots0.values[i0], r23 = shared->r5 * shared->r11 - w5 * shared->r3;
-        const double r27 = shared->r3 * shared->r11 - (0.0 - w5 * shared->r5);
-        const double r32 = 1.0 / sqrt(fmax(r27 * r27 + r23 * r23, 0.0)), c5 = r27 * r32, s5 = r23 * r32;
+        const double w5 = roots0.values[i0], r27 = shared->r3 * shared->r11 - (0.0 - w5 * shared->r5);
+        const double r28 = 1.0 / r17, r30 = (shared->r5 * shared->r11 - w5 * shared->r3) * r28, c5 = r27 * r28;
+        const double s5 = r30;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1612,8 +1618,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const Roots roots0 = square_roots(shared->r28 * shared->r28 - 0.039204, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r31 = 0.198 * w4, r32 = 0.198 * shared->r28;
-        const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r31 * r31, 0.0)), c4 = 0.0 - r32 * r37, s4 = r31 * r37;
+        const double w4 = roots0.values[i0], r34 = 0.0 - 25.50760126517702 * (0.198 * shared->r28), c4 = r34;
+        const double s4 = 25.50760126517702 * (0.198 * w4);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

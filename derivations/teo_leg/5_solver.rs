@@ -382,6 +382,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -531,11 +532,9 @@ struct Shared1 {
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r28 * shared.r28 - 0.039204, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r31 = 0.198 * w4;
-        let r32 = 0.198 * shared.r28;
-        let r37 = 1.0 / f64::max(r32 * r32 + r31 * r31, 0.0).sqrt();
-        let c4 = 0.0 - r32 * r37;
-        let s4 = r31 * r37;
+        let r34 = 0.0 - 25.50760126517702 * (0.198 * shared.r28);
+        let c4 = r34;
+        let s4 = 25.50760126517702 * (0.198 * w4);
         let next = Known { branch: i0, last: 2, close: roots0.close, c4, s4, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -568,17 +567,18 @@ struct Shared2 {
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r15 = shared.r3 * shared.r3;
     let r16 = shared.r5 * shared.r5;
-    if !is_away(r15 + r16, 48.210559999999994) {
+    let r17 = r15 + r16;
+    if !is_away(r17, 48.210559999999994) {
         return;
     }
     let f5 = 1.0;
     let roots0 = square_roots(shared.r11 * shared.r11 - r15 - r16, 1.7358456152549973);
     for (i0, &w5) in roots0.as_slice().iter().enumerate() {
-        let r23 = shared.r5 * shared.r11 - w5 * shared.r3;
         let r27 = shared.r3 * shared.r11 - (0.0 - w5 * shared.r5);
-        let r32 = 1.0 / f64::max(r27 * r27 + r23 * r23, 0.0).sqrt();
-        let c5 = r27 * r32;
-        let s5 = r23 * r32;
+        let r28 = 1.0 / r17;
+        let r30 = (shared.r5 * shared.r11 - w5 * shared.r3) * r28;
+        let c5 = r27 * r28;
+        let s5 = r30;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c5, s5, f5, ..*known };
         block_3(p, &next, answers);
     }
@@ -671,16 +671,15 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r6 = shared.r4 * shared.r4;
     let r7 = shared.r5 * shared.r5;
-    if !is_away(r6 + r7, 128.0) {
+    let r8 = r6 + r7;
+    if !is_away(r8, 128.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903 * known.f5);
     for (i0, &w1) in roots0.as_slice().iter().enumerate().take(1) {
-        let r12 = w1 * shared.r4;
-        let r13 = w1 * shared.r5;
-        let r18 = 1.0 / f64::max(r13 * r13 + r12 * r12, 0.0).sqrt();
-        let c1 = 0.0 - r13 * r18;
-        let s1 = r12 * r18;
+        let r14 = 1.0 / r8;
+        let c1 = 0.0 - w1 * shared.r5 * r14;
+        let s1 = w1 * shared.r4 * r14;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c1, s1, ..*known };
         block_5(p, &next, answers);
     }
@@ -1297,12 +1296,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1644,15 +1647,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

@@ -128,6 +128,7 @@ static const double ALONE = 1e-13;
 static const double ASIDE = 0.1;
 static const int NARROWS = 3;
 static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -552,8 +553,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -561,7 +563,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -915,14 +917,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1442,8 +1448,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 {
     const Roots roots0 = square_roots(shared->r46 * shared->r46 - 0.11116389515625, 1.4142135623730951 * known->f6);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r50 = 0.3334125 * w3, r51 = 0.3334125 * shared->r46;
-        const double r56 = 1.0 / sqrt(fmax(r51 * r51 + r50 * r50, 0.0)), c3 = 0.0 - r51 * r56, s3 = r50 * r56;
+        const double w3 = roots0.values[i0], r53 = 0.0 - 8.99572652248662 * (0.3334125 * shared->r46), c3 = r53;
+        const double s3 = 8.99572652248662 * (0.3334125 * w3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1519,15 +1525,15 @@ typedef struct {
  */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5;
-    if (!is_away(r6 + r7, 128.0)) {
+    const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
+    if (!is_away(r8, 128.0)) {
         return;
     }
     const double f6 = 1.0;
     const Roots roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w6 = roots0.values[i0], r11 = w6 * shared->r4, r12 = w6 * shared->r5;
-        const double r17 = 1.0 / sqrt(fmax(r12 * r12 + r11 * r11, 0.0)), c6 = 0.0 - r12 * r17, s6 = r11 * r17;
+        const double w6 = roots0.values[i0], r13 = 1.0 / r8, c6 = 0.0 - w6 * shared->r5 * r13;
+        const double s6 = w6 * shared->r4 * r13;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -1586,16 +1592,16 @@ typedef struct {
  */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
-    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
-    const double r10 = r9 + r9;
-    if (!is_away(r6 + r7, 16.0 * r10)) {
+    const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
+    const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
+    if (!is_away(r8, 16.0 * r10)) {
         return;
     }
     const Roots roots0 = square_roots(0.0119137225 - r6 - r7, sqrt(fmax(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w1 = roots0.values[i0], r17 = w1 * shared->r1 - 0.10915 * shared->r3;
-        const double r20 = w1 * shared->r3 + 0.10915 * shared->r1;
-        const double r25 = 1.0 / sqrt(fmax(r20 * r20 + r17 * r17, 0.0)), c1 = 0.0 - r20 * r25, s1 = r17 * r25;
+        const double w1 = roots0.values[i0], r21 = 1.0 / r8;
+        const double r22 = (w1 * shared->r3 + 0.10915 * shared->r1) * r21;
+        const double r24 = (w1 * shared->r1 - 0.10915 * shared->r3) * r21, c1 = 0.0 - r22, s1 = r24;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

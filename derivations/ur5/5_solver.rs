@@ -382,6 +382,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -530,18 +531,18 @@ struct Shared1 {
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r6 = shared.r1 * shared.r1;
     let r7 = shared.r3 * shared.r3;
+    let r8 = r6 + r7;
     let r9 = shared.r5 * shared.r5;
     let r10 = r9 + r9;
-    if !is_away(r6 + r7, 16.0 * r10) {
+    if !is_away(r8, 16.0 * r10) {
         return;
     }
     let roots0 = square_roots(0.0119137225 - r6 - r7, f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r17 = w1 * shared.r1 - 0.10915 * shared.r3;
-        let r20 = w1 * shared.r3 + 0.10915 * shared.r1;
-        let r25 = 1.0 / f64::max(r20 * r20 + r17 * r17, 0.0).sqrt();
-        let c1 = 0.0 - r20 * r25;
-        let s1 = r17 * r25;
+        let r21 = 1.0 / r8;
+        let r23 = 0.0 - (w1 * shared.r3 + 0.10915 * shared.r1) * r21;
+        let c1 = r23;
+        let s1 = (w1 * shared.r1 - 0.10915 * shared.r3) * r21;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -569,17 +570,16 @@ struct Shared2 {
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r6 = shared.r4 * shared.r4;
     let r7 = shared.r5 * shared.r5;
-    if !is_away(r6 + r7, 128.0) {
+    let r8 = r6 + r7;
+    if !is_away(r8, 128.0) {
         return;
     }
     let f6 = 1.0;
     let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
     for (i0, &w6) in roots0.as_slice().iter().enumerate() {
-        let r11 = w6 * shared.r4;
-        let r12 = w6 * shared.r5;
-        let r17 = 1.0 / f64::max(r12 * r12 + r11 * r11, 0.0).sqrt();
-        let c6 = 0.0 - r12 * r17;
-        let s6 = r11 * r17;
+        let r13 = 1.0 / r8;
+        let c6 = 0.0 - w6 * shared.r5 * r13;
+        let s6 = w6 * shared.r4 * r13;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c6, s6, f6, ..*known };
         block_3(p, &next, answers);
     }
@@ -662,11 +662,9 @@ struct Shared4 {
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r46 * shared.r46 - 0.11116389515625, 1.4142135623730951 * known.f6);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r50 = 0.3334125 * w3;
-        let r51 = 0.3334125 * shared.r46;
-        let r56 = 1.0 / f64::max(r51 * r51 + r50 * r50, 0.0).sqrt();
-        let c3 = 0.0 - r51 * r56;
-        let s3 = r50 * r56;
+        let r53 = 0.0 - 8.99572652248662 * (0.3334125 * shared.r46);
+        let c3 = r53;
+        let s3 = 8.99572652248662 * (0.3334125 * w3);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_5(p, &next, answers);
     }
@@ -1277,12 +1275,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1624,15 +1626,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

@@ -125,6 +125,7 @@ static const double ALONE = 1e-13;
 static const double ASIDE = 0.1;
 static const int NARROWS = 3;
 static const double SINGULAR = 1e-13;
+static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
 /* A family that is followed to another's member is that family when the joints come this near. */
@@ -489,8 +490,9 @@ static bool newton_step(const Parameters *p, const double *q, double damping, co
     return substituted(columns, step);
 }
 
-/* Whether a row of the Jacobian's triangle at q is but rounding: the joints can move while the equations hold, or a root is double. */
-static bool is_singular(const Parameters *p, const double *q)
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
 {
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
@@ -498,7 +500,7 @@ static bool is_singular(const Parameters *p, const double *q)
         least = fmin(least, fabs(columns[i][i]));
         most = fmax(most, fabs(columns[i][i]));
     }
-    return least <= SINGULAR * most;
+    return least / most;
 }
 
 
@@ -831,14 +833,18 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
     return true;
 }
 
-/* The same within a bound or rounding, to one side at least: to the other there may be a branching. A family may go round a small part of
- * the circle only: where q is singular within rounding, shorter ways are tried as well. */
+/* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
+ * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
 static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
 {
+    const double regular = regularity(p, q);
     double way = ASIDE;
+    if (regular > REGULAR) {
+        return false;
+    }
     bound = fmax(bound, RESOLUTION);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
-        if (narrow == 1 && (bound > RESOLUTION || !is_singular(p, q))) {
+        if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
         }
         if (leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound)) {
@@ -1291,14 +1297,14 @@ static void again_2(const Parameters *p, const Known *known, Answers *answers)
  */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r0 = p->r21_ * p->r21_, r1 = p->r11_ * p->r11_;
-    if (!is_away(r0 + r1, 32.0)) {
+    const double r0 = p->r21_ * p->r21_, r1 = p->r11_ * p->r11_, r2 = r0 + r1;
+    if (!is_away(r2, 32.0)) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
-        const double w1 = roots0.values[i0], r5 = p->r21_ * w1, r6 = p->r11_ * w1;
-        const double r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0)), c1 = 0.0 - r6 * r11, s1 = 0.0 - r5 * r11;
+        const double w1 = roots0.values[i0], r7 = 1.0 / r2, c1 = 0.0 - p->r11_ * w1 * r7;
+        const double s1 = 0.0 - p->r21_ * w1 * r7;
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

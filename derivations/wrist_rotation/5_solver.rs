@@ -353,6 +353,7 @@ const ALONE: f64 = 1e-13;
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 3;
 const SINGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
 /// A family that is followed to another's member is that family when the joints come this near.
@@ -477,16 +478,15 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r0 = p.r21_ * p.r21_;
     let r1 = p.r11_ * p.r11_;
-    if !is_away(r0 + r1, 32.0) {
+    let r2 = r0 + r1;
+    if !is_away(r2, 32.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);
     for (i0, &w1) in roots0.as_slice().iter().enumerate().take(1) {
-        let r5 = p.r21_ * w1;
-        let r6 = p.r11_ * w1;
-        let r11 = 1.0 / f64::max(r6 * r6 + r5 * r5, 0.0).sqrt();
-        let c1 = 0.0 - r6 * r11;
-        let s1 = 0.0 - r5 * r11;
+        let r7 = 1.0 / r2;
+        let c1 = 0.0 - p.r11_ * w1 * r7;
+        let s1 = 0.0 - p.r21_ * w1 * r7;
         let next = Known { branch: i0, last: 2, close: roots0.close, pair: roots0.count == 2, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -923,12 +923,16 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. A family may go round a small part of the circle only: where `q` is singular within
-/// rounding, shorter ways are tried as well.
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
 fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
+    let regularity = regularity(p, q);
+    if regularity > REGULAR {
+        return false;
+    }
     for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || !is_singular(p, q)) {
+        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
             return false;
         }
         if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
@@ -1249,15 +1253,16 @@ fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JO
     substituted(&triangle(p, q, damping, held))
 }
 
-/// Whether a row of the Jacobian's triangle at `q` is but rounding: the joints can move while the equations hold, or a root is double.
-fn is_singular(p: &Parameters, q: &[f64; JOINTS]) -> bool {
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     let columns = triangle(p, q, 0.0, &NONE_FREE);
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for i in 0..JOINTS {
         let pivot = columns[i][i].abs();
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
-    least <= SINGULAR * most
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.
