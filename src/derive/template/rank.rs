@@ -32,7 +32,7 @@ pub struct Determinant {
 }
 
 impl Determinant {
-    /// Evaluates the determinant of `formulation` for `chain`, which has six joints, for which it is one ([`Formulation::fits`]).
+    /// Evaluates the determinant of `formulation` for `chain`, which has six joints, for which it is a valid one ([`Formulation::is_valid`]).
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] when the prime divides a denominator of the chain, or where a random number is zero.
