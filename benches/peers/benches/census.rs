@@ -32,12 +32,15 @@ const ROBOTS: [&str; 9] = [
     "spherical_wrist",
 ];
 
+/// All answers to a pose.
+type Solutions<'a> = dyn Fn(&Pose) -> Vec<Joints> + 'a;
+
 /// A solver: how it goes over all poses, over the first of them, and over joint vectors, and what it answers to one pose.
 struct Solver<'a> {
     name: &'static str,
     pass: Box<dyn Fn(usize) + 'a>,
     forward: Box<dyn Fn() + 'a>,
-    solutions: Box<dyn Fn(&Pose) -> Vec<Joints> + 'a>,
+    solutions: Box<Solutions<'a>>,
 }
 
 fn main() {
@@ -106,7 +109,9 @@ fn ours<'a>(name: &str, poses: &[Pose], q: &'a [Joints]) -> Solver<'a> {
     let targets: Vec<_> = poses.iter().map(by_print::target).collect();
     Solver {
         name: "groebot-printed",
-        pass: Box::new(move |count| drop(black_box((printed.pass)(black_box(&targets[..count]))))),
+        pass: Box::new(move |count| {
+            black_box((printed.pass)(black_box(&targets[..count])));
+        }),
         forward: Box::new(move || (printed.forward)(&q[..COUNT])),
         solutions: Box::new(move |pose| (printed.solutions)(&by_print::target(pose))),
     }
