@@ -34,11 +34,11 @@ impl ForwardText {
             inputs,
         }
     }
+}
 
-    /// Whether an input is an angle of what is reached.
-    pub fn aims(&self) -> bool {
-        self.inputs.iter().any(|input| input.starts_with("angle("))
-    }
+/// Whether an input is an angle of what is reached.
+pub(super) fn aims(forward: &Forward) -> bool {
+    forward.inputs.iter().any(|input| matches!(input, Reached::Angle { .. }))
 }
 
 fn expression(input: Reached, operands: &[Operand]) -> String {
@@ -57,8 +57,7 @@ fn expression(input: Reached, operands: &[Operand]) -> String {
 pub(super) fn printed_forward(scene: &Scene<'_>) -> Option<Forward> {
     let forward = scene.program.forward().filter(|forward| !forward.inputs.is_empty())?;
     let turns = scene.program.joints.iter().any(|joint| matches!(joint.value, JointValue::Angle { .. }));
-    let aims = forward.inputs.iter().any(|input| matches!(input, Reached::Angle { .. }));
-    (turns || !aims).then_some(forward)
+    (turns || !aims(&forward)).then_some(forward)
 }
 
 /// The equations' values with their code, and their `sizes` (none are asked for without answers).

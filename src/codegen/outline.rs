@@ -6,7 +6,7 @@ use super::about::AboutText;
 use super::blocks::{BlockText, ConditionText};
 use super::body::Scene;
 use super::demand::{Demand, ParameterDemand};
-use super::forward::{ForwardText, equations, printed_forward};
+use super::forward::{self, ForwardText, equations, printed_forward};
 use super::lanes;
 use super::mirror::Mirror;
 use super::names::{Names, remark, word};
@@ -168,6 +168,7 @@ impl Outline {
         let measured: &[Operand] = if needs.answers { &program.checks.scales } else { &[] };
         let (checks, sizes) = equations(&scene, forward.as_ref(), measured);
         let jacobian: Vec<&[Operand]> = program.checks.jacobian.iter().map(Vec::as_slice).collect();
+        let aims = forward.as_ref().is_some_and(forward::aims);
         let forward = forward.map(|forward| ForwardText::new(&scene, &forward));
         scene.lanes = needs.answers && program.compares_tip();
         let (jacobian_lines, jacobian_rows) = scene.checks(&jacobian);
@@ -177,7 +178,6 @@ impl Outline {
         let sizes = Code::new(language, checks.lines.clone(), unique);
         let name = word(&program.name);
         let generic = forward.as_ref().map_or_else(Vec::new, |forward| lanes::generic(&forward.values));
-        let aims = forward.as_ref().is_some_and(ForwardText::aims);
         Outline {
             upper: name.to_ascii_uppercase(),
             name,

@@ -25,17 +25,20 @@ pub(super) struct Answers<'a> {
     pub(super) list: Vec<Answer>,
     /// The candidate that missed the equations by the least share of their size.
     nearest: Option<Nearest>,
-    /// The answers so far by cosines and sines.
+    /// The answers so far by cosines and sines, where these are asked for.
     pairs: UsualPairs,
 }
 
 impl<'a> Answers<'a> {
-    pub fn new(program: &'a Program, frame: Frame<'a>) -> Self {
-        Answers { program, frame, list: Vec::new(), nearest: None, pairs: UsualPairs::new() }
+    pub fn new(program: &'a Program, frame: Frame<'a>, pairs: UsualPairs) -> Self {
+        Answers { program, frame, list: Vec::new(), nearest: None, pairs }
     }
 
-    pub fn into_pairs(self) -> Option<Vec<Pairs>> {
-        self.pairs.into_list(self.program)
+    /// The answers by cosines and sines: as they were found, or else of their angles.
+    pub fn into_pairs(mut self) -> Vec<Pairs> {
+        let (program, usual) = (self.program, std::mem::replace(&mut self.pairs, UsualPairs::unwanted()));
+        let of_angles = || self.into_solutions().iter().map(|solution| program.pairs_of(solution)).collect();
+        usual.into_list(program).unwrap_or_else(of_angles)
     }
 
     pub fn into_nearest(self) -> Option<Nearest> {

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::answers::Answers;
 use super::frame::Frame;
+use super::pairs::UsualPairs;
 use super::program::{Program, Rule};
 use super::walk::Walk;
 use super::{MERGE, refine};
@@ -43,7 +44,7 @@ impl Program {
     /// [`ErrorKind::BadValue`] for a wrong count of numbers, NaN or infinity, or a condition that does not hold
     /// ([`Program::conditions`]); [`ErrorKind::Unsupported`] when the target lies on a stratum that could not be derived.
     pub fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
-        let mut solutions = self.walk(target, |answers| answers.into_solutions())?;
+        let mut solutions = self.walk(target, UsualPairs::unwanted(), |answers| answers.into_solutions())?;
         solutions.sort_by_key(|solution| solution.branch);
         self.mark_choice(&mut solutions);
         Ok(solutions)
@@ -55,18 +56,18 @@ impl Program {
     /// # Errors
     /// As [`Program::solve`].
     pub fn nearest(&self, target: &[f64]) -> Result<Option<Nearest>> {
-        self.walk(target, |answers| answers.into_nearest())
+        self.walk(target, UsualPairs::unwanted(), |answers| answers.into_nearest())
     }
 
-    /// What is taken of the answers for a target.
-    pub(super) fn walk<T>(&self, target: &[f64], take: impl Fn(Answers<'_>) -> T) -> Result<T> {
+    /// What is taken of the answers for a target; they are noted as `pairs` too, if these are wanted.
+    pub(super) fn walk<T>(&self, target: &[f64], pairs: UsualPairs, take: impl Fn(Answers<'_>) -> T) -> Result<T> {
         self.check_target(target)?;
         let mut target = target.to_vec();
         self.conform(&mut target)?;
         let parameters = self.parameter_values(&target);
         let magnitude = parameters.iter().fold(self.scale, |largest, value| largest.max(value.abs()));
         let frame = Frame::new(&parameters, magnitude, self.unknowns.len(), self.checks.code.len());
-        Walk::new(self, &parameters, magnitude, Answers::new(self, frame)).run().map(take)
+        Walk::new(self, &parameters, magnitude, Answers::new(self, frame, pairs)).run().map(take)
     }
 
     fn check_target(&self, target: &[f64]) -> Result<()> {

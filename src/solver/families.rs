@@ -11,7 +11,7 @@ impl Answers<'_> {
     /// part of the circle only: where `q` is singular within rounding, shorter ways are tried as well, each an eighth of the one before.
     pub(super) fn lies_on_family(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
         let (mut way, bound) = (ASIDE, bound.max(ROUNDING));
-        let regularity = self.regularity(q);
+        let regularity = refine::regularity(self.program, &padded(q), &mut self.frame);
         if regularity > REGULAR {
             return false;
         }
@@ -27,17 +27,10 @@ impl Answers<'_> {
         false
     }
 
-    fn regularity(&mut self, q: &[f64]) -> f64 {
-        let mut at = [0.0; MAX_JOINTS];
-        at[..q.len()].copy_from_slice(q);
-        refine::regularity(self.program, &at, &mut self.frame)
-    }
-
     /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated
     /// answer may be led to a family next to it, but not back.
     fn leads_aside(&mut self, q: &[f64], free: &[usize], way: f64, bound: f64) -> bool {
-        let mut at = [0.0; MAX_JOINTS];
-        at[..q.len()].copy_from_slice(q);
+        let mut at = padded(q);
         let mut before = at;
         for stage in 0..DOUBLINGS {
             let share = 0.5_f64.powi((DOUBLINGS - 1 - stage) as i32);
@@ -72,9 +65,7 @@ impl Answers<'_> {
     /// Whether the family of the answer with this index has `member`, another with the same free joints: as these move there in
     /// stages, the other joints follow.
     pub(super) fn leads_to(&mut self, other: usize, member: &Solution) -> bool {
-        let family = &self.list[other].solution;
-        let (mut q, count) = ([0.0; MAX_JOINTS], family.q.len());
-        q[..count].copy_from_slice(&family.q);
+        let mut q = padded(&self.list[other].solution.q);
         let mut accepted = false;
         for stages in (1..=STAGES).rev() {
             for &joint in &member.free {
@@ -89,6 +80,13 @@ impl Answers<'_> {
     fn follow(&mut self, q: &mut Joints, free: &[usize]) -> Fit {
         refine::polished(self.program, q, &held(free), &mut self.frame)
     }
+}
+
+/// Joint values with zeros behind them.
+fn padded(q: &[f64]) -> Joints {
+    let mut padded = [0.0; MAX_JOINTS];
+    padded[..q.len()].copy_from_slice(q);
+    padded
 }
 
 /// By joint whether it is among `joints`.

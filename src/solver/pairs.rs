@@ -33,14 +33,13 @@ impl Program {
     /// # Errors
     /// As [`Program::solve`].
     pub fn solve_pairs(&self, target: &[f64]) -> Result<Vec<Pairs>> {
-        let usual = self.walk(target, |answers| answers.into_pairs())?;
-        match usual.filter(|_| self.compares_tip()) {
-            Some(list) => Ok(list),
-            None => Ok(self.solve(target)?.iter().map(|solution| self.pairs_of(solution)).collect()),
-        }
+        let usual = if self.compares_tip() { UsualPairs::none_yet() } else { UsualPairs::unwanted() };
+        let mut pairs = self.walk(target, usual, |answers| answers.into_pairs())?;
+        pairs.sort_by_key(|pairs| pairs.branch);
+        Ok(pairs)
     }
 
-    fn pairs_of(&self, solution: &Solution) -> Pairs {
+    pub(super) fn pairs_of(&self, solution: &Solution) -> Pairs {
         let mut unknowns = vec![0.0; self.unknowns.len()];
         refine::unknowns_of(self, &solution.q, &mut unknowns);
         let (residual, branch, free) = (solution.residual, solution.branch, solution.free.clone());
@@ -101,8 +100,13 @@ impl Program {
 pub(super) struct UsualPairs(Option<Vec<Pairs>>);
 
 impl UsualPairs {
-    pub fn new() -> Self {
+    pub fn none_yet() -> Self {
         UsualPairs(Some(Vec::new()))
+    }
+
+    /// Answers are asked for by angles: no pair is made.
+    pub fn unwanted() -> Self {
+        UsualPairs(None)
     }
 
     /// A candidate is none of that kind.
@@ -127,10 +131,8 @@ impl UsualPairs {
         }
     }
 
-    /// The pairs by branch, if there are no more than the program's isolated answers.
+    /// The pairs, if there are no more than the program's isolated answers.
     pub fn into_list(self, program: &Program) -> Option<Vec<Pairs>> {
-        let mut list = self.0.filter(|list| program.isolated.is_none_or(|most| list.len() <= most))?;
-        list.sort_by_key(|pairs| pairs.branch);
-        Some(list)
+        self.0.filter(|list| program.isolated.is_none_or(|most| list.len() <= most))
     }
 }

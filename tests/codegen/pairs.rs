@@ -3,19 +3,13 @@
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
 
 use groebot::codegen;
 use groebot::solver::{JointValue, Program};
 
 use super::harness::{compile_c, feed, rustc};
+use super::stored::named;
 use super::{odd, random};
-
-/// The program of a derivation.
-fn stored(name: &str) -> Program {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(name).join("5_program.json");
-    Program::from_json(&fs::read_to_string(path).unwrap()).unwrap()
-}
 
 /// Targets that random joints reach, and joints that are multiples of a quarter turn.
 fn targets(program: &Program) -> Vec<Vec<f64>> {
@@ -93,9 +87,10 @@ fn check(program: &Program) {
 
 #[test]
 fn pairs_are_those_of_the_evaluator() {
-    for name in ["puma", "ur5", "stanford", "planar_3r", "nao_left_leg"] {
-        check(&stored(name));
-    }
+    let names = ["puma", "ur5", "stanford", "planar_3r", "nao_left_leg"];
+    let stored = named(&names);
+    assert_eq!(stored.len(), names.len());
+    stored.iter().for_each(|stored| check(&stored.program));
 }
 
 const RUST_DRIVER: &str = r#"

@@ -32,16 +32,22 @@ const ARRIVED: f64 = 1e-6;
 pub(super) trait Families: Configuration {
     /// Whether `q` is one of a curve of joint vectors with the same target.
     fn is_in_family(&self, target: &[f64], q: &[f64]) -> bool {
-        if self.sigma(q) > SINGULAR {
-            return false;
-        }
-        let Some(tangent) = null_vector(self.jacobian(q)) else { return false };
+        self.tangent(q).is_some_and(|tangent| self.beside(target, q, &tangent, PROBE).is_some())
+    }
+
+    /// The direction in which joints that are singular within rounding can move.
+    fn tangent(&self, q: &[f64]) -> Option<DVector<f64>> {
+        if self.sigma(q) > SINGULAR { None } else { null_vector(self.jacobian(q)) }
+    }
+
+    /// The member beside `q` moved by `way` along the unit vector `ahead`, and no farther along it.
+    fn beside(&self, target: &[f64], q: &[f64], ahead: &DVector<f64>, way: f64) -> Option<Vec<f64>> {
         let mut moved = q.to_vec();
-        for (&joint, share) in self.unknown().iter().zip(tangent.iter()) {
-            moved[joint] += PROBE * share * self.unit(joint);
+        for (&joint, share) in self.unknown().iter().zip(ahead.iter()) {
+            moved[joint] += way * share * self.unit(joint);
         }
-        let across = |_: &[f64]| DMatrix::from_row_slice(1, tangent.len(), tangent.as_slice());
-        self.corrected(target, moved, self.unknown(), &across, MEMBER).is_some()
+        let across = |_: &[f64]| DMatrix::from_row_slice(1, ahead.len(), ahead.as_slice());
+        self.corrected(target, moved, self.unknown(), &across, MEMBER)
     }
 
     /// Whether joint vectors next to the straight way from `a` to `b` reach the target.
@@ -87,26 +93,16 @@ pub(super) trait Families: Configuration {
     /// Whether the curve of joint vectors with the same target that `q` is on runs through `answer`, to one side or the other. It goes on
     /// where a free joint comes to the end of its part of the circle and turns back while the others take another branch.
     fn runs_to(&self, target: &[f64], q: &[f64], answer: &[f64]) -> bool {
-        self.sigma(q) <= SINGULAR
-            && null_vector(self.jacobian(q)).is_some_and(|tangent| {
-                [tangent.clone(), -tangent].into_iter().any(|way| self.runs(target, q, way, answer))
-            })
+        let tangent = self.tangent(q);
+        tangent.is_some_and(|ahead| [ahead.clone(), -ahead].into_iter().any(|way| self.runs(target, q, way, answer)))
     }
 
     /// The same to the side of `ahead`, in steps as long as the curve's bends allow.
     fn runs(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>, answer: &[f64]) -> bool {
         let (mut at, mut pace) = (q.to_vec(), LONGEST);
         for _ in 0..PACES {
-            if self.distance(&at, answer) <= 2.0 * pace {
-                let apart = self
-                    .unknown()
-                    .iter()
-                    .map(|&joint| self.difference(joint, answer[joint], at[joint]) / self.unit(joint));
-                let way = ahead.dot(&DVector::from_iterator(ahead.len(), apart));
-                let passed = self.stepped(target, &at, &ahead, way);
-                if passed.is_some_and(|(passed, _)| self.distance(&passed, answer) <= ARRIVED) {
-                    return true;
-                }
+            if self.distance(&at, answer) <= 2.0 * pace && self.passes(target, &at, &ahead, answer) {
+                return true;
             }
             match self.stepped(target, &at, &ahead, pace).filter(|(_, next)| next.dot(&ahead) > STEADY) {
                 Some(next) => ((at, ahead), pace) = (next, f64::min(2.0 * pace, LONGEST)),
@@ -117,14 +113,16 @@ pub(super) trait Families: Configuration {
         false
     }
 
+    /// Whether the curve that goes on from `at` along `ahead` has `answer`, a little on.
+    fn passes(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, answer: &[f64]) -> bool {
+        let apart = |&joint: &usize| self.difference(joint, answer[joint], at[joint]) / self.unit(joint);
+        let way = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
+        self.beside(target, at, ahead, way).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
+    }
+
     /// The point of the curve beside `at` moved by `way` along the unit vector `ahead`, and the curve's direction there.
     fn stepped(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, way: f64) -> Option<(Vec<f64>, DVector<f64>)> {
-        let mut moved = at.to_vec();
-        for (&joint, share) in self.unknown().iter().zip(ahead.iter()) {
-            moved[joint] += way * share * self.unit(joint);
-        }
-        let across = |_: &[f64]| DMatrix::from_row_slice(1, ahead.len(), ahead.as_slice());
-        let next = self.corrected(target, moved, self.unknown(), &across, MEMBER)?;
+        let next = self.beside(target, at, ahead, way)?;
         let tangent = null_vector(self.jacobian(&next))?;
         let side = tangent.dot(ahead).signum();
         Some((next, tangent * side))
