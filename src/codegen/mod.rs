@@ -18,6 +18,7 @@ mod mirror;
 mod names;
 mod outline;
 mod printer;
+mod quartic;
 mod samples;
 mod single;
 mod six_axes;
@@ -43,5 +44,8 @@ fn fill(skeleton: &str, outline: &impl Serialize) -> String {
     environment.set_keep_trailing_newline(true);
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
     environment.add_filter("number", printer::number);
+    for (name, part) in quartic::PARTS {
+        environment.add_template(name, part).expect("the skeletons' parts are templates");
+    }
     environment.render_str(skeleton, outline).expect("the outline has every value that the skeleton names")
 }

@@ -11,6 +11,7 @@ use super::lanes;
 use super::mirror::Mirror;
 use super::names::{Names, remark, word};
 use super::printer::{Language, number};
+use super::quartic::Quartic;
 use super::samples::Table;
 use super::six_axes;
 use super::tolerances::{Arc, Tolerances};
@@ -38,6 +39,8 @@ pub(super) struct Outline {
     equations: usize,
     /// The highest degree of a root step; 0 without one.
     degree: usize,
+    /// The quicker way to the roots of a quartic, where there is one to solve.
+    quartic: Option<Quartic>,
     scale: String,
     tolerances: Tolerances,
     dampings: Vec<String>,
@@ -55,6 +58,8 @@ pub(super) struct Outline {
     samples: Vec<Table>,
     /// What finds six joints together, if a step does.
     six_axes: String,
+    /// By joint that some chart frees: by joint, whether it is this one.
+    freed: Vec<Vec<bool>>,
     /// Forward kinematics, if the program has them.
     forward: Option<ForwardText>,
     checks: Code,
@@ -149,7 +154,8 @@ impl Outline {
         let dampings = SINGLE_DAMPINGS.iter().map(|&damping| number(damping)).collect();
         let outline = Outline::with(program, language, six_axes::text(program, language, true));
         let about = outline.about.and("Single precision");
-        Outline { tolerances: Tolerances::single(), dampings, about, ..outline }
+        // In single precision hardly any quartic is ordinary.
+        Outline { tolerances: Tolerances::single(), quartic: None, dampings, about, ..outline }
     }
 
     /// The outline of a valid program.
@@ -196,6 +202,8 @@ impl Outline {
             isolated: program.isolated.filter(|_| needs.answers),
             equations: checks.values.len(),
             degree: root_steps(program).map(|(step, _)| step.slots()).max().unwrap_or(0),
+            quartic: Quartic::of(program),
+            freed: program.freed().map(|one| (0..program.joints.len()).map(|joint| joint == one).collect()).collect(),
             scale: number(program.scale),
             tolerances: Tolerances::new(),
             dampings: DAMPINGS.iter().map(|&damping| number(damping)).collect(),
@@ -333,7 +341,7 @@ pub(super) fn has_families(program: &Program) -> bool {
 }
 
 /// The root steps that are printed, each with its polynomials.
-fn root_steps(program: &Program) -> impl Iterator<Item = (&Step, &[Vec<Operand>])> {
+pub(super) fn root_steps(program: &Program) -> impl Iterator<Item = (&Step, &[Vec<Operand>])> {
     let steps = program.charts().filter(|chart| !chart.open).flat_map(|chart| &chart.steps);
     steps.filter_map(|step| match step {
         Step::Roots { polynomials, .. } => Some((step, polynomials.as_slice())),

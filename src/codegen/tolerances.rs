@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::printer::number;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, LEVER, MERGE, NARROWS, NEAR,
-    OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES, SINGULAR, STAGES,
-    STIFF, TINY,
+    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, LEVER, MEETING, MERGE,
+    NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES,
+    SINGULAR, STAGES, STIFF, TINY,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -34,6 +34,7 @@ pub(super) struct Tolerances {
     blur: String,
     resolution: String,
     near: String,
+    meeting: String,
     tiny: String,
     pivot: String,
     polish_steps: usize,
@@ -41,6 +42,7 @@ pub(super) struct Tolerances {
     patience: usize,
     overshot: String,
     adrift: String,
+    alike: String,
     alone: String,
     aside: String,
     narrows: usize,
@@ -70,6 +72,7 @@ impl Tolerances {
             blur: number(BLUR),
             resolution: number(ROUNDING),
             near: number(NEAR),
+            meeting: number(MEETING),
             tiny: number(TINY),
             pivot: number(PIVOT),
             polish_steps: POLISH_STEPS,
@@ -77,6 +80,7 @@ impl Tolerances {
             patience: PATIENCE,
             overshot: number(OVERSHOT),
             adrift: number(ADRIFT),
+            alike: number(ALIKE),
             alone: number(ALONE),
             aside: number(ASIDE),
             narrows: NARROWS,
@@ -105,10 +109,12 @@ impl Tolerances {
             blur: number(3e-2),
             resolution: number(5e-6),
             near: number(1e-2),
+            meeting: number(1e-2),
             tiny: number(1e-14),
             pivot: number(1e-4),
             polished: number(2e-7),
             adrift: number(1e-3),
+            alike: number(1e-6),
             // Shorter ways are lost in rounding.
             narrows: 1,
             regular: number(1e-2),

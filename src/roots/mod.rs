@@ -9,6 +9,7 @@ mod eigen;
 mod isolate;
 mod numeric;
 mod polish;
+pub(crate) mod quartic;
 mod refine;
 mod square_free;
 

@@ -1,4 +1,5 @@
-//! All real roots of a polynomial in `f64`: [`real_roots`], the one method for every degree, with no allocation.
+//! All real roots of a polynomial in `f64`: [`real_roots`], one method for every degree, with no allocation. Of most quartics the roots
+//! are found by a quicker one first ([`super::quartic`]).
 //!
 //! Between two neighbouring critical points a polynomial is monotone, so it has at most one root there. The real
 //! roots of the derivatives, from the quadratic one up to `p'`, are therefore found one after the other. A root at a
@@ -6,6 +7,8 @@
 //!
 //! Sources: Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition (2002), section 1.8 (the quadratic)
 //! and (5.3) (the error of Horner's rule); Gauss-Lucas (one root bound serves all derivatives).
+
+use super::quartic::ordinary_roots;
 
 /// The highest degree that [`real_roots`] solves.
 pub const MAX_DEGREE: usize = 16;
@@ -61,6 +64,13 @@ impl Roots {
 /// far away and lose none. None is returned for constants (zero included), for degrees over [`MAX_DEGREE`] after
 /// dropping, and for coefficients that are not finite. Roots below `1e-150` in magnitude may merge.
 pub fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
+    if let Ok(quartic) = coefficients.try_into()
+        && let Some((values, count)) = ordinary_roots(quartic, scale)
+    {
+        let mut roots = Roots::NONE;
+        values[..count].iter().for_each(|&x| roots.push(x));
+        return roots;
+    }
     let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
     if p.degree < 2 {
         return p.linear_root();

@@ -9,7 +9,7 @@ use super::pairs::{Pairs, UsualPairs};
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ALONE, APART, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING};
+use super::{ADRIFT, ALIKE, ALONE, APART, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING};
 
 /// A solution with the largest share of an equation's value in its scale.
 pub(super) struct Answer {
@@ -142,17 +142,22 @@ impl<'a> Answers<'a> {
         }
     }
 
-    /// Keeps an isolated answer that a candidate for a member of a family has led to. One that has not been found before may have
-    /// another next to it.
+    /// Keeps what a candidate for a member of a family has led to: a member of another family, of one joint that some chart frees, or an
+    /// isolated answer. One that has not been found before may have another next to it.
     fn keep_alone(&mut self, path: &Path, q: &Joints, fit: &Fit, missed: f64) {
         if fit.relative > ALONE {
             return self.miss(q, fit);
         }
+        let program = self.program;
+        let joints = &q[..program.joints.len()];
+        let is_listed = self.list.iter().any(|a| a.is_isolated() && self.are_near(&a.solution.q, joints, MERGE));
+        let mut freed = program.freed().filter(|_| !is_listed);
+        let joint = freed.find(|&joint| self.lies_on_family(joints, &[joint], fit.relative));
         let mut alone = *path;
-        alone.free = NONE_FREE;
+        alone.free = std::array::from_fn(|other| Some(other) == joint);
         let known = self.list.len();
         self.keep(&alone, q, fit);
-        if self.list.len() > known && (ROUNDING..=NEAR).contains(&missed) {
+        if joint.is_none() && self.list.len() > known && (ROUNDING..=NEAR).contains(&missed) {
             self.around(&alone, q, fit, missed);
         }
     }
@@ -287,12 +292,12 @@ impl<'a> Answers<'a> {
     /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond
     /// [`MERGE`]: they hold half-way too, as well as at the worse of the two.
     fn blurred(&mut self, other: usize, answer: &Answer) -> bool {
-        let bound = self.list[other].relative.max(answer.relative);
+        let bound = self.list[other].relative.max(answer.relative).max(ALIKE);
         let q = self.list[other].solution.q.clone();
         self.are_joined(&q, &answer.solution.q, bound, &NONE_FREE)
     }
 
-    /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound` or rounding.
+    /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
     pub(super) fn are_joined(&mut self, a: &[f64], b: &[f64], bound: f64, held: &[bool; MAX_JOINTS]) -> bool {
         if self.way(a, b) > BLUR {
             return false;
@@ -301,7 +306,7 @@ impl<'a> Answers<'a> {
         for (joint, slot) in middle.iter_mut().enumerate().take(b.len()) {
             *slot = b[joint] + 0.5 * difference(self.program, joint, a, b);
         }
-        refine::nearly_holds(self.program, &middle, bound.max(ROUNDING), held, &mut self.frame)
+        refine::nearly_holds(self.program, &middle, bound, held, &mut self.frame)
     }
 
     pub(super) fn are_near(&self, a: &[f64], b: &[f64], tolerance: f64) -> bool {

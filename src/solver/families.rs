@@ -63,7 +63,8 @@ impl Answers<'_> {
     }
 
     /// Whether the family of the answer with this index has `member`, another with the same free joints: as these move there in
-    /// stages, the other joints follow.
+    /// stages, the other joints follow. Two families may be next to each other: half-way from where that ends to `member` the equations
+    /// hold too.
     pub(super) fn leads_to(&mut self, other: usize, member: &Solution) -> bool {
         let mut q = padded(&self.list[other].solution.q);
         let mut accepted = false;
@@ -73,7 +74,9 @@ impl Answers<'_> {
             }
             accepted = self.follow(&mut q, &member.free).accepted;
         }
-        accepted && self.are_near(&q, &member.q, ARRIVED)
+        accepted
+            && self.are_near(&q, &member.q, ARRIVED)
+            && self.are_joined(&q, &member.q, ROUNDING, &held(&member.free))
     }
 
     /// Polishes joints of which `free` ones stay where they are.

@@ -21,6 +21,7 @@ pub mod template;
 mod validate;
 mod walk;
 
+pub(crate) use crate::roots::quartic;
 pub use about::About;
 pub(crate) use angle::{EIGHTH, REST, SERIES};
 pub use batch::Batch;
@@ -43,6 +44,9 @@ pub const MERGE: f64 = 1e-7;
 pub const BLUR: f64 = 5e-2;
 /// What rounding leaves of an equation that holds, as a share of its scale.
 pub const ROUNDING: f64 = 1e-14;
+/// Real roots that differ by no more than this share of the unknown's typical size are close to one another: what rounding leaves of their
+/// difference's square may make one of two, or two of one. Where it moves roots farther apart, the answers' misses tell.
+pub const MEETING: f64 = 1e-5;
 /// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
 pub const NEAR: f64 = 1e-3;
 /// A chart does not run where a denominator is below this share of its scale: a factor of degree two in the distance from its
@@ -76,7 +80,7 @@ pub const SINGULAR: f64 = 1e-13;
 /// Where each pivot is more than this share of the largest, an answer is no member of a family.
 pub const REGULAR: f64 = 1e-6;
 /// How many ways aside are tried, each an eighth of the one before.
-pub const NARROWS: usize = 3;
+pub const NARROWS: usize = 5;
 /// In how many stages, each twice as far as the one before.
 pub const DOUBLINGS: usize = 8;
 /// Half of the farthest (rad) that an angle is moved in search of the two roots of a double one, where it hardly matters to the
@@ -87,6 +91,9 @@ pub const APART: f64 = 0.7;
 pub const ALONE: f64 = 1e-13;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 pub const LEVER: f64 = 0.1;
+/// Half-way between two answers next to each other that are one the equations hold within this share, which is hardly more than rounding
+/// leaves of an answer; between two that are not they need not miss by much more.
+pub const ALIKE: f64 = 2.5e-15;
 /// A family that is followed to where another's member has its free joints is that other family when the joints come this near.
 pub const ARRIVED: f64 = 1e-3;
 /// In how many stages a family is followed from one member to another.

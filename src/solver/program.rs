@@ -282,6 +282,11 @@ impl Program {
         self.blocks.iter().flat_map(|block| &block.charts)
     }
 
+    /// The joints that some chart frees, ascending.
+    pub fn freed(&self) -> impl Iterator<Item = usize> {
+        (0..self.joints.len()).filter(|joint| self.charts().any(|chart| chart.free.contains(joint)))
+    }
+
     /// The most solutions when in each block one chart gives all of them: the product of the blocks' largest numbers of root
     /// choices.
     pub fn bound(&self) -> usize {

@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Block, Chart, JointValue, Program, Step, square};
 use super::template::SixAxes;
-use super::{MAX_JOINTS, NEAR, PIVOT};
+use super::{MAX_JOINTS, MEETING, PIVOT};
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The coefficients of a polynomial, constant term first.
@@ -185,7 +185,7 @@ impl<'a> Walk<'a> {
         let typical = frame.value(typical.unwrap_or(usual));
         if let Some(constant) = square(polynomials) {
             let roots = roots::square_roots(frame.value(constant), typical);
-            return (roots, roots.as_slice().last().is_some_and(|root| *root <= NEAR * typical));
+            return (roots, roots.as_slice().last().is_some_and(|root| *root <= MEETING * typical));
         }
         let coefficients = self.leading(polynomials);
         let roots = roots::real_roots(coefficients.as_slice(), typical);
@@ -208,5 +208,5 @@ impl<'a> Walk<'a> {
 /// Whether roots of a polynomial with so many coefficients are close to one another, or one of them is double.
 fn are_close(roots: &[f64], coefficients: usize, typical: f64) -> bool {
     let is_double = !roots.is_empty() && roots.len() % 2 == coefficients % 2;
-    is_double || roots.windows(2).any(|pair| pair[1] - pair[0] <= NEAR * typical)
+    is_double || roots.windows(2).any(|pair| pair[1] - pair[0] <= MEETING * typical)
 }

@@ -198,8 +198,8 @@ impl<'a> Check<'a> {
         if self.model.is_in_family(target, q) {
             return Some(Fault::Family);
         }
-        let matches = |answer: &Solution| self.model.matches(target, q, &answer.q);
-        (!answers.iter().any(matches)).then_some(Fault::Missing)
+        let is_same = |answer: &Solution| self.model.is_same(target, q, &answer.q);
+        (!answers.iter().any(is_same)).then_some(Fault::Missing)
     }
 
     /// Whether `q` is of a family that one of the answers stands for.
@@ -223,8 +223,8 @@ impl<'a> Check<'a> {
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
             let sure = self.model.residual(target, &answer.q) <= EXACT;
-            let matches = |other: &Solution| self.model.matches(target, &answer.q, &other.q);
-            !sure || some.iter().any(matches) || self.is_member(target, some, &answer.q)
+            let is_same = |other: &Solution| self.model.is_same(target, &answer.q, &other.q);
+            !sure || some.iter().any(is_same) || self.is_member(target, some, &answer.q)
         };
         let ours = |answer: &Solution| self.model.sigma(&answer.q) <= ORDINARY || covers(others, answer);
         answers.iter().all(ours) && others.iter().all(|other| covers(answers, other))

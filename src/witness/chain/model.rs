@@ -10,7 +10,7 @@ use super::singular::smallest_singular_value;
 use crate::Result;
 use crate::kinematics::oracle::{Oracle, Unknown};
 use crate::kinematics::{Chain, JointKind, Task};
-use crate::solver::Solution;
+use crate::solver::{BLUR, Solution};
 use crate::spatial::{Pose, Screw, angle};
 
 /// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].
@@ -240,14 +240,21 @@ pub(super) trait Configuration {
         if self.turns(joint) { angle::difference(a, b) } else { a - b }
     }
 
-    /// Whether `b` is the same answer as `a`: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), and then
-    /// a path must lead from one to the other that reaches the target all the way.
+    /// Whether `b` is the same answer as `a`, and no farther from it than a solver merges answers.
+    fn is_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        self.distance(a, b) <= BLUR && self.matches(target, a, b)
+    }
+
+    /// Whether `b` is the same answer as `a`, or of its family: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), or four times what
+    /// `a` misses the target by over sigma where that is more, and then a path must lead from one to the other that reaches the target
+    /// all the way.
     fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let (distance, sigma) = (self.distance(a, b), self.sigma(a));
         if sigma > ORDINARY {
             return distance <= 1e-9;
         }
-        distance <= (1e-13 / sigma).max(1e-7) && self.is_joined(target, a, b)
+        let miss = f64::max(1e-13, 4.0 * self.residual(target, a));
+        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b)
     }
 
     /// `q` with every angle in (-pi, pi].
