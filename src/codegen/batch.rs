@@ -16,10 +16,9 @@ pub(super) struct BatchText {
     alike: usize,
     /// By angle and candidate: the first candidate with the same cosine and sine but for signs.
     first: Vec<Vec<usize>>,
-    /// Where lengths stand among the places.
-    lengths: Vec<usize>,
-    /// By joint: its value, as an expression.
-    joints: Vec<String>,
+    /// The joints that are angles, and those that are lengths, each with where it stands among the places.
+    angles: Vec<usize>,
+    lengths: Vec<[usize; 2]>,
 }
 
 /// Whether all candidates of an ordinary target come from one chart of each block, by square roots alone; other charts lie on strata that
@@ -61,20 +60,17 @@ pub(super) fn text(scene: &Scene<'_>) -> Option<BatchText> {
     if !is_possible(program) || !scene.lanes {
         return None;
     }
-    let stands = scene.stands();
-    let mut angles = 0..;
-    let value = |stands: &Vec<usize>| match stands[..] {
-        [place] => format!("at[{place}]"),
-        _ => format!("angles[{}]", angles.next().unwrap_or(0)),
-    };
+    let joints = 0..program.joints.len();
     let is_angle = |joint: &usize| matches!(program.joints[*joint].value, JointValue::Angle { .. });
+    let angles: Vec<usize> = joints.clone().filter(is_angle).collect();
+    let length = |joint: usize| [joint, scene.stands()[joint][0]];
     let twins = scene.mirror.as_ref().is_some_and(|mirror| mirror.keeps_misses(program));
     Some(BatchText {
         candidates: candidates(program, 0),
         alike: if twins { 2 } else { 1 },
-        first: (0..program.joints.len()).filter(is_angle).map(|joint| first(scene, joint)).collect(),
-        lengths: stands.iter().filter(|stands| stands.len() == 1).map(|stands| stands[0]).collect(),
-        joints: stands.iter().map(value).collect(),
+        first: angles.iter().map(|&joint| first(scene, joint)).collect(),
+        lengths: joints.filter(|joint| !is_angle(joint)).map(length).collect(),
+        angles,
     })
 }
 
