@@ -54,24 +54,23 @@ fn candidates(program: &Program, block: usize) -> usize {
     program.blocks[block..].iter().filter_map(usual).map(Program::branches).fold(1, usize::saturating_mul)
 }
 
-/// The text for a program whose file solves batches.
-pub(super) fn text(scene: &Scene<'_>) -> Option<BatchText> {
-    let program = scene.program;
-    if !is_possible(program) || !scene.lanes {
-        return None;
+impl BatchText {
+    /// That of a program whose file [can](is_possible) solve batches.
+    pub fn new(scene: &Scene<'_>) -> Self {
+        let program = scene.program;
+        let joints = 0..program.joints.len();
+        let is_angle = |joint: &usize| matches!(program.joints[*joint].value, JointValue::Angle { .. });
+        let angles: Vec<usize> = joints.clone().filter(is_angle).collect();
+        let length = |joint: usize| [joint, scene.stands()[joint][0]];
+        let twins = scene.mirror.as_ref().is_some_and(|mirror| mirror.keeps_misses(program));
+        BatchText {
+            candidates: candidates(program, 0),
+            alike: if twins { 2 } else { 1 },
+            first: angles.iter().map(|&joint| first(scene, joint)).collect(),
+            lengths: joints.filter(|joint| !is_angle(joint)).map(length).collect(),
+            angles,
+        }
     }
-    let joints = 0..program.joints.len();
-    let is_angle = |joint: &usize| matches!(program.joints[*joint].value, JointValue::Angle { .. });
-    let angles: Vec<usize> = joints.clone().filter(is_angle).collect();
-    let length = |joint: usize| [joint, scene.stands()[joint][0]];
-    let twins = scene.mirror.as_ref().is_some_and(|mirror| mirror.keeps_misses(program));
-    Some(BatchText {
-        candidates: candidates(program, 0),
-        alike: if twins { 2 } else { 1 },
-        first: angles.iter().map(|&joint| first(scene, joint)).collect(),
-        lengths: joints.filter(|joint| !is_angle(joint)).map(length).collect(),
-        angles,
-    })
 }
 
 /// By candidate: the first one in which an angle is the same but for signs. Such are those that the roots of later blocks tell apart, and

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::about::AboutText;
-use super::batch::{self, BatchText};
+use super::batch::BatchText;
 use super::blocks::{BlockText, ConditionText};
 use super::body::Scene;
 use super::demand::{Demand, ParameterDemand};
@@ -178,7 +178,7 @@ impl Outline {
         let unique = once(&sizes);
         let place = |size: &String| unique.iter().position(|other| other == size).unwrap_or(0);
         let size_of = sizes.iter().map(place).collect();
-        let batch = batch::text(&scene);
+        let batch = language.walks_abreast().then(|| BatchText::new(&scene));
         let alone = |size: String| if size.parse::<f64>().is_ok() { language.alone(size) } else { size };
         let unique = unique.into_iter().map(alone).collect();
         let sizes = Code::new(language, checks.lines.clone(), unique);

@@ -38,6 +38,10 @@ pub(super) trait Language {
     fn root(&self, square: &str) -> String {
         self.call("sqrt", &self.greater(square, "0.0"))
     }
+    /// Whether the walk through the blocks is printed for several targets at once, too.
+    fn walks_abreast(&self) -> bool {
+        false
+    }
     /// A constant that stands alone in a chart or among the parameters.
     fn alone(&self, constant: String) -> String {
         constant

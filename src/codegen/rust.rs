@@ -20,7 +20,14 @@ const RESERVED: &str = "as async await break const continue crate dyn else enum 
 ///
 /// It is a module or the root of a crate, allocates nothing and needs no dependency. Its head says how it is used.
 pub fn emit(program: &Program) -> String {
-    super::fill(SKELETON, &Outline::new(program, &Rust { batch: batch::is_possible(program) }))
+    super::fill(SKELETON, &Outline::new(program, &Rust { batch: false }))
+}
+
+/// The same with a function `solve_batch` that solves several targets at once, in the lanes of vector registers; none for a program of
+/// which the charts that run at ordinary targets take other roots than square roots, or are several in a block.
+pub fn emit_batch(program: &Program) -> Option<String> {
+    let outline = || Outline::new(program, &Rust { batch: true });
+    batch::is_possible(program).then(|| super::fill(SKELETON, &outline()))
 }
 
 /// The language; where a `batch` of targets is solved at once, the walk is one over numbers of any kind `T`.
@@ -74,6 +81,10 @@ impl Language for Rust {
 
     fn greater(&self, a: &str, b: &str) -> String {
         format!("{}::max({a}, {b})", self.kind())
+    }
+
+    fn walks_abreast(&self) -> bool {
+        self.batch
     }
 
     fn root(&self, square: &str) -> String {
