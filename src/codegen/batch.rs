@@ -13,7 +13,7 @@ pub(super) struct BatchText {
     /// How many candidates an ordinary target has.
     candidates: usize,
     /// How many of them in a row miss the equations by the same.
-    alike: usize,
+    twins: usize,
     /// By angle and candidate: the first candidate with the same cosine and sine but for signs.
     first: Vec<Vec<usize>>,
     /// The joints that are angles, and those that are lengths, each with where it stands among the places.
@@ -62,10 +62,10 @@ impl BatchText {
         let is_angle = |joint: &usize| matches!(program.joints[*joint].value, JointValue::Angle { .. });
         let angles: Vec<usize> = joints.clone().filter(is_angle).collect();
         let length = |joint: usize| [joint, scene.stands()[joint][0]];
-        let twins = scene.mirror.as_ref().is_some_and(|mirror| mirror.keeps_misses(program));
+        let keeps = scene.mirror.as_ref().is_some_and(|mirror| mirror.keeps_misses(program));
         BatchText {
             candidates: candidates(program, 0),
-            alike: if twins { 2 } else { 1 },
+            twins: if keeps { 2 } else { 1 },
             first: angles.iter().map(|&joint| first(scene, joint)).collect(),
             lengths: joints.filter(|joint| !is_angle(joint)).map(length).collect(),
             angles,

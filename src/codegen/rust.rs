@@ -8,7 +8,8 @@ use crate::solver::Program;
 const SKELETON: &str = concat!(
     include_str!("skeleton/solver.rs.txt"),
     include_str!("skeleton/lanes.rs.txt"),
-    include_str!("skeleton/batch.rs.txt")
+    include_str!("skeleton/batch.rs.txt"),
+    include_str!("skeleton/numbers.rs.txt")
 );
 
 const RESERVED: &str = "as async await break const continue crate dyn else enum extern false fn for gen if impl in let \
