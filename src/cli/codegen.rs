@@ -21,6 +21,7 @@ const EXAMPLES: &str = "Examples:
   groebot codegen derivations/puma --lang c --prefix left_arm -o left_arm.c
   groebot codegen derivations/ur5 --lang ikfast -o ur5_manipulator_ikfast_solver.cpp
   groebot codegen derivations/ur5 --lang rust > src/ur5.rs
+  groebot codegen derivations/ur5 --lang rust --batch -o src/ur5.rs
   groebot codegen derivations/nao_leg_sagittal --lang latex -o leg.tex
 
 The head of each file says how it is used; docs/generated_code.md and docs/ikfast.md tell more.";
@@ -41,6 +42,9 @@ pub struct Arguments {
     /// Single precision: of the whole solver (c), of the numbers that callers give and get (ikfast)
     #[arg(long)]
     float: bool,
+    /// With a function that solves many targets, several at once (rust)
+    #[arg(long)]
+    batch: bool,
     /// The namespace of the functions (ikfast)
     #[arg(long, value_name = "NAME")]
     namespace: Option<String>,
@@ -87,6 +91,7 @@ impl Arguments {
                 self.namespace.is_some() && !ikfast,
                 "--namespace is for `--lang ikfast`: C has none, and a Rust file is a module",
             ),
+            (self.batch && self.lang != Language::Rust, "--batch is for `--lang rust`"),
             (self.prefix.is_some() && !c, "--prefix is for `--lang c`: the names of the other languages need none"),
         ];
         match idle.iter().find(|(is_idle, _)| *is_idle) {
@@ -99,6 +104,7 @@ impl Arguments {
         match self.lang {
             Language::C if self.float => self.program().map(|program| c99::emit_single(&program)),
             Language::C => self.program().map(|program| c99::emit(&program)),
+            Language::Rust if self.batch => self.program().and_then(|program| batch(&program)),
             Language::Rust => self.program().map(|program| rust::emit(&program)),
             Language::Ikfast => {
                 let options = ikfast::Options { namespace: self.namespace.clone(), single: self.float };
@@ -123,6 +129,12 @@ impl Arguments {
             }
         }
     }
+}
+
+/// The Rust file that solves batches; fails where there is none.
+fn batch(program: &Program) -> Result<String> {
+    let text = "--batch: this solver finds roots of higher degree, or chooses among charts; it solves one target at a time, so leave `--batch` out";
+    rust::emit_batch(program).ok_or_else(|| Error::new(ErrorKind::Unsupported, text))
 }
 
 /// Fails for a file that is there and that groebot did not write.

@@ -140,7 +140,7 @@ impl Scene<'_> {
     }
 
     /// The index of the block that finds the joint with this index.
-    fn finder(&self, joint: usize) -> usize {
+    pub fn finder(&self, joint: usize) -> usize {
         let unknowns = self.program.joints[joint].value.unknowns();
         let known = |block: usize| unknowns.iter().all(|&unknown| self.known_before(block + 1)[unknown]);
         (0..self.program.blocks.len()).find(|&block| known(block)).unwrap_or(self.program.blocks.len() - 1)
@@ -180,7 +180,7 @@ impl Scene<'_> {
                     lines.extend(printer.code(code));
                     registers += code.len();
                     let square = printer.operand(*value);
-                    self.language.call("sqrt", &self.language.greater(&square, "0.0"))
+                    self.language.root(&square)
                 }
             };
             lines.push(self.language.declare(&self.names.parameters[index], &value));
@@ -190,7 +190,7 @@ impl Scene<'_> {
 
     /// The expression of the magnitude over the parameters' local names.
     pub fn magnitude(&self) -> String {
-        let scale = number(self.program.scale);
+        let scale = self.language.alone(number(self.program.scale));
         self.names.parameters.iter().fold(scale, |so_far, name| {
             let size = self.language.call("abs", name);
             self.language.greater(&so_far, &size)
@@ -250,7 +250,7 @@ impl Scene<'_> {
         let mut lines = printer.code(&chart.guard_code);
         if !chart.guards.is_empty() {
             let condition = self.condition(&chart.guards, &mut printer);
-            lines.extend(self.language.leave_unless(&condition));
+            lines.extend(self.language.leave_unless(&condition, chart.is_rare()));
         }
         Walk::new(self, index, chart, lines).steps(&mut printer)
     }

@@ -166,7 +166,7 @@ impl Language for C99 {
         format!("if ({condition}) {{")
     }
 
-    fn leave_unless(&self, condition: &str) -> Vec<String> {
+    fn leave_unless(&self, condition: &str, _: bool) -> Vec<String> {
         let negation = if condition.contains(" && ") { format!("!({condition})") } else { format!("!{condition}") };
         vec![format!("if ({negation}) {{"), format!("{INDENT}return;"), "}".to_owned()]
     }

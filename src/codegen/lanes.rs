@@ -4,7 +4,7 @@ use super::body::Scene;
 use crate::solver::{Block, Chart, Program};
 
 /// The most candidates that wait to be measured together.
-const MOST: usize = 16;
+pub(super) const MOST: usize = 16;
 
 /// How many candidates wait to be measured together: as many as there are at ordinary targets, an even number.
 pub(super) fn room(program: &Program) -> usize {

@@ -54,6 +54,22 @@ impl Mirror {
         let odd = unknowns.iter().map(|parity| *parity == Parity::Odd).collect();
         wanted.iter().all(is_clear).then_some(Mirror { block, chart: index, odd })
     }
+
+    /// Whether both candidates of a pair miss the equations by the same: none of these turns its sign with the root.
+    pub fn keeps_misses(&self, program: &Program) -> bool {
+        let parity = |odd: &bool| if *odd { Parity::Odd } else { Parity::Even };
+        let unknowns: Vec<Parity> = self.odd.iter().map(parity).collect();
+        let mut registers = HashMap::new();
+        run(&program.checks.code, &unknowns, &mut registers);
+        let mut read = program.checks.residuals.iter().chain(&program.checks.scales);
+        read.all(|&operand| self::parity(operand, &unknowns, &registers) == Parity::Even)
+    }
+}
+
+/// Whether the only root step of a chart keeps the sizes of these unknowns, which the chart finds.
+pub(super) fn turns(program: &Program, chart: &Chart, found: &[usize]) -> bool {
+    let mut unknowns = vec![Parity::Even; program.unknowns.len()];
+    behind_root(chart, &mut unknowns) && found.iter().all(|&unknown| unknowns[unknown] != Parity::Mixed)
 }
 
 /// Whether a block has one solution, by code without any condition.

@@ -9,6 +9,7 @@ pub mod ikfast;
 pub mod rust;
 
 mod about;
+mod batch;
 mod blocks;
 mod body;
 mod demand;

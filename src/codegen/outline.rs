@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::about::AboutText;
+use super::batch::BatchText;
 use super::blocks::{BlockText, ConditionText};
 use super::body::Scene;
 use super::demand::{Demand, ParameterDemand};
@@ -78,6 +79,8 @@ pub(super) struct Outline {
     values: Vec<String>,
     /// What the equations compare with the target, as values of any kind of number.
     generic: Vec<String>,
+    /// What a batch of targets is solved by, if one is.
+    batch: Option<BatchText>,
     /// Whether forward kinematics has an angle.
     aims: bool,
     /// Whether a block hands pairs of candidates on as one.
@@ -181,6 +184,9 @@ impl Outline {
         let unique = once(&sizes);
         let place = |size: &String| unique.iter().position(|other| other == size).unwrap_or(0);
         let size_of = sizes.iter().map(place).collect();
+        let batch = language.walks_abreast().then(|| BatchText::new(&scene));
+        let alone = |size: String| if size.parse::<f64>().is_ok() { language.alone(size) } else { size };
+        let unique = unique.into_iter().map(alone).collect();
         let sizes = Code::new(language, checks.lines.clone(), unique);
         let name = word(&program.name);
         let generic = forward.as_ref().map_or_else(Vec::new, |forward| lanes::generic(&forward.values));
@@ -234,6 +240,7 @@ impl Outline {
             stands: scene.stands(),
             values: lanes::values(&scene),
             generic,
+            batch,
             aims,
             room: scene.lanes.then(|| lanes::room(program)),
             pairs: scene.mirror.as_ref().is_some_and(|mirror| mirror.block + 1 < program.blocks.len()),

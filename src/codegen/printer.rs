@@ -34,6 +34,18 @@ pub(super) trait Language {
     fn call(&self, function: &str, argument: &str) -> String;
     /// The greater of two typed expressions.
     fn greater(&self, a: &str, b: &str) -> String;
+    /// The square root of a typed expression, zero of a number below zero.
+    fn root(&self, square: &str) -> String {
+        self.call("sqrt", &self.greater(square, "0.0"))
+    }
+    /// Whether the walk through the blocks is printed for several targets at once, too.
+    fn walks_abreast(&self) -> bool {
+        false
+    }
+    /// A constant that stands alone in a chart or among the parameters.
+    fn alone(&self, constant: String) -> String {
+        constant
+    }
     /// A new immutable number.
     fn declare(&self, name: &str, value: &str) -> String;
     /// The greatest or least of all numbers, an infinity.
@@ -53,8 +65,8 @@ pub(super) trait Language {
     /// Lines that open the loop with index `i{depth}` over the rows of the table of samples with a number, of which there are `rows`; each
     /// row's numbers are called by `names` where they have one.
     fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String>;
-    /// Leaving a chart unless a condition holds.
-    fn leave_unless(&self, condition: &str) -> Vec<String>;
+    /// Leaving a chart, which hardly ever runs or often, unless a condition holds.
+    fn leave_unless(&self, condition: &str, is_rare: bool) -> Vec<String>;
     /// The skeleton of what finds six joints together.
     fn six_axes(&self) -> &'static str;
     /// Lines that open the loop with index `i{depth}` over the answers of the chain with a number at a target.
@@ -164,6 +176,8 @@ pub(super) struct Printer<'a> {
     known: Vec<bool>,
     /// Registers below this number are shared by the block's charts.
     shared: usize,
+    /// Whether constants that stand alone are told from others.
+    tells: bool,
     /// Registers that are read once, until they are.
     waiting: HashMap<usize, Expression>,
 }
@@ -171,18 +185,19 @@ pub(super) struct Printer<'a> {
 impl<'a> Printer<'a> {
     pub fn new(language: &'a dyn Language, names: &'a Names, demand: Demand) -> Self {
         let (known, shared, waiting) = (Vec::new(), 0, HashMap::new());
-        Printer { language, names, demand, local_parameters: false, first_register: 0, known, shared, waiting }
+        let (local_parameters, tells, first_register) = (false, false, 0);
+        Printer { language, names, demand, local_parameters, first_register, known, shared, tells, waiting }
     }
 
     /// For code in which parameters are local variables and the registers count from `first_register`.
     pub fn among_parameters(mut self, first_register: usize) -> Self {
-        (self.local_parameters, self.first_register) = (true, first_register);
+        (self.local_parameters, self.first_register, self.tells) = (true, first_register, true);
         self
     }
 
     /// For code of a block before which some unknowns are `known`; registers below `shared` are the block's own.
     pub fn within_block(mut self, known: Vec<bool>, shared: usize) -> Self {
-        (self.known, self.shared) = (known, shared);
+        (self.known, self.shared, self.tells) = (known, shared, true);
         self
     }
 
@@ -225,7 +240,10 @@ impl<'a> Printer<'a> {
 
     /// An operand that stands alone, as an expression.
     pub fn operand(&mut self, operand: Operand) -> String {
-        self.expression(operand).text
+        match operand {
+            Operand::Constant(value) if self.tells => self.language.alone(number(value)),
+            _ => self.expression(operand).text,
+        }
     }
 
     /// An unknown: a local variable, or a field of what earlier blocks found.
@@ -269,14 +287,16 @@ impl<'a> Printer<'a> {
             }
             Operation::Sqrt(a) => {
                 let argument = self.operand(a);
-                return Expression::atom(self.language.call("sqrt", &self.language.greater(&argument, "0.0")));
+                return Expression::atom(self.language.root(&argument));
             }
         };
         let (binding, right) = match sign {
             '+' | '-' => (Binding::Sum, Binding::Product),
             _ => (Binding::Product, Binding::Atom),
         };
-        let (a, b) = (self.expression(a).within(binding), self.expression(b));
+        let are_constants = matches!((a, b), (Operand::Constant(_), Operand::Constant(_)));
+        let a = if are_constants { self.operand(a) } else { self.expression(a).within(binding) };
+        let b = self.expression(b);
         let right = if b.binding == Binding::Sign { Binding::Atom } else { right };
         Expression { text: format!("{a} {sign} {}", b.within(right)), binding }
     }

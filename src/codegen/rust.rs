@@ -1,24 +1,56 @@
 //! Rust: a file on `core` alone.
 
+use super::batch;
 use super::outline::Outline;
 use super::printer::{Finish, INDENT, Language, State, spread};
 use crate::solver::Program;
 
-const SKELETON: &str = concat!(include_str!("skeleton/solver.rs.txt"), include_str!("skeleton/lanes.rs.txt"));
+const SKELETON: &str = concat!(
+    include_str!("skeleton/solver.rs.txt"),
+    include_str!("skeleton/lanes.rs.txt"),
+    include_str!("skeleton/batch.rs.txt"),
+    include_str!("skeleton/numbers.rs.txt")
+);
 
 const RESERVED: &str = "as async await break const continue crate dyn else enum extern false fn for gen if impl in let \
     loop match mod move mut pub ref return self Self static struct super trait true type unsafe use where while abstract \
     become box do final macro override priv try typeof unsized virtual yield union None Some Ok Err f64 usize bool str \
     core std libm";
 
-/// The solver of a valid program ([`Program::validate`]) as one Rust file (edition 2021 or 2024, Rust 1.85 or later).
+/// The solver of a valid program ([`Program::validate`]) as one Rust file (edition 2021 or 2024, Rust 1.89 or later).
 ///
 /// It is a module or the root of a crate, allocates nothing and needs no dependency. Its head says how it is used.
 pub fn emit(program: &Program) -> String {
-    super::fill(SKELETON, &Outline::new(program, &Rust))
+    super::fill(SKELETON, &Outline::new(program, &Rust { batch: false }))
 }
 
-struct Rust;
+/// The same with a function `solve_batch` that solves several targets at once, in the lanes of vector registers; none for a program of
+/// which the charts that run at ordinary targets take other roots than square roots, or are several in a block.
+pub fn emit_batch(program: &Program) -> Option<String> {
+    let outline = || Outline::new(program, &Rust { batch: true });
+    batch::is_possible(program).then(|| super::fill(SKELETON, &outline()))
+}
+
+/// The language; where a `batch` of targets is solved at once, the walk is one over numbers of any kind `T`.
+struct Rust {
+    batch: bool,
+}
+
+impl Rust {
+    /// The kind of numbers that the walk is computed of.
+    fn kind(&self) -> &'static str {
+        if self.batch { "T" } else { "f64" }
+    }
+
+    /// Whether roots are close, an expression.
+    fn close(&self, text: &str) -> String {
+        match text {
+            "false" if self.batch => "T::SURE".to_owned(),
+            _ if self.batch => text.replace(" || ", " | "),
+            _ => text.to_owned(),
+        }
+    }
+}
 
 impl Language for Rust {
     fn is_reserved(&self, word: &str) -> bool {
@@ -38,18 +70,30 @@ impl Language for Rust {
     }
 
     fn argument(&self, name: &str, kind: &str) -> String {
-        format!("{name}: &{kind}")
+        format!("{name}: &{kind}{}", if self.batch { "<T>" } else { "" })
     }
 
     fn call(&self, function: &str, argument: &str) -> String {
         match function {
-            "abs" => format!("f64::abs({argument})"),
+            "abs" => format!("{}::abs({argument})", self.kind()),
             _ => format!("{argument}.{function}()"),
         }
     }
 
     fn greater(&self, a: &str, b: &str) -> String {
-        format!("f64::max({a}, {b})")
+        format!("{}::max({a}, {b})", self.kind())
+    }
+
+    fn walks_abreast(&self) -> bool {
+        self.batch
+    }
+
+    fn root(&self, square: &str) -> String {
+        if self.batch { format!("T::root({square})") } else { self.call("sqrt", &self.greater(square, "0.0")) }
+    }
+
+    fn alone(&self, constant: String) -> String {
+        if self.batch { format!("T::of({constant})") } else { constant }
     }
 
     fn declare(&self, name: &str, value: &str) -> String {
@@ -65,7 +109,8 @@ impl Language for Rust {
     }
 
     fn find_square_roots(&self, depth: usize, constant: &str, typical: &str) -> Vec<String> {
-        vec![format!("let roots{depth} = square_roots({constant}, {typical});")]
+        let kind = if self.batch { "T::" } else { "" };
+        vec![format!("let roots{depth} = {kind}square_roots({constant}, {typical});")]
     }
 
     fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
@@ -101,14 +146,22 @@ impl Language for Rust {
         format!("if {condition} {{")
     }
 
-    fn leave_unless(&self, condition: &str) -> Vec<String> {
-        let negation = if condition.contains(" && ") { format!("!({condition})") } else { format!("!{condition}") };
+    fn leave_unless(&self, condition: &str, is_rare: bool) -> Vec<String> {
+        let negation = match condition {
+            _ if self.batch && is_rare => {
+                format!("!T::is_rare(answers, {}) || T::MANY", condition.replace(" && ", " & "))
+            }
+            _ if self.batch => format!("!T::is_usual(answers, {})", condition.replace(" && ", " & ")),
+            _ if condition.contains(" && ") => format!("!({condition})"),
+            _ => format!("!{condition}"),
+        };
         vec![format!("if {negation} {{"), format!("{INDENT}return;"), "}".to_owned()]
     }
 
     fn open_samples(&self, _: usize, names: &[Option<&str>], table: usize, _: usize) -> Vec<String> {
         let names: Vec<&str> = names.iter().map(|name| name.unwrap_or("_")).collect();
-        vec![format!("for [{}] in SAMPLES_{table} {{", names.join(", "))]
+        let numbers = if self.batch { ".map(|row| row.map(T::of))" } else { "" };
+        vec![format!("for [{}] in SAMPLES_{table}{numbers} {{", names.join(", "))]
     }
 
     fn six_axes(&self) -> &'static str {
@@ -140,20 +193,23 @@ impl Language for Rust {
         let free = list(answer.free).unwrap_or_else(|| answer.usual.clone());
         let extra = list(answer.extra).map(|list| format!(", &{list}")).unwrap_or_default();
         lines.push(format!(
-            "answers.finish(p, {}, {}, &at,{q} {free}{extra});",
+            "{}p, {}, {}, &at,{q} {free}{extra});",
+            if self.batch { "T::finish(answers, " } else { "answers.finish(" },
             answer.branch.join(", "),
-            answer.close
+            self.close(&answer.close)
         ));
         lines
     }
 
     fn go_on(&self, state: &State<'_>) -> Vec<String> {
+        let nothing = if self.batch { "..nothing_known()" } else { "..NOTHING_KNOWN" };
         let [branch, last] = &state.branch;
-        let mut fields = vec![format!("branch: {branch}"), format!("last: {last}"), format!("close: {}", state.close)];
+        let mut fields =
+            vec![format!("branch: {branch}"), format!("last: {last}"), format!("close: {}", self.close(&state.close))];
         fields.extend(state.pair.iter().map(|pair| format!("pair: {pair}")));
         fields.extend(list(state.free).map(|list| format!("free: {list}")));
         fields.extend(state.found.iter().cloned());
-        fields.push(if state.goes_on { "..*known".to_owned() } else { "..NOTHING_KNOWN".to_owned() });
+        fields.push(if state.goes_on { "..*known".to_owned() } else { nothing.to_owned() });
         vec![
             format!("let next = Known {{ {} }};", fields.join(", ")),
             format!("{}_{}(p, &next, answers);", if state.is_rare { "again" } else { "block" }, state.next),

@@ -37,6 +37,10 @@ fn options_name_functions_and_namespace_and_choose_precision() {
     assert!(single.contains("int ur5_solve(const float *target") && !single.contains("const double "));
     assert!(single.lines().take(8).any(|line| line == " * Single precision"));
     let cpp = succeed(&["codegen", text(&ur5), "--lang", "ikfast", "--namespace", "arm", "--float"]);
+    let batch = succeed(&["codegen", text(&ur5), "--lang", "rust", "--batch"]);
+    assert!(batch.contains("pub fn solve_batch(") && batch.contains("pub fn solve("));
+    let none = refused(&["codegen", text(&root("derivations/spherical_wrist")), "--lang", "rust", "--batch"]);
+    assert!(none.contains("leave `--batch` out"), "{none}");
     assert!(cpp.contains("#define IKFAST_NAMESPACE arm\n") && cpp.contains("#define IKFAST_REAL float\n"));
 }
 
@@ -49,6 +53,7 @@ fn options_that_mean_nothing_are_refused() {
         ("c", "--namespace", Some("arm"), "--lang ikfast"),
         ("ikfast", "--prefix", Some("arm"), "--lang c"),
         ("c", "--prefix", Some("9 arms"), "letter"),
+        ("c", "--batch", None, "--lang rust"),
         ("ikfast", "--namespace", Some("class"), "word"),
     ] {
         let mut arguments = vec!["codegen", text(&ur5), "--lang", language, option];

@@ -1,5 +1,6 @@
 //! Printed solvers: compiled, run, and compared with the evaluator of the same program.
 
+mod batch;
 pub mod builder;
 mod derivations;
 mod forward;

@@ -55,6 +55,7 @@ fn every_word_of_a_printed_file_is_a_possible_name() {
     let mut names = BTreeSet::new();
     for program in [quartic::program(), wrist::program(true), pan_tilt::program()] {
         names.extend(words(&codegen::rust::emit(&program)));
+        names.extend(codegen::rust::emit_batch(&program).iter().flat_map(|text| words(text)));
         names.extend(words(&codegen::c99::emit(&program)));
     }
     names.extend(words("while async gen dyn Self None Some union register restrict inline asm typeof bool unix linux"));

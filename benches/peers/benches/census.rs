@@ -10,6 +10,7 @@ use groebot::kinematics::Chain;
 use groebot::robots;
 use groebot::spatial::Pose;
 use groebot_peers::Joints;
+use groebot_peers::by_batch;
 use groebot_peers::by_ik_geo::IkGeo;
 use groebot_peers::by_opw::Opw;
 use groebot_peers::by_print;
@@ -70,6 +71,7 @@ fn contest(name: &str) {
     let singular = singular_poses(&chain, SINGULAR);
     let (ik_geo, opw) = (IkGeo::new(&chain), Opw::new(&chain));
     let mut solvers = vec![ours(name, &poses, &q)];
+    solvers.extend(ours_by_batch(name, &poses, &q));
     solvers.extend(ik_geo.as_ref().map(|peer| by_ik_geo(peer, &poses, &q)));
     solvers.extend(opw.as_ref().map(|peer| by_opw(peer, &poses, &q)));
     let measure = |inputs: usize, rounds: usize| {
@@ -115,6 +117,19 @@ fn ours<'a>(name: &str, poses: &[Pose], q: &'a [Joints]) -> Solver<'a> {
         forward: Box::new(move || (printed.forward)(&q[..COUNT])),
         solutions: Box::new(move |pose| (printed.solutions)(&by_print::target(pose))),
     }
+}
+
+fn ours_by_batch<'a>(name: &str, poses: &[Pose], q: &'a [Joints]) -> Option<Solver<'a>> {
+    let (printed, batches) = (by_print::solver(name)?, by_batch::solver(name)?);
+    let targets: Vec<_> = poses.iter().map(by_print::target).collect();
+    Some(Solver {
+        name: "groebot-batch",
+        pass: Box::new(move |count| {
+            black_box((batches.pass)(black_box(&targets[..count])));
+        }),
+        forward: Box::new(move || (printed.forward)(&q[..COUNT])),
+        solutions: Box::new(move |pose| (batches.solutions)(&by_print::target(pose))),
+    })
 }
 
 fn by_ik_geo<'a>(peer: &'a IkGeo, poses: &[Pose], q: &'a [Joints]) -> Solver<'a> {

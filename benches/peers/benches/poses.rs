@@ -7,6 +7,7 @@ use std::io::Result;
 
 use groebot::kinematics::screw::{ScrewSolver, Target};
 use groebot::robots::{self, Robot};
+use groebot_peers::by_batch;
 use groebot_peers::by_ik_geo::IkGeo;
 use groebot_peers::by_opw::Opw;
 use groebot_peers::by_print;
@@ -26,6 +27,12 @@ fn contest(robot: &Robot) -> Result<()> {
         assert!((solve.pass)(&targets) >= targets.len(), "{}: every pose has an answer", robot.name());
         contenders.push(Contender::new("groebot-printed", move || {
             black_box((solve.pass)(black_box(&targets)));
+        }));
+    }
+    if let Some(batches) = by_batch::solver(robot.name()) {
+        let targets: Vec<_> = poses.iter().map(by_print::target).collect();
+        contenders.push(Contender::new("groebot-batch", move || {
+            black_box((batches.pass)(black_box(&targets)));
         }));
     }
     if let Ok(ours) = ScrewSolver::new(&chain) {

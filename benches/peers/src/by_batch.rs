@@ -1,0 +1,60 @@
+//! groebot's printed solvers of batches: what `groebot codegen --lang rust --batch` prints.
+
+use crate::Joints;
+use crate::by_print::Target;
+
+/// Targets that a pass solves together.
+const TARGETS: usize = 256;
+/// Answers that there is room for, which is enough for eight of each target.
+const ANSWERS: usize = 8 * TARGETS;
+
+/// A printed solver of batches behind functions.
+#[derive(Clone, Copy)]
+pub struct Batches {
+    /// Solves all targets and returns the number of all answers.
+    pub pass: fn(&[Target]) -> usize,
+    /// All answers of one target.
+    pub solutions: fn(&Target) -> Vec<Joints>,
+}
+
+mod printed {
+    include!(concat!(env!("OUT_DIR"), "/batches.rs"));
+}
+
+/// Declares the choice among the printed solvers by name.
+macro_rules! batches {
+    ($($name:ident),* $(,)?) => {
+        /// The solver of the robot with this name.
+        pub fn solver(name: &str) -> Option<Batches> {
+            match name {
+                $(
+                    stringify!($name) => Some(Batches {
+                        pass: |targets| {
+                            use printed::$name::{Solution, solve_batch};
+                            let mut out = [Solution::EMPTY; ANSWERS];
+                            let mut counts = [Ok(0); TARGETS];
+                            let (mut count, mut rest) = (0, targets);
+                            while !rest.is_empty() {
+                                let done = solve_batch(std::hint::black_box(rest), &mut out, &mut counts);
+                                std::hint::black_box(&out);
+                                count += counts[..done].iter().map(|count| count.unwrap_or(0)).sum::<usize>();
+                                rest = &rest[done..];
+                            }
+                            count
+                        },
+                        solutions: |target| {
+                            use printed::$name::{CAPACITY, Solution, solve_batch};
+                            let mut out = [Solution::EMPTY; CAPACITY];
+                            let mut counts = [Ok(0)];
+                            assert_eq!(solve_batch(&[*target], &mut out, &mut counts), 1);
+                            out[..counts[0].unwrap_or(0)].iter().map(|answer| answer.q).collect()
+                        },
+                    }),
+                )*
+                _ => None,
+            }
+        }
+    };
+}
+
+batches!(irb120, nao_left_leg, nao_right_leg, puma, rh0_left_leg, rh0_right_leg, stanford, teo_leg, ur5);

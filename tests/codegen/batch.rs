@@ -1,0 +1,160 @@
+//! Batches in printed Rust: each answer is that of `solve` to the last bit, in lanes of every width, with `std` and without.
+
+use std::f64::consts::FRAC_PI_2;
+use std::fmt::Write as _;
+use std::fs;
+
+use groebot::codegen::rust;
+use groebot::solver::Program;
+
+use super::harness::{feed, rustc};
+use super::stored::{all, named};
+use super::{odd, random};
+
+/// What random joints reach; at and next to singular places, out of reach, where numbers of the target are zero, and what is no target.
+fn targets(program: &Program, count: usize) -> Vec<Vec<f64>> {
+    let mut next = random();
+    let mut targets = odd(program.inputs.len());
+    for k in 0..count {
+        let joint = |_| if k % 9 == 1 { next(-2.0, 2.0).round() * FRAC_PI_2 } else { next(-3.2, 3.2) };
+        let mut q: Vec<f64> = (0..program.joints.len()).map(joint).collect();
+        let place = k / 9 % q.len();
+        match k % 9 {
+            3 => q[place] = 0.0,
+            5 => q[place] = 1e-3 * next(-1.0, 1.0),
+            _ => {}
+        }
+        let mut target = program.reached(&q).unwrap();
+        match k % 9 {
+            2 => target[k % 3 % program.inputs.len()] *= 1.0 + next(0.0, 2.0),
+            4 => target[k % 2] = 0.0,
+            7 => target[k % program.inputs.len()] += 1e-8 * next(-1.0, 1.0),
+            _ => {}
+        }
+        targets.push(target);
+    }
+    targets
+}
+
+/// Compiles the printed file as a module and as a crate without `std`, each with a driver that compares batches with single targets;
+/// `None` when the compiler is missing.
+fn check(program: &Program, count: usize) -> Option<()> {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let text = rust::emit_batch(program).unwrap();
+    write("5_solver.rs", &text);
+    rustc(folder.path(), &["--crate-type=lib", "--crate-name=printed", "5_solver.rs"])?;
+    // The driver calls the function of each width.
+    write("5_solver.rs", &text.replace("\nfn solve_by", "\n#[allow(missing_docs)]\npub fn solve_by"));
+    write("root.rs", "#![no_std]\n#[path = \"5_solver.rs\"]\npub mod solver;\n");
+    write("module.rs", &format!("#[path = \"5_solver.rs\"]\nmod solver;\n{DRIVER}"));
+    write("crate.rs", &format!("use no_std_root::solver;\n{DRIVER}"));
+    let library = ["--crate-type=lib", "--crate-name=no_std_root", "--cfg=feature=\"libm\"", "root.rs"];
+    rustc(folder.path(), &library)?;
+    rustc(folder.path(), &["--cfg=with_std", "--check-cfg=cfg(with_std)", "module.rs"])?;
+    rustc(folder.path(), &["--check-cfg=cfg(with_std)", "--extern=no_std_root=libno_std_root.rlib", "crate.rs"])?;
+    let targets = targets(program, count);
+    let mut text = String::new();
+    for number in targets.iter().flatten() {
+        write!(text, "{number:e} ").unwrap();
+    }
+    for name in ["module", "crate"] {
+        let output = feed(&folder.path().join(name), text.clone());
+        let answers: usize = output.trim().parse().unwrap();
+        assert!(answers > count, "{}: {answers} answers of {} targets", program.name, targets.len());
+    }
+    Some(())
+}
+
+#[test]
+fn batches_are_single_targets_to_the_last_bit() {
+    let robots = ["puma", "ur5", "stanford", "nao_left_leg"];
+    named(&robots).iter().for_each(|stored| drop(check(&stored.program, 10_000)));
+    let others = ["scara", "polar", "wrist_rotation", "planar_2r", "nao_legs_poses", "rh0_arm"];
+    named(&others).iter().for_each(|stored| drop(check(&stored.program, 1000)));
+}
+
+#[test]
+fn batches_are_for_solvers_by_square_roots() {
+    let has_batch = |name: &str| rust::emit_batch(&named(&[name])[0].program).is_some();
+    assert!(["teo_leg", "irb120", "gantry", "offset_wrist"].into_iter().all(has_batch));
+    assert!(!["general_6r", "spherical_wrist", "nao_left_arm", "nao_leg_sagittal"].into_iter().any(has_batch));
+    for stored in all() {
+        assert!(!rust::emit(&stored.program).contains("solve_batch"), "{}: only where it is asked for", stored.name);
+    }
+}
+
+/// Reads targets; compares all, in one batch by each width, then the first few of them with little room.
+const DRIVER: &str = r#"
+use solver::{Error, INPUTS, Solution};
+use std::io::Read;
+
+type Count = Result<usize, Error>;
+type Batch = fn(&[[f64; INPUTS]], &mut [Solution], &mut [Count]) -> usize;
+
+fn batches() -> Vec<Batch> {
+    #[allow(unused_mut)]
+    let mut batches: Vec<Batch> =
+        vec![solver::solve_batch, solver::solve_by::<2>, solver::solve_by::<3>, solver::solve_by::<4>, solver::solve_by::<8>];
+    #[cfg(all(target_arch = "x86_64", with_std))]
+    {
+        if std::is_x86_feature_detected!("avx2") {
+            batches.push(|targets, out, counts| unsafe { solver::solve_by_4(targets, out, counts) });
+        }
+        if std::is_x86_feature_detected!("avx512f") {
+            batches.push(|targets, out, counts| unsafe { solver::solve_by_8(targets, out, counts) });
+        }
+    }
+    batches
+}
+
+fn same(a: &Solution, b: &Solution) -> bool {
+    let bits = |answer: &Solution| (answer.q.map(f64::to_bits), answer.residual.to_bits());
+    bits(a) == bits(b) && (a.branch, a.chosen, a.free) == (b.branch, b.chosen, b.free)
+}
+
+/// How many targets are solved, which must be all that there is room for, with the answers of `singles`.
+fn check(batch: Batch, targets: &[[f64; INPUTS]], singles: &[(Count, Vec<Solution>)], room: usize) -> usize {
+    let mut out = vec![Solution::EMPTY; room];
+    let mut counts = vec![Err(Error::NotFinite); targets.len()];
+    let done = batch(targets, &mut out, &mut counts);
+    let mut filled = 0;
+    for (i, (count, answers)) in singles.iter().enumerate().take(targets.len()) {
+        if filled + answers.len() > room {
+            assert_eq!(done, i, "{room}");
+            return done;
+        }
+        assert_eq!(counts[i], *count, "{:?}", targets[i]);
+        for (k, answer) in answers.iter().enumerate() {
+            assert!(same(&out[filled + k], answer), "{:?}: {:?} instead of {answer:?}", targets[i], out[filled + k]);
+        }
+        filled += answers.len();
+    }
+    assert_eq!(done, targets.len());
+    done
+}
+
+fn main() {
+    let mut text = String::new();
+    std::io::stdin().read_to_string(&mut text).unwrap();
+    let numbers: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();
+    let targets: Vec<[f64; INPUTS]> = numbers.chunks(INPUTS).map(|target| target.try_into().unwrap()).collect();
+    let single = |target: &[f64; INPUTS]| {
+        let mut out = [Solution::EMPTY; solver::CAPACITY];
+        let count = solver::solve(target, &mut out);
+        (count, out[..count.unwrap_or(0)].to_vec())
+    };
+    let singles: Vec<(Count, Vec<Solution>)> = targets.iter().map(single).collect();
+    let answers: usize = singles.iter().map(|(_, answers)| answers.len()).sum();
+    for batch in batches() {
+        check(batch, &targets, &singles, answers);
+        let (some, singles) = (&targets[100..], &singles[100..]);
+        for count in 0..20 {
+            check(batch, &some[..count], singles, 200);
+            check(batch, &some[..20], singles, count);
+            assert_eq!(batch(&some[..20], &mut vec![Solution::EMPTY; 1000], &mut vec![Ok(0); count]), count);
+        }
+    }
+    println!("{answers}");
+}
+"#;
