@@ -16,19 +16,21 @@ fn targets(program: &Program, count: usize) -> Vec<Vec<f64>> {
     let mut next = random();
     let mut targets = odd(program.inputs.len());
     for k in 0..count {
-        let joint = |_| if k % 9 == 1 { next(-2.0, 2.0).round() * FRAC_PI_2 } else { next(-3.2, 3.2) };
+        // Few of the singular ones: they take a thousand times as long.
+        let kind = if k % 10 == 0 { k / 10 % 20 } else { 20 + k % 10 };
+        let joint = |_| if kind == 1 { next(-2.0, 2.0).round() * FRAC_PI_2 } else { next(-3.2, 3.2) };
         let mut q: Vec<f64> = (0..program.joints.len()).map(joint).collect();
-        let place = k / 9 % q.len();
-        match k % 9 {
+        let place = k / 200 % q.len();
+        match kind {
             3 => q[place] = 0.0,
             5 => q[place] = 1e-3 * next(-1.0, 1.0),
             _ => {}
         }
         let mut target = program.reached(&q).unwrap();
-        match k % 9 {
-            2 => target[k % 3 % program.inputs.len()] *= 1.0 + next(0.0, 2.0),
-            4 => target[k % 2] = 0.0,
-            7 => target[k % program.inputs.len()] += 1e-8 * next(-1.0, 1.0),
+        match kind {
+            2 | 22 => target[k / 10 % 3 % program.inputs.len()] *= 1.0 + next(0.0, 2.0),
+            4 => target[k / 200 % 2] = 0.0,
+            7 | 27 => target[k / 10 % program.inputs.len()] += 1e-8 * next(-1.0, 1.0),
             _ => {}
         }
         targets.push(target);
@@ -69,9 +71,13 @@ fn check(program: &Program, count: usize) -> Option<()> {
 #[test]
 fn batches_are_single_targets_to_the_last_bit() {
     let robots = ["puma", "ur5", "stanford", "nao_left_leg"];
-    named(&robots).iter().for_each(|stored| drop(check(&stored.program, 10_000)));
-    let others = ["scara", "polar", "wrist_rotation", "planar_2r", "nao_legs_poses", "rh0_arm"];
-    named(&others).iter().for_each(|stored| drop(check(&stored.program, 1000)));
+    let others = ["scara", "polar", "wrist_rotation", "planar_2r", "rh0_arm"];
+    for (names, count) in [(&robots[..], 10_000), (&others[..], 1000)] {
+        let stored = named(names);
+        assert_eq!(stored.len(), names.len());
+        let is_checked = stored.iter().all(|stored| check(&stored.program, count).is_some());
+        assert!(is_checked || std::env::var("GROEBOT_REQUIRE_TOOLS").is_err(), "a compiler is missing");
+    }
 }
 
 #[test]
