@@ -102,6 +102,8 @@ static const double ACCEPT = 1e-12;
 static const double MERGE = 1e-7;
 /* At a singular configuration, answers within this distance may be one. */
 static const double BLUR = 0.05;
+/* Half-way between two that are one the equations hold within this share. */
+static const double ALIKE = 2.5e-15;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -126,7 +128,7 @@ static const double ADRIFT = 1e-7;
 static const double ALONE = 1e-13;
 /* How far a free joint is moved to see whether an answer lies on a family. */
 static const double ASIDE = 0.1;
-static const int NARROWS = 3;
+static const int NARROWS = 5;
 static const double SINGULAR = 1e-13;
 static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
@@ -774,7 +776,7 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound. */
 static bool are_joined(const Parameters *p, const double *a, const double *b, double bound, const bool *held)
 {
     if (farthest_of(a, b) > BLUR) {
@@ -785,7 +787,6 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
     for (size_t i = 0; i < JOINTS; i++) {
         middle[i] = b[i] + 0.5 * way[i];
     }
-    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
@@ -805,7 +806,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative), NONE_FREE);
+    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -903,7 +904,7 @@ static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
         }
         accepted = follow(p, q, b->free).accepted;
     }
-    return accepted && is_within(q, b->q, ARRIVED);
+    return accepted && is_within(q, b->q, ARRIVED) && are_joined(p, q, b->q, RESOLUTION, b->free);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -1089,7 +1090,8 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
-            if (!keep_member(p, branch, last, q, &fit, free, answers) && fit.relative <= ALONE) {
+            const bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
+            if (!is_member && fit.relative <= ALONE) {
                 const size_t known = answers->count;
                 keep(p, answers, branch, last, q, &fit, NONE_FREE);
                 if (answers->count > known && RESOLUTION <= missed && missed <= SPLIT) {

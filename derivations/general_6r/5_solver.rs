@@ -341,6 +341,8 @@ const ACCEPT: f64 = 1e-12;
 const MERGE: f64 = 1e-7;
 /// At a singular configuration, answers within this distance may be one.
 const BLUR: f64 = 0.05;
+/// Half-way between two that are one the equations hold within this share.
+const ALIKE: f64 = 2.5e-15;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -369,7 +371,7 @@ const ADRIFT: f64 = 1e-7;
 const ALONE: f64 = 1e-13;
 /// How far a free joint is moved to see whether an answer lies on a family.
 const ASIDE: f64 = 0.1;
-const NARROWS: usize = 3;
+const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
@@ -406,16 +408,12 @@ fn make_rotation(r: &mut [f64]) -> bool {
     }
     let determinant =
         r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
-    if determinant < 0.0 || deviation > CONSISTENT {
-        return false;
-    }
-    let mut given = [0.0; 9];
-    given.copy_from_slice(r);
+    let given: [f64; 9] = core::array::from_fn(|i| r[i]);
     for i in 0..9 {
         let (row, column) = (excess[i / 3], i % 3);
-        r[i] -= 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
+        r[i] = r[i] - 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
     }
-    true
+    determinant >= 0.0 && deviation <= CONSISTENT
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -3479,7 +3477,7 @@ fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
         let end = follow(p, q, &b.free);
         (q, accepted) = (end.0, end.1.accepted);
     }
-    accepted && is_within(&q, &b.q, ARRIVED)
+    accepted && is_within(&q, &b.q, ARRIVED) && are_joined(p, &q, &b.q, RESOLUTION, &b.free)
 }
 
 /// Polishes joints of which `free` ones stay where they are.
@@ -3550,11 +3548,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let bound = f64::max(a.relative, b.relative);
+    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
     are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
 }
 
-/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound` or rounding.
+/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
 fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, held: &[bool; JOINTS]) -> bool {
     if farthest(a, b) > BLUR {
         return false;
@@ -3564,7 +3562,6 @@ fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, 
     for i in 0..JOINTS {
         middle[i] += 0.5 * way[i];
     }
-    let bound = f64::max(bound, RESOLUTION);
     let mut fit = measure(p, &middle);
     for _ in 0..RETURNS {
         if fit.relative <= bound {

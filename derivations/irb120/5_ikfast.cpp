@@ -102,6 +102,8 @@ static const double ACCEPT = 1e-12;
 static const double MERGE = 1e-7;
 /* At a singular configuration, answers within this distance may be one. */
 static const double BLUR = 0.05;
+/* Half-way between two that are one the equations hold within this share. */
+static const double ALIKE = 2.5e-15;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -126,7 +128,7 @@ static const double ADRIFT = 1e-7;
 static const double ALONE = 1e-13;
 /* How far a free joint is moved to see whether an answer lies on a family. */
 static const double ASIDE = 0.1;
-static const int NARROWS = 3;
+static const int NARROWS = 5;
 static const double SINGULAR = 1e-13;
 static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
@@ -148,6 +150,8 @@ typedef irb120_solution Solution;
 
 /* The highest degree of a polynomial. */
 static const int DEGREE = 2;
+/* Roots that differ by no more than this share of the unknown's typical size are close to one another. */
+static const double MEETING = 1e-5;
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 static const double TANGENT = 1e-10;
@@ -181,7 +185,7 @@ static Roots square_roots(double constant, double scale)
         return roots;
     }
     const double root = sqrt(-constant);
-    roots.close = root <= SPLIT * scale;
+    roots.close = root <= MEETING * scale;
     push(&roots, -root);
     push(&roots, root);
     return roots;
@@ -457,6 +461,8 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
+/* By joint that some chart frees: that joint alone. */
+static const bool FREED[3][JOINTS] = { {True, False, False, False, False, False}, {False, True, False, False, False, False}, {False, False, False, True, False, False} };
 
 /* Rows of the equations and of the damping. */
 static const int ROWS = (EQUATIONS + JOINTS);
@@ -823,7 +829,7 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound. */
 static bool are_joined(const Parameters *p, const double *a, const double *b, double bound, const bool *held)
 {
     if (farthest_of(a, b) > BLUR) {
@@ -834,7 +840,6 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
     for (size_t i = 0; i < JOINTS; i++) {
         middle[i] = b[i] + 0.5 * way[i];
     }
-    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
@@ -854,7 +859,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative), NONE_FREE);
+    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -952,7 +957,7 @@ static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
         }
         accepted = follow(p, q, b->free).accepted;
     }
-    return accepted && is_within(q, b->q, ARRIVED);
+    return accepted && is_within(q, b->q, ARRIVED) && are_joined(p, q, b->q, RESOLUTION, b->free);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -1120,6 +1125,17 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
     return is_member;
 }
 
+/* Whether an isolated answer is listed that has these joints. */
+static bool is_listed(const Answers *answers, const double *q)
+{
+    for (size_t i = 0; i < answers->count; i++) {
+        if (is_isolated(answers->out[i].free) && is_within(answers->out[i].q, q, MERGE)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
@@ -1138,7 +1154,13 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
-            if (!keep_member(p, branch, last, q, &fit, free, answers) && fit.relative <= ALONE) {
+            bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
+            /* It may be of another family, of one joint. */
+            const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
+            for (size_t i = 0; i < 3 && tries && !is_member; i++) {
+                is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
+            }
+            if (!is_member && fit.relative <= ALONE) {
                 const size_t known = answers->count;
                 keep(p, answers, branch, last, q, &fit, NONE_FREE);
                 if (answers->count > known && RESOLUTION <= missed && missed <= SPLIT) {

@@ -133,6 +133,8 @@ int nao_arm_planar_nearest(const nao_arm_planar_solution *list, int count, const
 #define MERGE 1e-7
 /* At a singular configuration, answers within this distance may be one. */
 #define BLUR 0.05
+/* Half-way between two that are one the equations hold within this share. */
+#define ALIKE 2.5e-15
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -166,6 +168,8 @@ const double nao_arm_planar_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINITY
 
 /* The highest degree of a polynomial. */
 #define DEGREE 2
+/* Roots that differ by no more than this share of the unknown's typical size are close to one another. */
+#define MEETING 1e-5
 /* A leading coefficient below this share of the largest coefficient counts as zero. */
 #define NEGLIGIBLE 1e-290
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
@@ -286,7 +290,7 @@ static Roots real_roots(const double *coefficients, size_t length, double scale)
     Roots roots = all_real_roots(coefficients, length, scale);
     roots.close = roots.count > 0 && roots.count % 2 == length % 2;
     for (size_t i = 1; i < roots.count; i++) {
-        roots.close = roots.close || roots.values[i] - roots.values[i - 1] <= SPLIT * scale;
+        roots.close = roots.close || roots.values[i] - roots.values[i - 1] <= MEETING * scale;
     }
     return roots;
 }
@@ -797,7 +801,7 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound. */
 static bool are_joined(const Parameters *p, const double *a, const double *b, double bound)
 {
     if (farthest_of(a, b) > BLUR) {
@@ -808,7 +812,6 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
     for (size_t i = 0; i < JOINTS; i++) {
         middle[i] = b[i] + 0.5 * way[i];
     }
-    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
@@ -828,7 +831,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative));
+    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE));
 }
 
 /* Whether two answers, with their relative residuals, are one. */

@@ -272,6 +272,8 @@ const ACCEPT: f64 = 1e-12;
 const MERGE: f64 = 1e-7;
 /// At a singular configuration, answers within this distance may be one.
 const BLUR: f64 = 0.05;
+/// Half-way between two that are one the equations hold within this share.
+const ALIKE: f64 = 2.5e-15;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -644,11 +646,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let bound = f64::max(a.relative, b.relative);
+    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
     are_joined(p, &a.answer.q, &b.answer.q, bound)
 }
 
-/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound` or rounding.
+/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
 fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64) -> bool {
     if farthest(a, b) > BLUR {
         return false;
@@ -658,7 +660,6 @@ fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64) 
     for i in 0..JOINTS {
         middle[i] += 0.5 * way[i];
     }
-    let bound = f64::max(bound, RESOLUTION);
     let mut fit = measure(p, &middle);
     for _ in 0..RETURNS {
         if fit.relative <= bound {
@@ -967,6 +968,8 @@ fn is_away(value: f64, scale: f64) -> bool {
 
 /// The highest degree of a polynomial.
 const DEGREE: usize = 2;
+/// Roots that differ by no more than this share of the unknown's typical size are close to one another.
+const MEETING: f64 = 1e-5;
 /// A leading coefficient below this share of the largest coefficient counts as zero.
 const NEGLIGIBLE: f64 = 1e-290;
 /// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
@@ -984,11 +987,11 @@ struct Roots {
 }
 
 impl Roots {
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
-
     fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
     }
+
+    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
 
     fn push(&mut self, x: f64) {
         if x.is_finite() && self.count < DEGREE {
@@ -1015,7 +1018,7 @@ fn largest(coefficients: &[f64]) -> f64 {
 fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
     let mut roots = all_real_roots(coefficients, scale);
     let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
-    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= SPLIT * scale);
+    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= MEETING * scale);
     roots
 }
 

@@ -170,6 +170,8 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define MERGE 1e-7
 /* At a singular configuration, answers within this distance may be one. */
 #define BLUR 0.05
+/* Half-way between two that are one the equations hold within this share. */
+#define ALIKE 2.5e-15
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -194,7 +196,7 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define ALONE 1e-13
 /* How far a free joint is moved to see whether an answer lies on a family. */
 #define ASIDE 0.1
-#define NARROWS 3
+#define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
@@ -220,6 +222,8 @@ const double nao_legs_yaw_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINITY, 
 
 /* The highest degree of a polynomial. */
 #define DEGREE 4
+/* Roots that differ by no more than this share of the unknown's typical size are close to one another. */
+#define MEETING 1e-5
 /* A leading coefficient below this share of the largest coefficient counts as zero. */
 #define NEGLIGIBLE 1e-290
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
@@ -259,7 +263,7 @@ static Roots square_roots(double constant, double scale)
         return roots;
     }
     const double root = sqrt(-constant);
-    roots.close = root <= SPLIT * scale;
+    roots.close = root <= MEETING * scale;
     push(&roots, -root);
     push(&roots, root);
     return roots;
@@ -514,12 +518,115 @@ static Roots all_real_roots(const double *coefficients, size_t length, double sc
     return roots;
 }
 
+/* The greatest root of z^3 + u z^2 + v z - w for w > 0, to half its digits, by Newton steps down from a bound of it; else NAN. */
+static double resolved(double u, double v, double w, double typical)
+{
+    const double falling = fmax(-u, 0.0), under = fmax(-v, 0.0);
+    double z = fmax(typical, 0.5 * (falling + sqrt(falling * falling + 4.0 * (under + w / typical))));
+    for (int i = 0; i < 24; i++) {
+        const double value = ((z + u) * z + v) * z - w, slope = (3.0 * z + 2.0 * u) * z + v;
+        const double step = value / slope;
+        z -= step;
+        if (fabs(step) <= 1e-5 * z) {
+            return w > 0.0 ? z : NAN;
+        }
+    }
+    return NAN;
+}
+
+/* The roots of the two real quadratics whose product is x^4 + b x^3 + c x^2 + d x + e, two of either, ascending; their number, or -1 where
+ * that is in doubt. */
+static int approximate_roots(const double *monic, double scale, double *roots)
+{
+    const double e = monic[0], d = monic[1], c = monic[2], b = monic[3];
+    /* With y = x + b / 4 it is y^4 + p y^2 + q y + r. */
+    const double quarter = 0.25 * b, square = b * b, p = c - 0.375 * square;
+    const double q = d - 0.5 * b * (c - 0.25 * square), r = e - quarter * (d - quarter * (c - 0.1875 * square));
+    /* (y^2 + h y + f) (y^2 - h y + g) with z = h^2. */
+    const double z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale), h = sqrt(z);
+    const double mean = 0.5 * (p + z), half = 0.5 * q / h, f = mean - half, g = mean + half;
+    const double size = fmax(fmax(z, fabs(f)), fabs(g));
+    if (!(fabs(f * g - r) <= 1e-8 * size * size)) {
+        return -1;
+    }
+    const double others[2] = {g, f};
+    const double discriminants[2] = {z - 4.0 * f, z - 4.0 * g};
+    const double middles[2] = {-0.5 * h, 0.5 * h};
+    int count = 0;
+    for (int i = 0; i < 2; i++) {
+        const double apart = 0.5 * sqrt(fabs(discriminants[i]));
+        if (discriminants[i] > 0.0) {
+            roots[count] = middles[i] - apart - quarter;
+            roots[count + 1] = middles[i] + apart - quarter;
+            count += 2;
+        } else if (!(apart > 0.002 * fmax(scale, sqrt(size))
+                     && fabs(others[i] + 0.75 * z) > 0.002 * fmax(size, scale * scale))) {
+            return -1;
+        }
+    }
+    return count;
+}
+
+/* Two Newton steps from a root's approximation; NAN where they do not settle. */
+static double settled(const double *monic, double x, double scale)
+{
+    const double e = monic[0], d = monic[1], c = monic[2], b = monic[3];
+    double step = 0.0;
+    for (int i = 0; i < 2; i++) {
+        const double value = (((x + b) * x + c) * x + d) * x + e;
+        const double slope = ((4.0 * x + 3.0 * b) * x + 2.0 * c) * x + d;
+        step = value / slope;
+        x -= step;
+    }
+    return fabs(step) <= 1e-9 * fmax(scale, fabs(x)) ? x : NAN;
+}
+
+/* The real roots of an ordinary quartic: Ferrari's two quadratics, then two Newton steps. False where the leading coefficient is small, where
+ * roots are next to each other or complex ones next to the axis, and where the steps do not settle. */
+static bool ordinary_roots(const double *coefficients, double scale, Roots *roots)
+{
+    const double lead = coefficients[4], size_of_all = largest(coefficients, 5);
+    if (!(fabs(lead) > 0.01 * size_of_all && size_of_all < HUGE_VAL)) {
+        return false;
+    }
+    const double inverse = 1.0 / lead;
+    double monic[4], x[4];
+    for (int i = 0; i < 4; i++) {
+        monic[i] = coefficients[i] * inverse;
+    }
+    const int count = approximate_roots(monic, scale, x);
+    for (int i = 0; i < count; i++) {
+        x[i] = settled(monic, x[i], scale);
+    }
+    if (count == 4) {
+        const double first = fmin(x[0], x[2]), low = fmin(x[1], x[3]);
+        const double high = fmax(x[0], x[2]), last = fmax(x[1], x[3]);
+        x[0] = first;
+        x[1] = fmin(low, high);
+        x[2] = fmax(low, high);
+        x[3] = last;
+    }
+    roots->count = 0;
+    roots->close = false;
+    for (int i = 0; i < count; i++) {
+        if (i > 0 && !(x[i] - x[i - 1] > 0.002 * fmax(fmax(scale, fabs(x[i])), fabs(x[i - 1])))) {
+            return false;
+        }
+        push(roots, x[i]);
+    }
+    return count >= 0;
+}
+
 static Roots real_roots(const double *coefficients, size_t length, double scale)
 {
+    Roots ordinary = {{0.0}, 0, false};
+    if (length == 5 && ordinary_roots(coefficients, scale, &ordinary)) {
+        return ordinary;
+    }
     Roots roots = all_real_roots(coefficients, length, scale);
     roots.close = roots.count > 0 && roots.count % 2 == length % 2;
     for (size_t i = 1; i < roots.count; i++) {
-        roots.close = roots.close || roots.values[i] - roots.values[i - 1] <= SPLIT * scale;
+        roots.close = roots.close || roots.values[i] - roots.values[i - 1] <= MEETING * scale;
     }
     return roots;
 }
@@ -1039,6 +1146,8 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
+/* By joint that some chart frees: that joint alone. */
+static const bool FREED[6][JOINTS] = { {True, False, False, False, False, False, False, False, False, False, False, False, False, False}, {False, False, False, True, False, False, False, False, False, False, False, False, False, False}, {False, False, False, False, False, False, False, True, False, False, False, False, False, False}, {False, False, False, False, False, False, False, False, True, False, False, False, False, False}, {False, False, False, False, False, False, False, False, False, False, False, False, True, False}, {False, False, False, False, False, False, False, False, False, False, False, False, False, True} };
 
 /* Rows of the equations and of the damping. */
 #define ROWS (EQUATIONS + JOINTS)
@@ -1464,7 +1573,7 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound. */
 static bool are_joined(const Parameters *p, const double *a, const double *b, double bound, const bool *held)
 {
     if (farthest_of(a, b) > BLUR) {
@@ -1475,7 +1584,6 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
     for (size_t i = 0; i < JOINTS; i++) {
         middle[i] = b[i] + 0.5 * way[i];
     }
-    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
@@ -1495,7 +1603,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative), NONE_FREE);
+    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1593,7 +1701,7 @@ static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
         }
         accepted = follow(p, q, b->free).accepted;
     }
-    return accepted && is_within(q, b->q, ARRIVED);
+    return accepted && is_within(q, b->q, ARRIVED) && are_joined(p, q, b->q, RESOLUTION, b->free);
 }
 
 static bool has_free(const Solution *answer, const bool *free)
@@ -1761,6 +1869,17 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
     return is_member;
 }
 
+/* Whether an isolated answer is listed that has these joints. */
+static bool is_listed(const Answers *answers, const double *q)
+{
+    for (size_t i = 0; i < answers->count; i++) {
+        if (is_isolated(answers->out[i].free) && is_within(answers->out[i].q, q, MERGE)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
@@ -1779,7 +1898,13 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         }
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
-            if (!keep_member(p, branch, last, q, &fit, free, answers) && fit.relative <= ALONE) {
+            bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
+            /* It may be of another family, of one joint. */
+            const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
+            for (size_t i = 0; i < 6 && tries && !is_member; i++) {
+                is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
+            }
+            if (!is_member && fit.relative <= ALONE) {
                 const size_t known = answers->count;
                 keep(p, answers, branch, last, q, &fit, NONE_FREE);
                 if (answers->count > known && RESOLUTION <= missed && missed <= SPLIT) {

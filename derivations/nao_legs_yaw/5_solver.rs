@@ -361,6 +361,8 @@ const ACCEPT: f64 = 1e-12;
 const MERGE: f64 = 1e-7;
 /// At a singular configuration, answers within this distance may be one.
 const BLUR: f64 = 0.05;
+/// Half-way between two that are one the equations hold within this share.
+const ALIKE: f64 = 2.5e-15;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -389,7 +391,7 @@ const ADRIFT: f64 = 1e-7;
 const ALONE: f64 = 1e-13;
 /// How far a free joint is moved to see whether an answer lies on a family.
 const ASIDE: f64 = 0.1;
-const NARROWS: usize = 3;
+const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
@@ -405,6 +407,8 @@ const NEAR: f64 = 0.001;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
+/// By joint that some chart frees: that joint alone.
+const FREED: [[bool; JOINTS]; 6] = [[True, False, False, False, False, False, False, False, False, False, False, False, False, False], [False, False, False, True, False, False, False, False, False, False, False, False, False, False], [False, False, False, False, False, False, False, True, False, False, False, False, False, False], [False, False, False, False, False, False, False, False, True, False, False, False, False, False], [False, False, False, False, False, False, False, False, False, False, False, False, True, False], [False, False, False, False, False, False, False, False, False, False, False, False, False, True]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
 fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
@@ -433,16 +437,12 @@ fn make_rotation(r: &mut [f64]) -> bool {
     }
     let determinant =
         r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
-    if determinant < 0.0 || deviation > CONSISTENT {
-        return false;
-    }
-    let mut given = [0.0; 9];
-    given.copy_from_slice(r);
+    let given: [f64; 9] = core::array::from_fn(|i| r[i]);
     for i in 0..9 {
         let (row, column) = (excess[i / 3], i % 3);
-        r[i] -= 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
+        r[i] = r[i] - 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
     }
-    true
+    determinant >= 0.0 && deviation <= CONSISTENT
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -1939,10 +1939,7 @@ const TIP: usize = 28;
 
 /// The tip, as the equations compare it.
 #[inline(always)]
-fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP]
-where
-    f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T>,
-{
+fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let left_c1 = at[0];
     let left_s1 = at[1];
     let left_c2_ = at[2];
@@ -2212,10 +2209,7 @@ const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0
 
 /// The equations' values.
 #[inline(always)]
-fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS]
-where
-    f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T>,
-{
+fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
     let reached = tip(at);
     [
         reached[0] - p.left_c2,
@@ -2648,6 +2642,11 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
+                // It may be of another family, of one joint.
+                let is_member = is_member
+                    || (end.1.relative <= ALONE
+                        && !self.is_listed(&end.0)
+                        && FREED.iter().any(|one| self.keep_member(p, branch, last, end, *one)));
                 if !is_member && end.1.relative <= ALONE {
                     let known = self.count;
                     self.keep(p, branch, last, end, NONE_FREE);
@@ -2667,6 +2666,11 @@ impl Answers<'_> {
             self.around(p, branch, last, &end, missed, free);
         }
         self.keep(p, branch, last, end, free);
+    }
+
+    /// Whether an isolated answer is listed that has these joints.
+    fn is_listed(&self, q: &[f64; JOINTS]) -> bool {
+        self.out[..self.count].iter().any(|answer| is_isolated(answer) && is_within(&answer.q, q, MERGE))
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
@@ -2905,7 +2909,7 @@ fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
         let end = follow(p, q, &b.free);
         (q, accepted) = (end.0, end.1.accepted);
     }
-    accepted && is_within(&q, &b.q, ARRIVED)
+    accepted && is_within(&q, &b.q, ARRIVED) && are_joined(p, &q, &b.q, RESOLUTION, &b.free)
 }
 
 /// Polishes joints of which `free` ones stay where they are.
@@ -3000,11 +3004,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let bound = f64::max(a.relative, b.relative);
+    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
     are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
 }
 
-/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound` or rounding.
+/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
 fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, held: &[bool; JOINTS]) -> bool {
     if farthest(a, b) > BLUR {
         return false;
@@ -3014,7 +3018,6 @@ fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, 
     for i in 0..JOINTS {
         middle[i] += 0.5 * way[i];
     }
-    let bound = f64::max(bound, RESOLUTION);
     let mut fit = measure(p, &middle);
     for _ in 0..RETURNS {
         if fit.relative <= bound {
@@ -3383,6 +3386,8 @@ fn is_away(value: f64, scale: f64) -> bool {
 
 /// The highest degree of a polynomial.
 const DEGREE: usize = 4;
+/// Roots that differ by no more than this share of the unknown's typical size are close to one another.
+const MEETING: f64 = 1e-5;
 /// A leading coefficient below this share of the largest coefficient counts as zero.
 const NEGLIGIBLE: f64 = 1e-290;
 /// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
@@ -3402,11 +3407,11 @@ struct Roots {
 }
 
 impl Roots {
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
-
     fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
     }
+
+    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
 
     fn push(&mut self, x: f64) {
         if x.is_finite() && self.count < DEGREE {
@@ -3428,7 +3433,7 @@ fn square_roots(constant: f64, scale: f64) -> Roots {
         return roots;
     }
     let root = (-constant).sqrt();
-    roots.close = root <= SPLIT * scale;
+    roots.close = root <= MEETING * scale;
     roots.push(-root);
     roots.push(root);
     roots
@@ -3449,10 +3454,102 @@ fn largest(coefficients: &[f64]) -> f64 {
 /// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
 /// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
 fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
+    if let Some(roots) = coefficients.try_into().ok().and_then(|quartic| ordinary_roots(quartic, scale)) {
+        return roots;
+    }
     let mut roots = all_real_roots(coefficients, scale);
     let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
-    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= SPLIT * scale);
+    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= MEETING * scale);
     roots
+}
+
+/// The real roots of an ordinary quartic: Ferrari's two quadratics, then two Newton steps. None where the leading coefficient is small, where
+/// roots are next to each other or complex ones next to the axis, and where the steps do not settle.
+fn ordinary_roots(coefficients: &[f64; 5], scale: f64) -> Option<Roots> {
+    let [e, d, c, b, lead] = *coefficients;
+    let largest = largest(coefficients);
+    if !(lead.abs() > 0.01 * largest && largest < f64::INFINITY) {
+        return None;
+    }
+    let inverse = 1.0 / lead;
+    let monic = [e * inverse, d * inverse, c * inverse, b * inverse];
+    let (mut x, count) = approximate_roots(&monic, scale)?;
+    for x in &mut x {
+        *x = settled(&monic, *x, scale);
+    }
+    if count == 4 {
+        let (low, high) = (f64::min(x[1], x[3]), f64::max(x[0], x[2]));
+        x = [f64::min(x[0], x[2]), f64::min(low, high), f64::max(low, high), f64::max(x[1], x[3])];
+    }
+    let mut roots = Roots::NONE;
+    for i in 0..count {
+        let size = f64::max(f64::max(scale, x[i].abs()), x[i.saturating_sub(1)].abs());
+        if i > 0 && !(x[i] - x[i - 1] > 0.002 * size) {
+            return None;
+        }
+        roots.push(x[i]);
+    }
+    Some(roots)
+}
+
+/// The roots of the two real quadratics whose product is x^4 + b x^3 + c x^2 + d x + e, and their number: two of either, ascending.
+fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: f64) -> Option<([f64; 4], usize)> {
+    // With y = x + b / 4 it is y^4 + p y^2 + q y + r.
+    let (quarter, square) = (0.25 * b, b * b);
+    let p = c - 0.375 * square;
+    let q = d - 0.5 * b * (c - 0.25 * square);
+    let r = e - quarter * (d - quarter * (c - 0.1875 * square));
+    // (y^2 + h y + f) (y^2 - h y + g) with z = h^2.
+    let z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale)?;
+    let h = z.sqrt();
+    let (mean, half) = (0.5 * (p + z), 0.5 * q / h);
+    let (f, g) = (mean - half, mean + half);
+    let size = f64::max(f64::max(z, f.abs()), g.abs());
+    if !((f * g - r).abs() <= 1e-8 * size * size) {
+        return None;
+    }
+    let (mut roots, mut count) = ([0.0; 4], 0);
+    for (other, discriminant, middle) in [(g, z - 4.0 * f, -0.5 * h), (f, z - 4.0 * g, 0.5 * h)] {
+        let apart = 0.5 * discriminant.abs().sqrt();
+        if discriminant > 0.0 {
+            roots[count] = middle - apart - quarter;
+            roots[count + 1] = middle + apart - quarter;
+            count += 2;
+        } else if !(apart > 0.002 * f64::max(scale, size.sqrt())
+            && (other + 0.75 * z).abs() > 0.002 * f64::max(size, scale * scale))
+        {
+            return None;
+        }
+    }
+    Some((roots, count))
+}
+
+/// The greatest root of z^3 + u z^2 + v z - w for w > 0, to half its digits, by Newton steps down from a bound of it.
+fn resolved(u: f64, v: f64, w: f64, typical: f64) -> Option<f64> {
+    let (falling, under) = (f64::max(-u, 0.0), f64::max(-v, 0.0));
+    let mut z = f64::max(typical, 0.5 * (falling + (falling * falling + 4.0 * (under + w / typical)).sqrt()));
+    for _ in 0..24 {
+        let value = ((z + u) * z + v) * z - w;
+        let slope = (3.0 * z + 2.0 * u) * z + v;
+        let step = value / slope;
+        z -= step;
+        if step.abs() <= 1e-5 * z {
+            return if w > 0.0 { Some(z) } else { None };
+        }
+    }
+    None
+}
+
+/// Two Newton steps from a root's approximation; not a number where they do not settle.
+fn settled(&[e, d, c, b]: &[f64; 4], mut x: f64, scale: f64) -> f64 {
+    let mut step = 0.0;
+    for _ in 0..2 {
+        let value = (((x + b) * x + c) * x + d) * x + e;
+        let slope = ((4.0 * x + 3.0 * b) * x + 2.0 * c) * x + d;
+        step = value / slope;
+        x -= step;
+    }
+    if f64::abs(step) <= 1e-9 * f64::max(scale, x.abs()) { x } else { f64::NAN }
 }
 
 fn all_real_roots(coefficients: &[f64], scale: f64) -> Roots {
@@ -3710,6 +3807,8 @@ const LANES: usize = 2;
 /// By angle: where its cosine and its sine stand among the places.
 const ANGLES: usize = 14;
 const CIRCLES: [[usize; 2]; ANGLES] = [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9], [10, 11], [12, 13], [14, 15], [16, 17], [18, 19], [20, 21], [22, 23], [24, 25], [26, 27]];
+/// The same for the angles that tell candidates apart, those that are found last first.
+const TELLING: [[usize; 2]; 14] = [[20, 21], [18, 19], [24, 25], [26, 27], [22, 23], [10, 11], [8, 9], [14, 15], [16, 17], [12, 13], [6, 7], [0, 1], [4, 5], [2, 3]];
 /// Angles differ by more than `BLUR` where their difference has a cosine below this.
 const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
 
@@ -3814,7 +3913,7 @@ impl Answers<'_> {
     /// Whether an angle tells two candidates apart.
     #[inline(always)]
     fn are_apart(&self, k: usize, other: usize) -> bool {
-        [[20, 21], [18, 19], [24, 25], [26, 27], [22, 23], [10, 11], [8, 9], [14, 15], [16, 17], [12, 13], [6, 7], [0, 1], [4, 5], [2, 3]].iter().any(|&[c, s]| {
+        TELLING.iter().any(|&[c, s]| {
             self.at[c][k] * self.at[c][other] + self.at[s][k] * self.at[s][other] < FAR_APART
         })
     }
@@ -3831,18 +3930,8 @@ fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
 fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES]) -> Fits {
     let mut fits = Fits { residual: [0.0; ROOM], relative: [0.0; ROOM], sound: [0.0; ROOM] };
     for first in (0..ROOM).step_by(LANES) {
-        let at: [Lanes; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
-        let mut largest = [Lanes([0.0; LANES]); SIZES];
-        for (value, size) in values(p, &at).iter().zip(SIZE_OF) {
-            largest[size] = largest[size].greater(value.size());
-        }
-        let size: [[f64; SIZES]; LANES] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
-        let (mut residual, mut relative) = (Lanes([0.0; LANES]), Lanes([0.0; LANES]));
-        for i in 0..SIZES {
-            residual = residual.greater(largest[i]);
-            let size = Lanes(size.map(|size| f64::max(size[i], f64::MIN_POSITIVE)));
-            relative = relative.greater(largest[i] / size);
-        }
+        let at: [Lanes<LANES>; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
+        let [residual, relative] = fit(p, &at);
         let mut sound = Lanes([1.0; LANES]);
         for [c, s] in CIRCLES {
             sound = sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).size(), RESOLUTION);
@@ -3854,6 +3943,23 @@ fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES]) -> Fits {
         }
     }
     fits
+}
+
+/// The largest magnitude of an equation's value, and its largest share of the equation's size.
+#[inline(always)]
+fn fit<const W: usize>(p: &Parameters, at: &[Lanes<W>; PLACES]) -> [Lanes<W>; 2] where Lanes<W>: Number {
+    let mut largest = [Lanes([0.0; W]); SIZES];
+    for (value, size) in values(p, at).iter().zip(SIZE_OF) {
+        largest[size] = largest[size].greater(value.size());
+    }
+    let sizes: [[f64; SIZES]; W] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
+    let [mut residual, mut relative] = [Lanes([0.0; W]); 2];
+    for i in 0..SIZES {
+        residual = residual.greater(largest[i]);
+        let size = Lanes(sizes.map(|sizes| f64::max(sizes[i], f64::MIN_POSITIVE)));
+        relative = relative.greater(largest[i] / size);
+    }
+    [residual, relative]
 }
 
 /// At least as many as there are angles of candidates.
@@ -3896,26 +4002,31 @@ fn acutes(across: &[f64; POOL], up: &[f64; POOL], count: usize) -> [f64; POOL] {
 
 /// Numbers that operations take at once.
 #[derive(Clone, Copy)]
-struct Lanes([f64; LANES]);
+struct Lanes<const W: usize>([f64; W]);
 
-impl Lanes {
+impl<const W: usize> Lanes<W> {
     #[inline(always)]
-    fn size(self) -> Lanes {
+    fn size(self) -> Self {
         Lanes(self.0.map(f64::abs))
     }
 
     /// The greater of two numbers; the first where one is not a number.
     #[inline(always)]
-    fn greater(self, other: Lanes) -> Lanes {
+    fn greater(self, other: Self) -> Self {
         Lanes(core::array::from_fn(|i| if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] }))
     }
 
     /// The numbers where others are below a limit, and zero elsewhere.
     #[inline(always)]
-    fn where_below(self, other: Lanes, limit: f64) -> Lanes {
+    fn where_below(self, other: Self, limit: f64) -> Self {
         Lanes(core::array::from_fn(|i| if other.0[i] < limit { self.0[i] } else { 0.0 }))
     }
 }
+
+/// A number that operations take with several at once.
+trait With<T>: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
+
+impl<T> With<T> for f64 where f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
 
 /// What equations are computed of: one number, or several at once.
 trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
@@ -3923,30 +4034,30 @@ trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self
 
 impl Number for f64 {
 }
-impl Number for Lanes {
+impl Number for Lanes<LANES> {
 }
 
 macro_rules! by_lane {
     ($($operation:ident $name:ident $sign:tt)*) => {
         $(
-            impl $operation for Lanes {
-                type Output = Lanes;
+            impl<const W: usize> $operation for Lanes<W> {
+                type Output = Lanes<W>;
                 #[inline(always)]
-                fn $name(self, other: Lanes) -> Lanes {
+                fn $name(self, other: Lanes<W>) -> Lanes<W> {
                     Lanes(core::array::from_fn(|i| self.0[i] $sign other.0[i]))
                 }
             }
-            impl $operation<f64> for Lanes {
-                type Output = Lanes;
+            impl<const W: usize> $operation<f64> for Lanes<W> {
+                type Output = Lanes<W>;
                 #[inline(always)]
-                fn $name(self, other: f64) -> Lanes {
+                fn $name(self, other: f64) -> Lanes<W> {
                     Lanes(self.0.map(|number| number $sign other))
                 }
             }
-            impl $operation<Lanes> for f64 {
-                type Output = Lanes;
+            impl<const W: usize> $operation<Lanes<W>> for f64 {
+                type Output = Lanes<W>;
                 #[inline(always)]
-                fn $name(self, other: Lanes) -> Lanes {
+                fn $name(self, other: Lanes<W>) -> Lanes<W> {
                     Lanes(other.0.map(|number| self $sign number))
                 }
             }

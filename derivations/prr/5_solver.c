@@ -135,6 +135,8 @@ int prr_nearest(const prr_solution *list, int count, const double *reference, co
 #define MERGE 1e-7
 /* At a singular configuration, answers within this distance may be one. */
 #define BLUR 0.05
+/* Half-way between two that are one the equations hold within this share. */
+#define ALIKE 2.5e-15
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -164,6 +166,8 @@ const double prr_limits[2 * JOINTS] = {0.0, 1.2, -INFINITY, INFINITY, -INFINITY,
 
 /* The highest degree of a polynomial. */
 #define DEGREE 2
+/* Roots that differ by no more than this share of the unknown's typical size are close to one another. */
+#define MEETING 1e-5
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 #define TANGENT 1e-10
@@ -197,7 +201,7 @@ static Roots square_roots(double constant, double scale)
         return roots;
     }
     const double root = sqrt(-constant);
-    roots.close = root <= SPLIT * scale;
+    roots.close = root <= MEETING * scale;
     push(&roots, -root);
     push(&roots, root);
     return roots;
@@ -731,7 +735,7 @@ static bool is_close(const Solution *a, const Solution *b, double tolerance)
     return true;
 }
 
-/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound or rounding. */
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within a bound. */
 static bool are_joined(const Parameters *p, const double *a, const double *b, double bound)
 {
     if (farthest_of(a, b) > BLUR) {
@@ -742,7 +746,6 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
     for (size_t i = 0; i < JOINTS; i++) {
         middle[i] = b[i] + 0.5 * way[i];
     }
-    bound = fmax(bound, RESOLUTION);
     Fit fit = measure(p, middle);
     for (int i = 0; i < RETURNS; i++) {
         if (fit.relative <= bound) {
@@ -762,7 +765,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(a_relative, b_relative));
+    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE));
 }
 
 /* Whether two answers, with their relative residuals, are one. */

@@ -352,6 +352,8 @@ const ACCEPT: f64 = 1e-12;
 const MERGE: f64 = 1e-7;
 /// At a singular configuration, answers within this distance may be one.
 const BLUR: f64 = 0.05;
+/// Half-way between two that are one the equations hold within this share.
+const ALIKE: f64 = 2.5e-15;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -380,7 +382,7 @@ const ADRIFT: f64 = 1e-7;
 const ALONE: f64 = 1e-13;
 /// How far a free joint is moved to see whether an answer lies on a family.
 const ASIDE: f64 = 0.1;
-const NARROWS: usize = 3;
+const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
@@ -396,6 +398,8 @@ const NEAR: f64 = 0.001;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
+/// By joint that some chart frees: that joint alone.
+const FREED: [[bool; JOINTS]; 2] = [[False, True, False, False, False, False], [False, False, False, True, False, False]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
 fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
@@ -421,16 +425,12 @@ fn make_rotation(r: &mut [f64]) -> bool {
     }
     let determinant =
         r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
-    if determinant < 0.0 || deviation > CONSISTENT {
-        return false;
-    }
-    let mut given = [0.0; 9];
-    given.copy_from_slice(r);
+    let given: [f64; 9] = core::array::from_fn(|i| r[i]);
     for i in 0..9 {
         let (row, column) = (excess[i / 3], i % 3);
-        r[i] -= 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
+        r[i] = r[i] - 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
     }
-    true
+    determinant >= 0.0 && deviation <= CONSISTENT
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -796,10 +796,7 @@ const TIP: usize = 12;
 
 /// The tip, as the equations compare it.
 #[inline(always)]
-fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP]
-where
-    f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T>,
-{
+fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let c1 = at[0];
     let s1 = at[1];
     let c2 = at[2];
@@ -895,10 +892,7 @@ const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1];
 
 /// The equations' values.
 #[inline(always)]
-fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS]
-where
-    f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T>,
-{
+fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
     let reached = tip(at);
     [
         reached[0] - p.px,
@@ -1059,6 +1053,11 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
+                // It may be of another family, of one joint.
+                let is_member = is_member
+                    || (end.1.relative <= ALONE
+                        && !self.is_listed(&end.0)
+                        && FREED.iter().any(|one| self.keep_member(p, branch, last, end, *one)));
                 if !is_member && end.1.relative <= ALONE {
                     let known = self.count;
                     self.keep(p, branch, last, end, NONE_FREE);
@@ -1078,6 +1077,11 @@ impl Answers<'_> {
             self.around(p, branch, last, &end, missed, free);
         }
         self.keep(p, branch, last, end, free);
+    }
+
+    /// Whether an isolated answer is listed that has these joints.
+    fn is_listed(&self, q: &[f64; JOINTS]) -> bool {
+        self.out[..self.count].iter().any(|answer| is_isolated(answer) && is_within(&answer.q, q, MERGE))
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
@@ -1336,7 +1340,7 @@ fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
         let end = follow(p, q, &b.free);
         (q, accepted) = (end.0, end.1.accepted);
     }
-    accepted && is_within(&q, &b.q, ARRIVED)
+    accepted && is_within(&q, &b.q, ARRIVED) && are_joined(p, &q, &b.q, RESOLUTION, &b.free)
 }
 
 /// Polishes joints of which `free` ones stay where they are.
@@ -1407,11 +1411,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let bound = f64::max(a.relative, b.relative);
+    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
     are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
 }
 
-/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound` or rounding.
+/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
 fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, held: &[bool; JOINTS]) -> bool {
     if farthest(a, b) > BLUR {
         return false;
@@ -1421,7 +1425,6 @@ fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, 
     for i in 0..JOINTS {
         middle[i] += 0.5 * way[i];
     }
-    let bound = f64::max(bound, RESOLUTION);
     let mut fit = measure(p, &middle);
     for _ in 0..RETURNS {
         if fit.relative <= bound {
@@ -1752,6 +1755,8 @@ fn is_away(value: f64, scale: f64) -> bool {
 
 /// The highest degree of a polynomial.
 const DEGREE: usize = 2;
+/// Roots that differ by no more than this share of the unknown's typical size are close to one another.
+const MEETING: f64 = 1e-5;
 /// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
 /// typical size.
 const TANGENT: f64 = 1e-10;
@@ -1765,11 +1770,11 @@ struct Roots {
 }
 
 impl Roots {
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
-
     fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
     }
+
+    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
 
     fn push(&mut self, x: f64) {
         if x.is_finite() && self.count < DEGREE {
@@ -1791,7 +1796,7 @@ fn square_roots(constant: f64, scale: f64) -> Roots {
         return roots;
     }
     let root = (-constant).sqrt();
-    roots.close = root <= SPLIT * scale;
+    roots.close = root <= MEETING * scale;
     roots.push(-root);
     roots.push(root);
     roots
@@ -1853,6 +1858,8 @@ const LANES: usize = 2;
 /// By angle: where its cosine and its sine stand among the places.
 const ANGLES: usize = 6;
 const CIRCLES: [[usize; 2]; ANGLES] = [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9], [10, 11]];
+/// The same for the angles that tell candidates apart, those that are found last first.
+const TELLING: [[usize; 2]; 6] = [[10, 11], [8, 9], [6, 7], [2, 3], [4, 5], [0, 1]];
 /// Angles differ by more than `BLUR` where their difference has a cosine below this.
 const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
 
@@ -1949,7 +1956,7 @@ impl Answers<'_> {
     /// Whether an angle tells two candidates apart.
     #[inline(always)]
     fn are_apart(&self, k: usize, other: usize) -> bool {
-        [[10, 11], [8, 9], [6, 7], [2, 3], [4, 5], [0, 1]].iter().any(|&[c, s]| {
+        TELLING.iter().any(|&[c, s]| {
             self.at[c][k] * self.at[c][other] + self.at[s][k] * self.at[s][other] < FAR_APART
         })
     }
@@ -1966,18 +1973,8 @@ fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
 fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES]) -> Fits {
     let mut fits = Fits { residual: [0.0; ROOM], relative: [0.0; ROOM], sound: [0.0; ROOM] };
     for first in (0..ROOM).step_by(LANES) {
-        let at: [Lanes; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
-        let mut largest = [Lanes([0.0; LANES]); SIZES];
-        for (value, size) in values(p, &at).iter().zip(SIZE_OF) {
-            largest[size] = largest[size].greater(value.size());
-        }
-        let size: [[f64; SIZES]; LANES] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
-        let (mut residual, mut relative) = (Lanes([0.0; LANES]), Lanes([0.0; LANES]));
-        for i in 0..SIZES {
-            residual = residual.greater(largest[i]);
-            let size = Lanes(size.map(|size| f64::max(size[i], f64::MIN_POSITIVE)));
-            relative = relative.greater(largest[i] / size);
-        }
+        let at: [Lanes<LANES>; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
+        let [residual, relative] = fit(p, &at);
         let mut sound = Lanes([1.0; LANES]);
         for [c, s] in CIRCLES {
             sound = sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).size(), RESOLUTION);
@@ -1989,6 +1986,23 @@ fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES]) -> Fits {
         }
     }
     fits
+}
+
+/// The largest magnitude of an equation's value, and its largest share of the equation's size.
+#[inline(always)]
+fn fit<const W: usize>(p: &Parameters, at: &[Lanes<W>; PLACES]) -> [Lanes<W>; 2] where Lanes<W>: Number {
+    let mut largest = [Lanes([0.0; W]); SIZES];
+    for (value, size) in values(p, at).iter().zip(SIZE_OF) {
+        largest[size] = largest[size].greater(value.size());
+    }
+    let sizes: [[f64; SIZES]; W] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
+    let [mut residual, mut relative] = [Lanes([0.0; W]); 2];
+    for i in 0..SIZES {
+        residual = residual.greater(largest[i]);
+        let size = Lanes(sizes.map(|sizes| f64::max(sizes[i], f64::MIN_POSITIVE)));
+        relative = relative.greater(largest[i] / size);
+    }
+    [residual, relative]
 }
 
 /// At least as many as there are angles of candidates.
@@ -2031,26 +2045,31 @@ fn acutes(across: &[f64; POOL], up: &[f64; POOL], count: usize) -> [f64; POOL] {
 
 /// Numbers that operations take at once.
 #[derive(Clone, Copy)]
-struct Lanes([f64; LANES]);
+struct Lanes<const W: usize>([f64; W]);
 
-impl Lanes {
+impl<const W: usize> Lanes<W> {
     #[inline(always)]
-    fn size(self) -> Lanes {
+    fn size(self) -> Self {
         Lanes(self.0.map(f64::abs))
     }
 
     /// The greater of two numbers; the first where one is not a number.
     #[inline(always)]
-    fn greater(self, other: Lanes) -> Lanes {
+    fn greater(self, other: Self) -> Self {
         Lanes(core::array::from_fn(|i| if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] }))
     }
 
     /// The numbers where others are below a limit, and zero elsewhere.
     #[inline(always)]
-    fn where_below(self, other: Lanes, limit: f64) -> Lanes {
+    fn where_below(self, other: Self, limit: f64) -> Self {
         Lanes(core::array::from_fn(|i| if other.0[i] < limit { self.0[i] } else { 0.0 }))
     }
 }
+
+/// A number that operations take with several at once.
+trait With<T>: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
+
+impl<T> With<T> for f64 where f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
 
 /// What equations are computed of: one number, or several at once.
 trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
@@ -2058,30 +2077,30 @@ trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self
 
 impl Number for f64 {
 }
-impl Number for Lanes {
+impl Number for Lanes<LANES> {
 }
 
 macro_rules! by_lane {
     ($($operation:ident $name:ident $sign:tt)*) => {
         $(
-            impl $operation for Lanes {
-                type Output = Lanes;
+            impl<const W: usize> $operation for Lanes<W> {
+                type Output = Lanes<W>;
                 #[inline(always)]
-                fn $name(self, other: Lanes) -> Lanes {
+                fn $name(self, other: Lanes<W>) -> Lanes<W> {
                     Lanes(core::array::from_fn(|i| self.0[i] $sign other.0[i]))
                 }
             }
-            impl $operation<f64> for Lanes {
-                type Output = Lanes;
+            impl<const W: usize> $operation<f64> for Lanes<W> {
+                type Output = Lanes<W>;
                 #[inline(always)]
-                fn $name(self, other: f64) -> Lanes {
+                fn $name(self, other: f64) -> Lanes<W> {
                     Lanes(self.0.map(|number| number $sign other))
                 }
             }
-            impl $operation<Lanes> for f64 {
-                type Output = Lanes;
+            impl<const W: usize> $operation<Lanes<W>> for f64 {
+                type Output = Lanes<W>;
                 #[inline(always)]
-                fn $name(self, other: Lanes) -> Lanes {
+                fn $name(self, other: Lanes<W>) -> Lanes<W> {
                     Lanes(other.0.map(|number| self $sign number))
                 }
             }

@@ -23,20 +23,31 @@ fn evaluate(p: &[f64], x: f64) -> (f64, f64, f64) {
 
 /// Whether `p` stays a hundred times further from the axis at its critical points than a tangency would.
 fn is_well_separated(p: &[BigRational]) -> bool {
+    is_separated(p, 0.0)
+}
+
+/// The same for an unknown of that typical size.
+fn is_separated(p: &[BigRational], scale: f64) -> bool {
     let ring = UnivariateRing::new(Rationals, "x");
     let derivative = ring.derivative(&ring.polynomial(p.to_vec())).coefficients;
     let Ok(critical) = rounded_roots(&derivative) else { return true };
     let coefficients = floats(p);
     critical.iter().all(|&x| {
-        let (value, _, size) = evaluate(&coefficients, x);
+        let value = evaluate(&coefficients, x).0;
+        let size: f64 = coefficients.iter().enumerate().map(|(i, c)| c.abs() * x.abs().max(scale).powi(i as i32)).sum();
         value.abs() > 100.0 * TANGENT * size
     })
 }
 
 /// Asserts equal counts, and errors within the conditioning of each simple root.
 fn assert_matches(p: &[BigRational], expected: &[f64]) {
+    assert_found(p, expected, 0.0);
+}
+
+/// The same for an unknown of that typical size.
+fn assert_found(p: &[BigRational], expected: &[f64], scale: f64) {
     let coefficients = floats(p);
-    let roots = real_roots(&coefficients, 0.0);
+    let roots = real_roots(&coefficients, scale);
     assert_eq!(roots.as_slice().len(), expected.len(), "{coefficients:?}: {roots:?}, not {expected:?}");
     for (root, exact) in roots.as_slice().iter().zip(expected) {
         let (_, slope, size) = evaluate(&coefficients, *exact);
@@ -73,6 +84,30 @@ proptest! {
         let p = with_roots(&roots);
         prop_assume!(is_well_separated(&p));
         assert_matches(&p, &floats(&roots));
+    }
+
+    #[test]
+    fn ordinary_quartics_have_the_roots_that_sturm_counts(c in prop::collection::vec(-1000i64..=1000, 5)) {
+        let p = integers(&c);
+        prop_assume!(c[4] != 0 && is_separated(&p, 1.0));
+        assert_found(&p, &rounded_roots(&p).unwrap(), 1.0);
+    }
+
+    #[test]
+    fn quartics_with_roots_next_to_each_other_have_the_roots_that_sturm_counts(
+        centres in prop::array::uniform2(-64i64..64), apart in prop::array::uniform2(1i64..4096),
+        signs in prop::array::uniform2(any::<bool>()),
+    ) {
+        // Two pairs of roots, real or complex, each 1/65536 to 1/16 from its centre.
+        let pair = |i: usize| {
+            let square = rational(apart[i], 65536) * rational(apart[i], 65536);
+            let centre = rational(centres[i], 64);
+            let constant = &centre * &centre + if signs[i] { square } else { -square };
+            vec![constant, rational(-centres[i], 32), rational(1, 1)]
+        };
+        let p = product(&[pair(0), pair(1)]);
+        prop_assume!(is_separated(&p, 1.0));
+        assert_found(&p, &rounded_roots(&p).unwrap(), 1.0);
     }
 
     #[test]
