@@ -372,7 +372,7 @@ const NEAR: f64 = 0.001;
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 /// By joint that some chart frees: that joint alone.
-const FREED: [[bool; JOINTS]; 3] = [[True, False, False, False], [False, True, False, False], [False, False, False, True]];
+const FREED: [[bool; JOINTS]; 3] = [[true, false, false, false], [false, true, false, false], [false, false, false, true]];
 
 /// Parameters of the equations.
 struct Parameters {

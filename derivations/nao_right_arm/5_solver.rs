@@ -371,7 +371,7 @@ const NEAR: f64 = 0.001;
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 /// By joint that some chart frees: that joint alone.
-const FREED: [[bool; JOINTS]; 2] = [[True, False, False, False, False], [False, False, True, False, False]];
+const FREED: [[bool; JOINTS]; 2] = [[true, false, false, false, false], [false, false, true, false, false]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
 fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {

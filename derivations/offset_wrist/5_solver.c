@@ -527,7 +527,7 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 /* By joint that some chart frees: that joint alone. */
-static const bool FREED[2][JOINTS] = { {False, True, False, False, False, False}, {False, False, False, False, False, True} };
+static const bool FREED[2][JOINTS] = { {false, true, false, false, false, false}, {false, false, false, false, false, true} };
 
 /* Rows of the equations and of the damping. */
 #define ROWS (EQUATIONS + JOINTS)

@@ -364,7 +364,7 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 /* By joint that some chart frees: that joint alone. */
-static const bool FREED[1][JOINTS] = { {True, False} };
+static const bool FREED[1][JOINTS] = { {true, false} };
 
 /* Rows of the equations and of the damping. */
 static const int ROWS = (EQUATIONS + JOINTS);

@@ -413,7 +413,7 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 /* By joint that some chart frees: that joint alone. */
-static const bool FREED[2][JOINTS] = { {True, False, False}, {False, True, False} };
+static const bool FREED[2][JOINTS] = { {true, false, false}, {false, true, false} };
 
 /* Rows of the equations and of the damping. */
 #define ROWS (EQUATIONS + JOINTS)

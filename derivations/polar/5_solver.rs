@@ -369,7 +369,7 @@ const NEAR: f64 = 0.001;
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 /// By joint that some chart frees: that joint alone.
-const FREED: [[bool; JOINTS]; 2] = [[True, False, False], [False, True, False]];
+const FREED: [[bool; JOINTS]; 2] = [[true, false, false], [false, true, false]];
 
 /// Parameters of the equations.
 struct Parameters {

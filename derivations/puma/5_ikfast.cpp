@@ -455,7 +455,7 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 /* By joint that some chart frees: that joint alone. */
-static const bool FREED[3][JOINTS] = { {True, False, False, False, False, False}, {False, True, False, False, False, False}, {False, False, False, True, False, False} };
+static const bool FREED[3][JOINTS] = { {true, false, false, false, false, false}, {false, true, false, false, false, false}, {false, false, false, true, false, false} };
 
 /* Rows of the equations and of the damping. */
 static const int ROWS = (EQUATIONS + JOINTS);

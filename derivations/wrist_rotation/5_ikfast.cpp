@@ -400,7 +400,7 @@ static double wrap(double angle)
 
 static const bool NONE_FREE[JOINTS] = {false};
 /* By joint that some chart frees: that joint alone. */
-static const bool FREED[1][JOINTS] = { {True, False, False} };
+static const bool FREED[1][JOINTS] = { {true, false, false} };
 
 /* Rows of the equations and of the damping. */
 static const int ROWS = (EQUATIONS + JOINTS);

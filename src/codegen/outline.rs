@@ -60,7 +60,7 @@ pub(super) struct Outline {
     /// What finds six joints together, if a step does.
     six_axes: String,
     /// By joint that some chart frees: by joint, whether it is this one.
-    freed: Vec<Vec<bool>>,
+    freed: Vec<Vec<String>>,
     /// Forward kinematics, if the program has them.
     forward: Option<ForwardText>,
     checks: Code,
@@ -209,7 +209,10 @@ impl Outline {
             equations: checks.values.len(),
             degree: root_steps(program).map(|(step, _)| step.slots()).max().unwrap_or(0),
             quartic: Quartic::of(program),
-            freed: program.freed().map(|one| (0..program.joints.len()).map(|joint| joint == one).collect()).collect(),
+            freed: program
+                .freed()
+                .map(|one| (0..program.joints.len()).map(|joint| (joint == one).to_string()).collect())
+                .collect(),
             scale: number(program.scale),
             tolerances: Tolerances::new(),
             dampings: DAMPINGS.iter().map(|&damping| number(damping)).collect(),
