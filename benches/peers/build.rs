@@ -7,17 +7,8 @@ use std::{env, fs};
 use groebot::codegen::rust;
 use groebot::solver::Program;
 
-const ROBOTS: [&str; 9] = [
-    "irb120",
-    "nao_left_leg",
-    "nao_right_leg",
-    "puma",
-    "rh0_left_leg",
-    "rh0_right_leg",
-    "stanford",
-    "teo_leg",
-    "ur5",
-];
+const ROBOTS: [&str; 9] =
+    ["irb120", "nao_left_leg", "nao_right_leg", "puma", "rh0_left_leg", "rh0_right_leg", "stanford", "teo_leg", "ur5"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
