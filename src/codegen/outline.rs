@@ -185,9 +185,7 @@ impl Outline {
         let place = |size: &String| unique.iter().position(|other| other == size).unwrap_or(0);
         let size_of = sizes.iter().map(place).collect();
         let batch = language.walks_abreast().then(|| BatchText::new(&scene));
-        let alone = |size: String| if size.parse::<f64>().is_ok() { language.alone(size) } else { size };
-        let unique = unique.into_iter().map(alone).collect();
-        let sizes = Code::new(language, checks.lines.clone(), unique);
+        let sizes = Code::new(language, checks.lines.clone(), alone(language, unique));
         let name = word(&program.name);
         let generic = forward.as_ref().map_or_else(Vec::new, |forward| lanes::generic(&forward.values));
         Outline {
@@ -264,6 +262,12 @@ fn once(list: &[String]) -> Vec<String> {
         }
     }
     unique
+}
+
+/// Values of which constants are told from others.
+fn alone(language: &dyn Language, values: Vec<String>) -> Vec<String> {
+    let value = |value: String| if value.parse::<f64>().is_ok() { language.alone(value) } else { value };
+    values.into_iter().map(value).collect()
 }
 
 impl Quantity {
