@@ -586,7 +586,7 @@ static double settled(const double *monic, double x, double scale)
 static bool ordinary_roots(const double *coefficients, double scale, Roots *roots)
 {
     const double lead = coefficients[4], size_of_all = largest(coefficients, 5);
-    if (!(fabs(lead) > 0.01 * size_of_all && size_of_all < HUGE_VAL)) {
+    if (!(fabs(lead) > 0.01 * size_of_all && isfinite(size_of_all))) {
         return false;
     }
     const double inverse = 1.0 / lead;

@@ -195,11 +195,7 @@ impl Outline {
             about: AboutText::new(program, language),
             engine: false,
             inputs: program.inputs.iter().map(|i| Quantity::new(language, &i.name, i.unit, false)).collect(),
-            joints: program
-                .joints
-                .iter()
-                .map(|j| Quantity::new(language, &j.name, j.unit, is_angle(j.value)))
-                .collect(),
+            joints: joints(program, language),
             extra: scene.extra.iter().map(|&unknown| remark(&program.unknowns[unknown])).collect(),
             arc: Arc::new(),
             capacity: program.capacity,
@@ -207,10 +203,7 @@ impl Outline {
             equations: checks.values.len(),
             degree: root_steps(program).map(|(step, _)| step.slots()).max().unwrap_or(0),
             quartic: Quartic::of(program),
-            freed: program
-                .freed()
-                .map(|one| (0..program.joints.len()).map(|joint| (joint == one).to_string()).collect())
-                .collect(),
+            freed: freed(program),
             scale: number(program.scale),
             tolerances: Tolerances::new(),
             dampings: DAMPINGS.iter().map(|&damping| number(damping)).collect(),
@@ -361,6 +354,16 @@ pub(super) fn root_steps(program: &Program) -> impl Iterator<Item = (&Step, &[Ve
         Step::Roots { polynomials, .. } => Some((step, polynomials.as_slice())),
         _ => None,
     })
+}
+
+fn joints(program: &Program, language: &dyn Language) -> Vec<Quantity> {
+    program.joints.iter().map(|j| Quantity::new(language, &j.name, j.unit, is_angle(j.value))).collect()
+}
+
+/// By joint that some chart frees: by joint, whether it is this one.
+fn freed(program: &Program) -> Vec<Vec<String>> {
+    let alone = |one: usize| (0..program.joints.len()).map(|joint| (joint == one).to_string()).collect();
+    program.freed().map(alone).collect()
 }
 
 /// Unknowns that the checks read and that follow from no joint.
