@@ -1911,7 +1911,7 @@ impl Answers<'_> {
             return self.flush_pairs(p);
         }
         let angles = angles(&self.at);
-        let fits = fits(p, &self.at);
+        let fits = fits(p, &self.at, self.waiting);
         let waiting = core::mem::take(&mut self.waiting).min(ROOM);
         let mut usual = self.count == 0;
         for k in 0..waiting {
@@ -1937,7 +1937,7 @@ impl Answers<'_> {
     /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
     #[inline(never)]
     fn flush_pairs(&mut self, p: &Parameters) {
-        let fits = fits(p, &self.at);
+        let fits = fits(p, &self.at, self.waiting);
         let waiting = core::mem::take(&mut self.waiting).min(ROOM);
         let Some(pairs) = &mut self.pairs else { return };
         for k in 0..waiting {
@@ -1975,11 +1975,11 @@ fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
     [4, 3, 2, 1, 0].iter().any(|&i| a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
 }
 
-/// Measures candidates.
+/// Measures the first so many candidates.
 #[inline(never)]
-fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES]) -> Fits {
+fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES], waiting: usize) -> Fits {
     let mut fits = Fits { residual: [0.0; ROOM], relative: [0.0; ROOM], sound: [0.0; ROOM] };
-    for first in (0..ROOM).step_by(LANES) {
+    for first in (0..waiting.min(ROOM)).step_by(LANES) {
         let at: [Lanes<LANES>; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
         let [residual, relative] = fit(p, &at);
         let mut sound = Lanes([1.0; LANES]);
