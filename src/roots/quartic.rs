@@ -57,7 +57,8 @@ fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: f64) -> Option<Ordinary> {
     let (mean, half) = (0.5 * (p + z), 0.5 * q / h);
     let (f, g) = (mean - half, mean + half);
     let size = z.max(f.abs()).max(g.abs());
-    if !((f * g - r).abs() <= FACTORED * size * size) {
+    let is_product = (f * g - r).abs() <= FACTORED * size * size;
+    if !is_product {
         return None;
     }
     let (mut roots, mut count) = ([0.0; 4], 0);
