@@ -11,6 +11,9 @@ const SINGULAR: f64 = 1e-12;
 const PROBE: f64 = 0.05;
 /// The residual of a member of a family, after correction.
 const MEMBER: f64 = 1e-12;
+/// That of the member by which a family is found: where an isolated answer is singular and another singularity is 1e-6 away, joint vectors
+/// 0.05 off miss by no more than 1e-12 and yet are no solutions.
+const ROUNDED: f64 = 1e-14;
 /// Steps \[rad, or reaches\] of a path: shorter ones where longer ones do not arrive.
 pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
 /// Corrections of one member at most.
@@ -32,7 +35,7 @@ const ARRIVED: f64 = 1e-6;
 pub(super) trait Families: Configuration {
     /// Whether `q` is one of a curve of joint vectors with the same target.
     fn is_in_family(&self, target: &[f64], q: &[f64]) -> bool {
-        self.tangent(q).is_some_and(|tangent| self.beside(target, q, &tangent, PROBE).is_some())
+        self.tangent(q).is_some_and(|tangent| self.beside(target, q, &tangent, PROBE, ROUNDED).is_some())
     }
 
     /// The direction in which joints that are singular within rounding can move.
@@ -40,14 +43,15 @@ pub(super) trait Families: Configuration {
         if self.sigma(q) > SINGULAR { None } else { null_vector(self.jacobian(q)) }
     }
 
-    /// The member beside `q` moved by `way` along the unit vector `ahead`, and no farther along it.
-    fn beside(&self, target: &[f64], q: &[f64], ahead: &DVector<f64>, way: f64) -> Option<Vec<f64>> {
+    /// The member beside `q` moved by `way` along the unit vector `ahead`, and no farther along it; it misses the target by no more than
+    /// `tolerance`.
+    fn beside(&self, target: &[f64], q: &[f64], ahead: &DVector<f64>, way: f64, tolerance: f64) -> Option<Vec<f64>> {
         let mut moved = q.to_vec();
         for (&joint, share) in self.unknown().iter().zip(ahead.iter()) {
             moved[joint] += way * share * self.unit(joint);
         }
         let across = |_: &[f64]| DMatrix::from_row_slice(1, ahead.len(), ahead.as_slice());
-        self.corrected(target, moved, self.unknown(), &across, MEMBER)
+        self.corrected(target, moved, self.unknown(), &across, tolerance)
     }
 
     /// Whether joint vectors next to the straight way from `a` to `b` reach the target.
@@ -117,12 +121,12 @@ pub(super) trait Families: Configuration {
     fn passes(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, answer: &[f64]) -> bool {
         let apart = |&joint: &usize| self.difference(joint, answer[joint], at[joint]) / self.unit(joint);
         let way = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
-        self.beside(target, at, ahead, way).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
+        self.beside(target, at, ahead, way, MEMBER).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
     }
 
     /// The point of the curve beside `at` moved by `way` along the unit vector `ahead`, and the curve's direction there.
     fn stepped(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, way: f64) -> Option<(Vec<f64>, DVector<f64>)> {
-        let next = self.beside(target, at, ahead, way)?;
+        let next = self.beside(target, at, ahead, way, MEMBER)?;
         let tangent = null_vector(self.jacobian(&next))?;
         let side = tangent.dot(ahead).signum();
         Some((next, tangent * side))

@@ -22,7 +22,7 @@ use crate::solver::{Program, Solution};
 use crate::{ErrorKind, Result, Watch};
 use count::Counter;
 use family::{Families, STEPS};
-use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL};
+use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL, SHARP};
 use rational::Rationals;
 use targets::{Target, Targets};
 
@@ -222,7 +222,8 @@ impl<'a> Check<'a> {
     /// configurations the screw solver loses answers, and one that it lacks is judged by forward kinematics alone.
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
-            let sure = self.model.residual(target, &answer.q) <= EXACT;
+            let least = if self.model.sigma(&answer.q) > ORDINARY { EXACT } else { SHARP };
+            let sure = self.model.residual(target, &answer.q) <= least;
             let is_same = |other: &Solution| self.model.is_same(target, &answer.q, &other.q);
             !sure || some.iter().any(is_same) || self.is_member(target, some, &answer.q)
         };

@@ -15,8 +15,10 @@ use crate::spatial::{Pose, Screw, angle};
 
 /// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].
 pub(super) const RESIDUAL: f64 = 1e-11;
-/// A joint vector that misses by no more is a solution beyond doubt.
+/// An ordinary joint vector that misses by no more is a solution beyond doubt.
 pub(super) const EXACT: f64 = 1e-13;
+/// One next to a singular configuration that misses by no more: there a target 1e-13 away may have other solutions, or a family of them.
+pub(super) const SHARP: f64 = 1e-14;
 /// A joint vector is ordinary when the smallest singular value of the scaled Jacobian exceeds this.
 pub(super) const ORDINARY: f64 = 1e-3;
 
