@@ -1909,12 +1909,12 @@ COLD static void again_11(const Parameters *p, const Known *known, Answers *answ
 
 /* What the charts of block 10 share. */
 typedef struct {
-    double r36;
+    double r19;
+    double r30;
+    double r32;
+    double r33;
     double r38;
-    double r40;
-    double r41;
-    double r46;
-    double r47;
+    double r39;
 } Shared10;
 
 /* Chart 1 of block 10: generic.
@@ -1922,14 +1922,14 @@ typedef struct {
  */
 INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
-    const double r50 = shared->r36 * shared->r36 + shared->r38 * shared->r38;
-    if (!is_away(r50, 12.40855712)) {
+    const double r42 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
+    if (!is_away(r42, 12.40855712)) {
         return;
     }
-    const double right_f3 = 1.0, r53 = shared->r38 * shared->r40 + shared->r36 * shared->r41;
-    const double r56 = shared->r38 * shared->r41 - shared->r36 * shared->r40;
-    const double r61 = 1.0 / sqrt(fmax(r56 * r56 + r53 * r53, 0.0)), right_c3 = r56 * r61;
-    const double right_s3 = 0.0 - r53 * r61;
+    const double right_f3 = 1.0, r45 = shared->r19 * shared->r32 + shared->r30 * shared->r33;
+    const double r48 = shared->r32 * shared->r33 - shared->r19 * shared->r30;
+    const double r53 = 1.0 / sqrt(fmax(r48 * r48 + r45 * r45, 0.0)), right_c3 = r48 * r53;
+    const double right_s3 = 0.0 - r45 * r53;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
@@ -1946,8 +1946,8 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
  */
 static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
-    const double r50 = shared->r36 * shared->r36 + shared->r38 * shared->r38;
-    if (!(is_near(r50, 7.755348200000001e-8) && is_near(shared->r41, 0.01 * shared->r47) && is_near(shared->r40, 0.01 * shared->r46))) {
+    const double r42 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
+    if (!(is_near(r42, 7.755348200000001e-8) && is_near(shared->r33, 0.01 * shared->r39) && is_near(shared->r19, 0.01 * shared->r38))) {
         return;
     }
     const double right_f3 = 1000000.0;
@@ -1968,18 +1968,15 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
 /* Block 10: HipPitch. */
 INLINE static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r1 = p->right_px + 0.04519 * p->right_dx;
-    const double r5 = p->right_pz + 0.04519 * p->right_dz - p->right_py;
-    const double r9 = known->left_s1 * (r5 - 0.04519 * p->right_dy + 0.035), r10 = 0.5 * p->right_py;
-    const double r11 = 0.022595 * p->right_dy, r12 = r10 + r11, r13 = 0.5 * p->right_pz;
-    const double r15 = 0.022595 * p->right_dz, r24 = known->left_c1 * (r13 + r15 - r10 - r11 + 0.0175);
-    const double r26 = r15 + (r12 + r13), r27 = known->left_c1 * (r12 - r13 - r15 - 0.0175) + r26;
-    const double r28 = 0.7071067811865475 * (known->left_s1 * r1);
-    const double r34 = known->right_c2 * (r28 + (r24 + r26) + 0.0675), r36 = 0.1029 * known->right_s4;
-    const double r38 = 0.1029 * known->right_c4 + 0.1, r40 = known->left_c1 * r1 - 0.7071067811865475 * r9;
-    const double r41 = known->right_s2 * (r27 - r28 + 0.0675) - r34, r46 = fabs(3.0 * p->magnitude + 2.29797);
-    const double r47 = fabs(8.0 * p->magnitude + 6.61292);
-    const Shared10 own = { r36, r38, r40, r41, r46, r47 };
+    const double r1 = p->right_px + 0.04519 * p->right_dx, r3 = p->right_py + 0.04519 * p->right_dy;
+    const double r5 = p->right_pz + 0.04519 * p->right_dz, r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
+    const double r18 = 0.7071067811865475 * (known->left_s1 * (r5 - r3 + 0.035));
+    const double r19 = known->left_c1 * r1 - r18, r22 = 0.7071067811865475 * (known->left_s1 * r1);
+    const double r26 = r9 + (known->left_c1 * (r3 - r9 + 0.05) - r22);
+    const double r27 = r9 + (r22 + known->left_c1 * (r5 - r9 + 0.085)), r30 = 0.1029 * known->right_s4;
+    const double r32 = 0.1029 * known->right_c4 + 0.1, r33 = known->right_s2 * r26 - known->right_c2 * r27;
+    const double r38 = fabs(3.0 * p->magnitude + 2.29797), r39 = fabs(8.0 * p->magnitude + 6.61292);
+    const Shared10 own = { r19, r30, r32, r33, r38, r39 };
     const Shared10 *const shared = &own;
     chart_10_1(p, known, shared, answers);
     chart_10_2(p, known, shared, answers);
@@ -2032,10 +2029,10 @@ COLD static void again_9(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 8 share. */
 typedef struct {
-    double r22;
+    double r20;
+    double r21;
     double r25;
-    double r29;
-    double r30;
+    double r26;
 } Shared8;
 
 /* Chart 1 of block 8: generic.
@@ -2043,16 +2040,16 @@ typedef struct {
  */
 INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r31 = shared->r22 * shared->r22, r32 = shared->r25 * shared->r25, r33 = r31 + r32;
-    const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
-    if (!is_away(r33, 16.0 * r36)) {
+    const double r27 = shared->r20 * shared->r20, r28 = shared->r21 * shared->r21, r29 = r27 + r28;
+    const double r32 = shared->r25 * shared->r25 + shared->r26 * shared->r26;
+    if (!is_away(r29, 16.0 * r32)) {
         return;
     }
     const double right_f2 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r31 - r32, sqrt(fmax(r36, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r27 - r28, sqrt(fmax(r32, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double right_w2 = roots0.values[i0], r43 = 1.0 / r33, right_c2 = right_w2 * shared->r25 * r43;
-        const double right_s2 = 0.0 - right_w2 * shared->r22 * r43;
+        const double right_w2 = roots0.values[i0], r39 = 1.0 / r29, right_c2 = right_w2 * shared->r21 * r39;
+        const double right_s2 = 0.0 - right_w2 * shared->r20 * r39;
         Known next = *known;
         next.branch = 3 * known->branch + i0;
         next.last = 3 * known->last;
@@ -2070,9 +2067,9 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
  */
 static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r33 = shared->r22 * shared->r22 + shared->r25 * shared->r25;
-    const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
-    if (!is_near(r33, 1.0000000000000001e-7 * r36)) {
+    const double r29 = shared->r20 * shared->r20 + shared->r21 * shared->r21;
+    const double r32 = shared->r25 * shared->r25 + shared->r26 * shared->r26;
+    if (!is_near(r29, 1.0000000000000001e-7 * r32)) {
         return;
     }
     const double right_f2 = 1000000.0;
@@ -2093,13 +2090,12 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
 /* Block 8: HipRoll. */
 static void block_8(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = 0.5 * p->right_py, r3 = 0.022595 * p->right_dy, r4 = r2 + r3, r5 = 0.5 * p->right_pz;
-    const double r7 = 0.022595 * p->right_dz, r11 = known->left_s1 * (p->right_px + 0.04519 * p->right_dx);
-    const double r16 = known->left_c1 * (r5 + r7 - r2 - r3 + 0.0175), r18 = r7 + (r4 + r5);
-    const double r19 = known->left_c1 * (r4 - r5 - r7 - 0.0175) + r18, r20 = 0.7071067811865475 * r11;
-    const double r22 = r19 - r20 + 0.0675, r25 = r20 + (r16 + r18) + 0.0675, r26 = 4.0 * p->magnitude;
-    const double r29 = fabs(r26 + 3.16896), r30 = fabs(r26 + 3.27396);
-    const Shared8 own = { r22, r25, r29, r30 };
+    const double r3 = p->right_py + 0.04519 * p->right_dy, r5 = p->right_pz + 0.04519 * p->right_dz;
+    const double r9 = 0.5 * r3 + 0.5 * r5 + 0.0675, r15 = known->left_s1 * (p->right_px + 0.04519 * p->right_dx);
+    const double r16 = 0.7071067811865475 * r15, r20 = r9 + (known->left_c1 * (r3 - r9 + 0.05) - r16);
+    const double r21 = r9 + (r16 + known->left_c1 * (r5 - r9 + 0.085)), r22 = 4.0 * p->magnitude;
+    const double r25 = fabs(r22 + 3.16896), r26 = fabs(r22 + 3.27396);
+    const Shared8 own = { r20, r21, r25, r26 };
     const Shared8 *const shared = &own;
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, answers);
@@ -2226,16 +2222,16 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r26;
-    double r29;
+    double r19;
+    double r21;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
-    const double left_c2 = shared->r29 * r34, left_s2 = shared->r26 * r34;
+    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
+    const double left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -2248,14 +2244,13 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 /* Block 5: HipRoll. */
 INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = p->left_r22 * known->left_c6, r3 = p->left_r23 * known->left_s6;
     const double r4 = p->left_r32 * known->left_c6, r5 = p->left_r33 * known->left_s6;
-    const double r6 = p->left_r12 * known->left_c6 - p->left_r13 * known->left_s6;
-    const double r22 = 0.5 * r2 - 0.5 * r3 - 0.5 * r4 + 0.5 * r5;
-    const double r23 = 0.5 * (known->left_c1 * (r2 + (r4 - r5) - r3));
-    const double r25 = 0.7071067811865475 * (known->left_s1 * r6), r26 = r25 - (r22 - r23);
-    const double r27 = 0.5 * (known->left_c1 * (r4 + (r2 - r3) - r5)), r29 = r25 + (r22 + r27);
-    const Shared5 own = { r26, r29 };
+    const double r6 = p->left_r22 * known->left_c6 - p->left_r23 * known->left_s6, r9 = 0.5 * (r5 + (r6 - r4));
+    const double r11 = p->left_r12 * known->left_c6 - p->left_r13 * known->left_s6;
+    const double r18 = 0.7071067811865475 * (known->left_s1 * r11);
+    const double r19 = r18 - (r9 - known->left_c1 * (r9 + (r4 - r5)));
+    const double r21 = r18 + (r9 + known->left_c1 * (r6 - r9));
+    const Shared5 own = { r19, r21 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }

@@ -793,18 +793,15 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Block 5: HipRoll.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = p.left_r22 * known.left_c6;
-    let r3 = p.left_r23 * known.left_s6;
     let r4 = p.left_r32 * known.left_c6;
     let r5 = p.left_r33 * known.left_s6;
-    let r6 = p.left_r12 * known.left_c6 - p.left_r13 * known.left_s6;
-    let r22 = 0.5 * r2 - 0.5 * r3 - 0.5 * r4 + 0.5 * r5;
-    let r23 = 0.5 * (known.left_c1 * (r2 + (r4 - r5) - r3));
-    let r25 = 0.7071067811865475 * (known.left_s1 * r6);
-    let r26 = r25 - (r22 - r23);
-    let r27 = 0.5 * (known.left_c1 * (r4 + (r2 - r3) - r5));
-    let r29 = r25 + (r22 + r27);
-    let shared = &Shared5 { r26, r29 };
+    let r6 = p.left_r22 * known.left_c6 - p.left_r23 * known.left_s6;
+    let r9 = 0.5 * (r5 + (r6 - r4));
+    let r11 = p.left_r12 * known.left_c6 - p.left_r13 * known.left_s6;
+    let r18 = 0.7071067811865475 * (known.left_s1 * r11);
+    let r19 = r18 - (r9 - known.left_c1 * (r9 + (r4 - r5)));
+    let r21 = r18 + (r9 + known.left_c1 * (r6 - r9));
+    let shared = &Shared5 { r19, r21 };
     chart_5_1(p, known, shared, answers);
 }
 
@@ -817,17 +814,17 @@ fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r26: f64,
-    r29: f64,
+    r19: f64,
+    r21: f64,
 }
 
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r32 = shared.r29 * shared.r29 + shared.r26 * shared.r26;
-    let r34 = 1.0 / f64::max(r32, 0.0).sqrt();
-    let left_c2 = shared.r29 * r34;
-    let left_s2 = shared.r26 * r34;
+    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19;
+    let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
+    let left_c2 = shared.r21 * r26;
+    let left_s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c2, left_s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -924,51 +921,46 @@ fn claim_7_3(p: &Parameters) -> f64 {
 
 /// Block 8: HipRoll.
 fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.5 * p.right_py;
-    let r3 = 0.022595 * p.right_dy;
-    let r4 = r2 + r3;
-    let r5 = 0.5 * p.right_pz;
-    let r7 = 0.022595 * p.right_dz;
-    let r11 = known.left_s1 * (p.right_px + 0.04519 * p.right_dx);
-    let r18 = r7 + (r4 + r5);
-    let r19 = known.left_c1 * (r4 - r5 - r7 - 0.0175) + r18;
-    let r20 = 0.7071067811865475 * r11;
-    let r22 = r19 - r20 + 0.0675;
-    let r23 = known.left_c1 * (r5 + r7 - r2 - r3 + 0.0175) + r18;
-    let r25 = r20 + r23 + 0.0675;
-    let r26 = 4.0 * p.magnitude;
-    let r29 = f64::abs(r26 + 3.16896);
-    let r30 = f64::abs(r26 + 3.27396);
-    let shared = &Shared8 { r22, r25, r29, r30 };
+    let r3 = p.right_py + 0.04519 * p.right_dy;
+    let r5 = p.right_pz + 0.04519 * p.right_dz;
+    let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
+    let r15 = known.left_s1 * (p.right_px + 0.04519 * p.right_dx);
+    let r16 = 0.7071067811865475 * r15;
+    let r20 = r9 + (known.left_c1 * (r3 - r9 + 0.05) - r16);
+    let r21 = r9 + (r16 + known.left_c1 * (r5 - r9 + 0.085));
+    let r22 = 4.0 * p.magnitude;
+    let r25 = f64::abs(r22 + 3.16896);
+    let r26 = f64::abs(r22 + 3.27396);
+    let shared = &Shared8 { r20, r21, r25, r26 };
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, answers);
 }
 
 /// What the charts of block 8 share.
 struct Shared8 {
-    r22: f64,
+    r20: f64,
+    r21: f64,
     r25: f64,
-    r29: f64,
-    r30: f64,
+    r26: f64,
 }
 
 /// Chart 1 of block 8: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r31 = shared.r22 * shared.r22;
-    let r32 = shared.r25 * shared.r25;
-    let r33 = r31 + r32;
-    let r36 = shared.r29 * shared.r29 + shared.r30 * shared.r30;
-    if !is_away(r33, 16.0 * r36) {
+    let r27 = shared.r20 * shared.r20;
+    let r28 = shared.r21 * shared.r21;
+    let r29 = r27 + r28;
+    let r32 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
+    if !is_away(r29, 16.0 * r32) {
         return;
     }
     let right_f2 = 1.0;
-    let roots0 = square_roots(0.0 - r31 - r32, f64::max(r36, 0.0).sqrt());
+    let roots0 = square_roots(0.0 - r27 - r28, f64::max(r32, 0.0).sqrt());
     for (i0, &right_w2) in roots0.as_slice().iter().enumerate() {
-        let r43 = 1.0 / r33;
-        let right_c2 = right_w2 * shared.r25 * r43;
-        let right_s2 = 0.0 - right_w2 * shared.r22 * r43;
+        let r39 = 1.0 / r29;
+        let right_c2 = right_w2 * shared.r21 * r39;
+        let right_s2 = 0.0 - right_w2 * shared.r20 * r39;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, right_c2, right_s2, right_f2, ..*known };
         block_9(p, &next, answers);
     }
@@ -978,9 +970,9 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero.
 /// Free: right_HipRoll.
 fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r33 = shared.r22 * shared.r22 + shared.r25 * shared.r25;
-    let r36 = shared.r29 * shared.r29 + shared.r30 * shared.r30;
-    if !is_near(r33, 1.0000000000000001e-7 * r36) {
+    let r29 = shared.r20 * shared.r20 + shared.r21 * shared.r21;
+    let r32 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
+    if !is_near(r29, 1.0000000000000001e-7 * r32) {
         return;
     }
     let right_f2 = 1000000.0;
@@ -1035,53 +1027,48 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
 #[inline(always)]
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r1 = p.right_px + 0.04519 * p.right_dx;
-    let r5 = p.right_pz + 0.04519 * p.right_dz - p.right_py;
-    let r9 = known.left_s1 * (r5 - 0.04519 * p.right_dy + 0.035);
-    let r10 = 0.5 * p.right_py;
-    let r11 = 0.022595 * p.right_dy;
-    let r12 = r10 + r11;
-    let r13 = 0.5 * p.right_pz;
-    let r15 = 0.022595 * p.right_dz;
-    let r24 = known.left_c1 * (r13 + r15 - r10 - r11 + 0.0175);
-    let r26 = r15 + (r12 + r13);
-    let r27 = known.left_c1 * (r12 - r13 - r15 - 0.0175) + r26;
-    let r28 = 0.7071067811865475 * (known.left_s1 * r1);
-    let r34 = known.right_c2 * (r28 + (r24 + r26) + 0.0675);
-    let r36 = 0.1029 * known.right_s4;
-    let r38 = 0.1029 * known.right_c4 + 0.1;
-    let r40 = known.left_c1 * r1 - 0.7071067811865475 * r9;
-    let r41 = known.right_s2 * (r27 - r28 + 0.0675) - r34;
-    let r46 = f64::abs(3.0 * p.magnitude + 2.29797);
-    let r47 = f64::abs(8.0 * p.magnitude + 6.61292);
-    let shared = &Shared10 { r36, r38, r40, r41, r46, r47 };
+    let r3 = p.right_py + 0.04519 * p.right_dy;
+    let r5 = p.right_pz + 0.04519 * p.right_dz;
+    let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
+    let r18 = 0.7071067811865475 * (known.left_s1 * (r5 - r3 + 0.035));
+    let r19 = known.left_c1 * r1 - r18;
+    let r22 = 0.7071067811865475 * (known.left_s1 * r1);
+    let r26 = r9 + (known.left_c1 * (r3 - r9 + 0.05) - r22);
+    let r27 = r9 + (r22 + known.left_c1 * (r5 - r9 + 0.085));
+    let r30 = 0.1029 * known.right_s4;
+    let r32 = 0.1029 * known.right_c4 + 0.1;
+    let r33 = known.right_s2 * r26 - known.right_c2 * r27;
+    let r38 = f64::abs(3.0 * p.magnitude + 2.29797);
+    let r39 = f64::abs(8.0 * p.magnitude + 6.61292);
+    let shared = &Shared10 { r19, r30, r32, r33, r38, r39 };
     chart_10_1(p, known, shared, answers);
     chart_10_2(p, known, shared, answers);
 }
 
 /// What the charts of block 10 share.
 struct Shared10 {
-    r36: f64,
+    r19: f64,
+    r30: f64,
+    r32: f64,
+    r33: f64,
     r38: f64,
-    r40: f64,
-    r41: f64,
-    r46: f64,
-    r47: f64,
+    r39: f64,
 }
 
 /// Chart 1 of block 10: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r50 = shared.r36 * shared.r36 + shared.r38 * shared.r38;
-    if !is_away(r50, 12.40855712) {
+    let r42 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
+    if !is_away(r42, 12.40855712) {
         return;
     }
     let right_f3 = 1.0;
-    let r53 = shared.r38 * shared.r40 + shared.r36 * shared.r41;
-    let r56 = shared.r38 * shared.r41 - shared.r36 * shared.r40;
-    let r61 = 1.0 / f64::max(r56 * r56 + r53 * r53, 0.0).sqrt();
-    let right_c3 = r56 * r61;
-    let right_s3 = 0.0 - r53 * r61;
+    let r45 = shared.r19 * shared.r32 + shared.r30 * shared.r33;
+    let r48 = shared.r32 * shared.r33 - shared.r19 * shared.r30;
+    let r53 = 1.0 / f64::max(r48 * r48 + r45 * r45, 0.0).sqrt();
+    let right_c3 = r48 * r53;
+    let right_s3 = 0.0 - r45 * r53;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, right_c3, right_s3, right_f3, ..*known };
     block_11(p, &next, answers);
 }
@@ -1090,8 +1077,8 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_HipPitch.
 fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r50 = shared.r36 * shared.r36 + shared.r38 * shared.r38;
-    if !(is_near(r50, 7.755348200000001e-8) && is_near(shared.r41, 0.01 * shared.r47) && is_near(shared.r40, 0.01 * shared.r46)) {
+    let r42 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
+    if !(is_near(r42, 7.755348200000001e-8) && is_near(shared.r33, 0.01 * shared.r39) && is_near(shared.r19, 0.01 * shared.r38)) {
         return;
     }
     let right_f3 = 1000000.0;

@@ -1774,16 +1774,16 @@ INLINE static void block_11(const Parameters *p, const Known *known, Answers *an
 
 /* What the charts of block 10 share. */
 typedef struct {
-    double r26;
-    double r29;
+    double r19;
+    double r21;
 } Shared10;
 
 /* Chart 1 of block 10: generic.
  */
 INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
-    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
-    const double right_c2 = shared->r29 * r34, right_s2 = shared->r26 * r34;
+    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
+    const double right_c2 = shared->r21 * r26, right_s2 = shared->r19 * r26;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1796,14 +1796,12 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
 /* Block 10: HipRoll. */
 INLINE static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = p->right_r22 * known->right_c6, r3 = p->right_r23 * known->right_s6;
     const double r4 = p->right_r32 * known->right_c6, r5 = p->right_r33 * known->right_s6;
-    const double r6 = p->right_r12 * known->right_c6 - p->right_r13 * known->right_s6;
-    const double r22 = 0.5 * r2 - 0.5 * r3 + 0.5 * r4 - 0.5 * r5;
-    const double r23 = 0.5 * (known->left_c1 * (r3 + (r4 - r5 - r2)));
-    const double r25 = 0.7071067811865475 * (known->left_s1 * r6), r26 = r22 + r23 + r25;
-    const double r27 = 0.5 * (known->left_c1 * (r5 + (r2 - r3 - r4))), r29 = r22 + r27 - r25;
-    const Shared10 own = { r26, r29 };
+    const double r6 = p->right_r22 * known->right_c6 - p->right_r23 * known->right_s6, r9 = 0.5 * (r4 + r6 - r5);
+    const double r11 = p->right_r12 * known->right_c6 - p->right_r13 * known->right_s6;
+    const double r18 = 0.7071067811865475 * (known->left_s1 * r11);
+    const double r19 = r9 + known->left_c1 * (r4 - r5 - r9) + r18, r21 = r9 + known->left_c1 * (r6 - r9) - r18;
+    const Shared10 own = { r19, r21 };
     const Shared10 *const shared = &own;
     chart_10_1(p, known, shared, answers);
 }
@@ -2145,16 +2143,16 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r26;
-    double r29;
+    double r19;
+    double r21;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
-    const double left_c2 = shared->r29 * r34, left_s2 = shared->r26 * r34;
+    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
+    const double left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -2167,14 +2165,13 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 /* Block 5: HipRoll. */
 INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = p->left_r22 * known->left_c6, r3 = p->left_r23 * known->left_s6;
     const double r4 = p->left_r32 * known->left_c6, r5 = p->left_r33 * known->left_s6;
-    const double r6 = p->left_r12 * known->left_c6 - p->left_r13 * known->left_s6;
-    const double r22 = 0.5 * r2 - 0.5 * r3 - 0.5 * r4 + 0.5 * r5;
-    const double r23 = 0.5 * (known->left_c1 * (r2 + (r4 - r5) - r3));
-    const double r25 = 0.7071067811865475 * (known->left_s1 * r6), r26 = r25 - (r22 - r23);
-    const double r27 = 0.5 * (known->left_c1 * (r4 + (r2 - r3) - r5)), r29 = r25 + (r22 + r27);
-    const Shared5 own = { r26, r29 };
+    const double r6 = p->left_r22 * known->left_c6 - p->left_r23 * known->left_s6, r9 = 0.5 * (r5 + (r6 - r4));
+    const double r11 = p->left_r12 * known->left_c6 - p->left_r13 * known->left_s6;
+    const double r18 = 0.7071067811865475 * (known->left_s1 * r11);
+    const double r19 = r18 - (r9 - known->left_c1 * (r9 + (r4 - r5)));
+    const double r21 = r18 + (r9 + known->left_c1 * (r6 - r9));
+    const Shared5 own = { r19, r21 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }

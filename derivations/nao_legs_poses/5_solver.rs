@@ -936,18 +936,15 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Block 5: HipRoll.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = p.left_r22 * known.left_c6;
-    let r3 = p.left_r23 * known.left_s6;
     let r4 = p.left_r32 * known.left_c6;
     let r5 = p.left_r33 * known.left_s6;
-    let r6 = p.left_r12 * known.left_c6 - p.left_r13 * known.left_s6;
-    let r22 = 0.5 * r2 - 0.5 * r3 - 0.5 * r4 + 0.5 * r5;
-    let r23 = 0.5 * (known.left_c1 * (r2 + (r4 - r5) - r3));
-    let r25 = 0.7071067811865475 * (known.left_s1 * r6);
-    let r26 = r25 - (r22 - r23);
-    let r27 = 0.5 * (known.left_c1 * (r4 + (r2 - r3) - r5));
-    let r29 = r25 + (r22 + r27);
-    let shared = &Shared5 { r26, r29 };
+    let r6 = p.left_r22 * known.left_c6 - p.left_r23 * known.left_s6;
+    let r9 = 0.5 * (r5 + (r6 - r4));
+    let r11 = p.left_r12 * known.left_c6 - p.left_r13 * known.left_s6;
+    let r18 = 0.7071067811865475 * (known.left_s1 * r11);
+    let r19 = r18 - (r9 - known.left_c1 * (r9 + (r4 - r5)));
+    let r21 = r18 + (r9 + known.left_c1 * (r6 - r9));
+    let shared = &Shared5 { r19, r21 };
     chart_5_1(p, known, shared, answers);
 }
 
@@ -960,17 +957,17 @@ fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r26: f64,
-    r29: f64,
+    r19: f64,
+    r21: f64,
 }
 
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r32 = shared.r29 * shared.r29 + shared.r26 * shared.r26;
-    let r34 = 1.0 / f64::max(r32, 0.0).sqrt();
-    let left_c2 = shared.r29 * r34;
-    let left_s2 = shared.r26 * r34;
+    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19;
+    let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
+    let left_c2 = shared.r21 * r26;
+    let left_s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c2, left_s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -1267,18 +1264,15 @@ fn chart_9_2(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
 /// Block 10: HipRoll.
 #[inline(always)]
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = p.right_r22 * known.right_c6;
-    let r3 = p.right_r23 * known.right_s6;
     let r4 = p.right_r32 * known.right_c6;
     let r5 = p.right_r33 * known.right_s6;
-    let r6 = p.right_r12 * known.right_c6 - p.right_r13 * known.right_s6;
-    let r22 = 0.5 * r2 - 0.5 * r3 + 0.5 * r4 - 0.5 * r5;
-    let r23 = 0.5 * (known.left_c1 * (r3 + (r4 - r5 - r2)));
-    let r25 = 0.7071067811865475 * (known.left_s1 * r6);
-    let r26 = r22 + r23 + r25;
-    let r27 = 0.5 * (known.left_c1 * (r5 + (r2 - r3 - r4)));
-    let r29 = r22 + r27 - r25;
-    let shared = &Shared10 { r26, r29 };
+    let r6 = p.right_r22 * known.right_c6 - p.right_r23 * known.right_s6;
+    let r9 = 0.5 * (r4 + r6 - r5);
+    let r11 = p.right_r12 * known.right_c6 - p.right_r13 * known.right_s6;
+    let r18 = 0.7071067811865475 * (known.left_s1 * r11);
+    let r19 = r9 + known.left_c1 * (r4 - r5 - r9) + r18;
+    let r21 = r9 + known.left_c1 * (r6 - r9) - r18;
+    let shared = &Shared10 { r19, r21 };
     chart_10_1(p, known, shared, answers);
 }
 
@@ -1291,17 +1285,17 @@ fn again_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 10 share.
 struct Shared10 {
-    r26: f64,
-    r29: f64,
+    r19: f64,
+    r21: f64,
 }
 
 /// Chart 1 of block 10: generic.
 #[inline(always)]
 fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r32 = shared.r29 * shared.r29 + shared.r26 * shared.r26;
-    let r34 = 1.0 / f64::max(r32, 0.0).sqrt();
-    let right_c2 = shared.r29 * r34;
-    let right_s2 = shared.r26 * r34;
+    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19;
+    let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
+    let right_c2 = shared.r21 * r26;
+    let right_s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, right_c2, right_s2, ..*known };
     block_11(p, &next, answers);
 }

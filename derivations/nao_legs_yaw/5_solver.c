@@ -229,6 +229,8 @@ const double nao_legs_yaw_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINITY, 
 /* A critical point with |p| <= TANGENT sum |a_i y^i| counts as a root, y being the larger of |x| and the unknown's typical
  * size. */
 #define TANGENT 1e-10
+/* The same for x^2 + c, which such roots have led to. */
+#define GRAZING 1e-6
 /* Values of p up to degree * ROUNDING * sum |a_i x^i| have no sign. */
 #define ROUNDING (2.0 * DBL_EPSILON)
 /* Steps for each root, at most. */
@@ -254,7 +256,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > GRAZING * fmax(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {

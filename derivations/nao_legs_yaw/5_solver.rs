@@ -3393,6 +3393,8 @@ const NEGLIGIBLE: f64 = 1e-290;
 /// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
 /// typical size.
 const TANGENT: f64 = 1e-10;
+/// The same for `x^2 + c`, which such roots have led to.
+const GRAZING: f64 = 1e-6;
 /// Values of `p` up to `degree ROUNDING sum |a_i x^i|` have no sign.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Steps for each root, at most.
@@ -3424,7 +3426,7 @@ impl Roots {
 /// All real roots of x^2 + constant; a miss is measured against the unknown's typical size `scale`.
 fn square_roots(constant: f64, scale: f64) -> Roots {
     let mut roots = Roots::NONE;
-    if constant.is_nan() || constant > TANGENT * f64::max(constant, scale * scale) {
+    if constant.is_nan() || constant > GRAZING * f64::max(constant, scale * scale) {
         return roots;
     }
     if constant >= 0.0 {

@@ -1547,16 +1547,16 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r26;
-    double r29;
+    double r19;
+    double r21;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
  */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r32 = shared->r29 * shared->r29 + shared->r26 * shared->r26, r34 = 1.0 / sqrt(fmax(r32, 0.0));
-    const double c2 = shared->r29 * r34, s2 = shared->r26 * r34;
+    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
+    const double c2 = shared->r21 * r26, s2 = shared->r19 * r26;
     Known next = *known;
     next.branch = known->branch;
     next.last = known->last;
@@ -1569,12 +1569,11 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 /* Block 5: HipRoll. */
 INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r2 = p->r22_ * known->c6, r3 = p->r23_ * known->s6, r4 = p->r32_ * known->c6;
-    const double r5 = p->r33_ * known->s6, r14 = known->s1 * (p->r12_ * known->c6 - p->r13_ * known->s6);
-    const double r22 = 0.5 * r2 - 0.5 * r3 + 0.5 * r4 - 0.5 * r5;
-    const double r24 = r22 + 0.5 * (known->c1 * (r3 + (r4 - r5 - r2))), r25 = 0.7071067811865475 * r14;
-    const double r26 = r24 + r25, r28 = r22 + 0.5 * (known->c1 * (r5 + (r2 - r3 - r4))), r29 = r28 - r25;
-    const Shared5 own = { r26, r29 };
+    const double r4 = p->r32_ * known->c6, r5 = p->r33_ * known->s6;
+    const double r6 = p->r22_ * known->c6 - p->r23_ * known->s6, r9 = 0.5 * (r4 + r6 - r5);
+    const double r14 = known->s1 * (p->r12_ * known->c6 - p->r13_ * known->s6), r18 = 0.7071067811865475 * r14;
+    const double r19 = r9 + known->c1 * (r4 - r5 - r9) + r18, r21 = r9 + known->c1 * (r6 - r9) - r18;
+    const Shared5 own = { r19, r21 };
     const Shared5 *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }

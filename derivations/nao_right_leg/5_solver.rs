@@ -747,18 +747,15 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Block 5: HipRoll.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = p.r22_ * known.c6;
-    let r3 = p.r23_ * known.s6;
     let r4 = p.r32_ * known.c6;
     let r5 = p.r33_ * known.s6;
+    let r6 = p.r22_ * known.c6 - p.r23_ * known.s6;
+    let r9 = 0.5 * (r4 + r6 - r5);
     let r14 = known.s1 * (p.r12_ * known.c6 - p.r13_ * known.s6);
-    let r22 = 0.5 * r2 - 0.5 * r3 + 0.5 * r4 - 0.5 * r5;
-    let r24 = r22 + 0.5 * (known.c1 * (r3 + (r4 - r5 - r2)));
-    let r25 = 0.7071067811865475 * r14;
-    let r26 = r24 + r25;
-    let r28 = r22 + 0.5 * (known.c1 * (r5 + (r2 - r3 - r4)));
-    let r29 = r28 - r25;
-    let shared = &Shared5 { r26, r29 };
+    let r18 = 0.7071067811865475 * r14;
+    let r19 = r9 + known.c1 * (r4 - r5 - r9) + r18;
+    let r21 = r9 + known.c1 * (r6 - r9) - r18;
+    let shared = &Shared5 { r19, r21 };
     chart_5_1(p, known, shared, answers);
 }
 
@@ -771,17 +768,17 @@ fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 
 /// What the charts of block 5 share.
 struct Shared5 {
-    r26: f64,
-    r29: f64,
+    r19: f64,
+    r21: f64,
 }
 
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r32 = shared.r29 * shared.r29 + shared.r26 * shared.r26;
-    let r34 = 1.0 / f64::max(r32, 0.0).sqrt();
-    let c2 = shared.r29 * r34;
-    let s2 = shared.r26 * r34;
+    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19;
+    let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
+    let c2 = shared.r21 * r26;
+    let s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, ..*known };
     block_6(p, &next, answers);
 }

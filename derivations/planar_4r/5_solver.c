@@ -257,15 +257,14 @@ static Parameters parameters(const double *target)
 static void tip(const double *at, double *reached)
 {
     const double c1_ = at[0], s1_ = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
-    const double s4 = at[7], r0 = c1_ * c2, r1 = s1_ * s2, r2 = s1_ * c2, r3 = c1_ * s2, r4 = r0 - r1;
-    const double r5 = c3 * r4, r6 = r2 + r3, r7 = s3 * r6, r8 = c3 * r6, r9 = r1 - r0, r10 = s3 * r9;
-    const double r14 = c4 * (r5 - r7), r16 = s4 * (r8 + s3 * r4), r18 = c4 * (r8 - r10);
-    const double r20 = s4 * (r7 + c3 * r9), r29 = 0.4 * s1_ + 0.35 * r2 + 0.35 * r3 + 0.3 * r8 - 0.3 * r10;
-    const double r43 = 0.4 * c1_ + 0.35 * r0 - 0.35 * r1 + 0.3 * r5 - 0.3 * r7;
-    reached[0] = r43 + 0.1 * r14 - 0.1 * r16;
-    reached[1] = r29 + 0.1 * r18 - 0.1 * r20;
-    reached[2] = r14 - r16;
-    reached[3] = r18 - r20;
+    const double s4 = at[7], r2 = c1_ * c2 - s1_ * s2, r5 = s1_ * c2 + c1_ * s2, r16 = c3 * r2 - s3 * r5;
+    const double r19 = c3 * r5 + s3 * r2, r25 = 0.4 * (c1_ - r2) + 0.75 * r2 - 0.75 * r16 + 1.05 * r16;
+    const double r27 = 0.4 * (s1_ - r5) + 0.75 * r5 - 0.75 * r19 + 1.05 * r19, r30 = c4 * r16 - s4 * r19;
+    const double r33 = c4 * r19 + s4 * r16;
+    reached[0] = r25 - 1.05 * r30 + 1.15 * r30;
+    reached[1] = r27 - 1.05 * r33 + 1.15 * r33;
+    reached[2] = r30;
+    reached[3] = r33;
     reached[4] = c1_;
     reached[5] = s1_;
 }
@@ -326,19 +325,16 @@ static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
     const double c1_ = at[0], s1_ = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
-    const double s4 = at[7], r0 = c1_ * c2, r1 = s1_ * s2, r2 = s1_ * c2, r3 = c1_ * s2, r4 = r0 - r1;
-    const double r5 = c3 * r4, r6 = r2 + r3, r7 = s3 * r6, r8 = c3 * r6, r9 = r1 - r0, r10 = s3 * r9;
-    const double r14 = c4 * (r5 - r7), r16 = s4 * (r8 + s3 * r4), r18 = c4 * (r8 - r10);
-    const double r20 = s4 * (r7 + c3 * r9), r22 = 0.35 * r2, r24 = 0.35 * r3, r26 = 0.3 * r8, r28 = 0.3 * r10;
-    const double r30 = 0.1 * r18, r32 = 0.1 * r20, r36 = 0.35 * r0, r38 = 0.35 * r1, r40 = 0.3 * r5;
-    const double r42 = 0.3 * r7, r44 = 0.1 * r14, r46 = 0.1 * r16;
-    const double r47 = 0.4 * c1_ + r36 - r38 + r40 - r42 + r44 - r46, r49 = r14 - r16;
-    const double r55 = r32 - (0.4 * s1_ + r22 + r24 + r26 - r28 + r30), r75 = r20 - r18;
+    const double s4 = at[7], r2 = c1_ * c2 - s1_ * s2, r5 = s1_ * c2 + c1_ * s2;
+    const double r11 = 0.4 * (c1_ - r2) + 0.75 * r2, r13 = 0.4 * (s1_ - r5) + 0.75 * r5, r16 = c3 * r2 - s3 * r5;
+    const double r19 = c3 * r5 + s3 * r2, r25 = r11 - 0.75 * r16 + 1.05 * r16;
+    const double r27 = r13 - 0.75 * r19 + 1.05 * r19, r30 = c4 * r16 - s4 * r19, r33 = c4 * r19 + s4 * r16;
+    const double r39 = r25 - 1.05 * r30 + 1.15 * r30, r41 = r27 - 1.05 * r33 + 1.15 * r33, r48 = 0.0 - r33;
     const Jacobian result = { {
-        {r55, r32 - (r30 + (r26 + (r22 + r24) - r28)), r32 - (r30 + (r26 - r28)), 0.0 - 0.1 * (r18 - r20)},
-        {r47, r44 + (r40 + (r36 - r38) - r42) - r46, r44 + (r40 - r42) - r46, 0.1 * r49},
-        {r75, r75, r75, r75},
-        {r49, r49, r49, r49},
+        {0.0 - r41, 0.4 * s1_ - r41, r13 - r41, r27 - r41},
+        {r39, r39 - 0.4 * c1_, r39 - r11, r39 - r25},
+        {r48, r48, r48, r48},
+        {r30, r30, r30, r30},
         {0.0 - s1_, 0.0, 0.0, 0.0},
         {c1_, 0.0, 0.0, 0.0},
     } };

@@ -583,28 +583,19 @@ fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let s3 = at[5];
     let c4 = at[6];
     let s4 = at[7];
-    let r0 = c1_ * c2;
-    let r1 = s1_ * s2;
-    let r2 = s1_ * c2;
-    let r3 = c1_ * s2;
-    let r4 = r0 - r1;
-    let r5 = c3 * r4;
-    let r6 = r2 + r3;
-    let r7 = s3 * r6;
-    let r8 = c3 * r6;
-    let r9 = r1 - r0;
-    let r10 = s3 * r9;
-    let r14 = c4 * (r5 - r7);
-    let r16 = s4 * (r8 + s3 * r4);
-    let r18 = c4 * (r8 - r10);
-    let r20 = s4 * (r7 + c3 * r9);
-    let r29 = 0.4 * s1_ + 0.35 * r2 + 0.35 * r3 + 0.3 * r8 - 0.3 * r10;
-    let r43 = 0.4 * c1_ + 0.35 * r0 - 0.35 * r1 + 0.3 * r5 - 0.3 * r7;
+    let r2 = c1_ * c2 - s1_ * s2;
+    let r5 = s1_ * c2 + c1_ * s2;
+    let r16 = c3 * r2 - s3 * r5;
+    let r19 = c3 * r5 + s3 * r2;
+    let r25 = 0.4 * (c1_ - r2) + 0.75 * r2 - 0.75 * r16 + 1.05 * r16;
+    let r27 = 0.4 * (s1_ - r5) + 0.75 * r5 - 0.75 * r19 + 1.05 * r19;
+    let r30 = c4 * r16 - s4 * r19;
+    let r33 = c4 * r19 + s4 * r16;
     [
-        r43 + 0.1 * r14 - 0.1 * r16,
-        r29 + 0.1 * r18 - 0.1 * r20,
-        r14 - r16,
-        r18 - r20,
+        r25 - 1.05 * r30 + 1.15 * r30,
+        r27 - 1.05 * r33 + 1.15 * r33,
+        r30,
+        r33,
         c1_,
         s1_,
     ]
@@ -671,42 +662,24 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let s3 = at[5];
     let c4 = at[6];
     let s4 = at[7];
-    let r0 = c1_ * c2;
-    let r1 = s1_ * s2;
-    let r2 = s1_ * c2;
-    let r3 = c1_ * s2;
-    let r4 = r0 - r1;
-    let r5 = c3 * r4;
-    let r6 = r2 + r3;
-    let r7 = s3 * r6;
-    let r8 = c3 * r6;
-    let r9 = r1 - r0;
-    let r10 = s3 * r9;
-    let r14 = c4 * (r5 - r7);
-    let r16 = s4 * (r8 + s3 * r4);
-    let r18 = c4 * (r8 - r10);
-    let r20 = s4 * (r7 + c3 * r9);
-    let r22 = 0.35 * r2;
-    let r24 = 0.35 * r3;
-    let r26 = 0.3 * r8;
-    let r28 = 0.3 * r10;
-    let r30 = 0.1 * r18;
-    let r32 = 0.1 * r20;
-    let r36 = 0.35 * r0;
-    let r38 = 0.35 * r1;
-    let r40 = 0.3 * r5;
-    let r42 = 0.3 * r7;
-    let r44 = 0.1 * r14;
-    let r46 = 0.1 * r16;
-    let r47 = 0.4 * c1_ + r36 - r38 + r40 - r42 + r44 - r46;
-    let r49 = r14 - r16;
-    let r55 = r32 - (0.4 * s1_ + r22 + r24 + r26 - r28 + r30);
-    let r75 = r20 - r18;
+    let r2 = c1_ * c2 - s1_ * s2;
+    let r5 = s1_ * c2 + c1_ * s2;
+    let r11 = 0.4 * (c1_ - r2) + 0.75 * r2;
+    let r13 = 0.4 * (s1_ - r5) + 0.75 * r5;
+    let r16 = c3 * r2 - s3 * r5;
+    let r19 = c3 * r5 + s3 * r2;
+    let r25 = r11 - 0.75 * r16 + 1.05 * r16;
+    let r27 = r13 - 0.75 * r19 + 1.05 * r19;
+    let r30 = c4 * r16 - s4 * r19;
+    let r33 = c4 * r19 + s4 * r16;
+    let r39 = r25 - 1.05 * r30 + 1.15 * r30;
+    let r41 = r27 - 1.05 * r33 + 1.15 * r33;
+    let r48 = 0.0 - r33;
     [
-        [r55, r32 - (r30 + (r26 + (r22 + r24) - r28)), r32 - (r30 + (r26 - r28)), 0.0 - 0.1 * (r18 - r20)],
-        [r47, r44 + (r40 + (r36 - r38) - r42) - r46, r44 + (r40 - r42) - r46, 0.1 * r49],
-        [r75, r75, r75, r75],
-        [r49, r49, r49, r49],
+        [0.0 - r41, 0.4 * s1_ - r41, r13 - r41, r27 - r41],
+        [r39, r39 - 0.4 * c1_, r39 - r11, r39 - r25],
+        [r48, r48, r48, r48],
+        [r30, r30, r30, r30],
         [0.0 - s1_, 0.0, 0.0, 0.0],
         [c1_, 0.0, 0.0, 0.0],
     ]

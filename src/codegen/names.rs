@@ -7,7 +7,7 @@ use crate::solver::Program;
 
 /// Names that the skeletons and the printed functions use themselves, beside `r0`, `i0`, `roots0` and `choice0`.
 const TAKEN: &str = "p q target answers extra magnitude result angle real_roots leads is_near is_away finish \
-    INPUTS JOINTS CAPACITY EQUATIONS EXTRAS DEGREE ACCEPT MERGE BLUR RESOLUTION NEAR TINY PIVOT POLISH_STEPS TANGENT ROUNDING \
+    INPUTS JOINTS CAPACITY EQUATIONS EXTRAS DEGREE ACCEPT MERGE BLUR RESOLUTION NEAR TINY PIVOT POLISH_STEPS TANGENT GRAZING ROUNDING \
     NEGLIGIBLE MAX_STEPS TAU PI NONE_FREE INPUT_NAMES JOINT_NAMES \
     Parameters Solution Answers Error Fit Equations Jacobian Roots Polynomial Math close blurred differences shorter is_close keep relative doubles has_branch known shared next Known Shared branch free NOTHING_KNOWN ADRIFT FREED is_listed tries ALIKE MEETING ASIDE NARROWS narrow SINGULAR REGULAR regularity regular least most DOUBLINGS leads_aside beyond ahead close_by displaced end ARRIVED STAGES POLISHED CONSISTENT \
     tip reached TIP forward LIMITS limits SLACK TURNS turns turns_within solve_within count_turns turn within nearest at MOST_TURNS nearest_turn finite_turns turned_within strides_within STRIDE STRIDES holds stride frames target_of base tool pose sum \

@@ -201,7 +201,7 @@ impl Outline {
             capacity: program.capacity,
             isolated: program.isolated.filter(|_| needs.answers),
             equations: checks.values.len(),
-            degree: root_steps(program).map(|(step, _)| step.slots()).max().unwrap_or(0),
+            degree: program.degree(),
             quartic: Quartic::of(program),
             freed: freed(program),
             scale: number(program.scale),

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::printer::number;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, LEVER, MEETING, MERGE,
-    NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES,
+    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, GRAZING, LEVER, MEETING,
+    MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES,
     SINGULAR, STAGES, STIFF, TINY,
 };
 
@@ -60,6 +60,7 @@ pub(super) struct Tolerances {
     negligible: String,
     /// A critical point where a polynomial misses zero by this share of its size counts as a root.
     tangent: String,
+    grazing: String,
     /// How far a joint may be beyond a limit.
     slack: String,
 }
@@ -96,6 +97,7 @@ impl Tolerances {
             consistent: number(CONSISTENT),
             negligible: number(1e-290),
             tangent: number(TANGENT),
+            grazing: number(GRAZING),
             slack: number(1e-9),
         }
     }
@@ -121,6 +123,7 @@ impl Tolerances {
             consistent: number(1e-4),
             negligible: number(1e-30),
             tangent: number(1e-4),
+            grazing: number(1e-4),
             slack: number(1e-5),
             ..Tolerances::new()
         }

@@ -31,15 +31,47 @@ impl FlatTerm {
 }
 
 /// Collects instructions; asking twice for the same operation gives the same register, and minus signs move out of products into sums.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Assembler {
     code: Vec<Instruction>,
+    /// The most terms of a sum that is not computed before it is read.
+    longest: usize,
     /// What each register holds.
     operations: Vec<Operation>,
     known: HashMap<String, Operand>,
 }
 
+/// The most terms that [`Assembler`] lets sums have by itself.
+const LONGEST: usize = 12;
+
+impl Default for Assembler {
+    fn default() -> Self {
+        Assembler::with_sums_of(LONGEST)
+    }
+}
+
 impl Assembler {
+    /// One that computes sums of more terms than these before they are read. Long sums may cancel, and leave no code then; of short ones
+    /// each is computed once however often it is read.
+    pub fn with_sums_of(longest: usize) -> Self {
+        Assembler { code: Vec::new(), longest, operations: Vec::new(), known: HashMap::new() }
+    }
+
+    /// In the order in which they are tried: how long sums may be.
+    pub fn sums() -> [usize; 5] {
+        [LONGEST, 6, 3, 2, 1]
+    }
+
+    /// The most terms of a sum that is not computed before it is read.
+    pub fn longest(&self) -> usize {
+        self.longest
+    }
+
+    /// How many instructions there are, before and since the last [`Assembler::take`].
+    pub fn count(&self) -> usize {
+        self.operations.len()
+    }
+
     /// The instructions since the last call.
     pub fn take(&mut self) -> Vec<Instruction> {
         std::mem::take(&mut self.code)

@@ -83,10 +83,11 @@ pub fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
     roots
 }
 
-/// All real roots of `x^2 + constant` in ascending order, as [`real_roots`] but that a miss is measured against `scale` alone.
-pub fn square_roots(constant: f64, scale: f64) -> Roots {
+/// All real roots of `x^2 + constant` in ascending order, as [`real_roots`] but that a miss is measured against `scale` alone: zero is a root
+/// where the constant is no more than `tangent` times its square.
+pub fn square_roots(constant: f64, scale: f64, tangent: f64) -> Roots {
     let mut roots = Roots::NONE;
-    if constant.is_nan() || constant > TANGENT * f64::max(constant, scale * scale) {
+    if constant.is_nan() || constant > tangent * f64::max(constant, scale * scale) {
         return roots;
     }
     if constant >= 0.0 {

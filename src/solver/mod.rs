@@ -47,6 +47,9 @@ pub const ROUNDING: f64 = 1e-14;
 /// Real roots that differ by no more than this share of the unknown's typical size are close to one another: what rounding leaves of their
 /// difference's square may make one of two, or two of one. Where it moves roots farther apart, the answers' misses tell.
 pub const MEETING: f64 = 1e-5;
+/// [`crate::roots::TANGENT`] for `x^2 + c` in programs with polynomials of higher degree, whose roots are less exact: a miss of `c` by this
+/// share of its size moves what follows from it by a thousandth, and polishing goes on from there.
+pub const GRAZING: f64 = 1e-6;
 /// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
 pub const NEAR: f64 = 1e-3;
 /// A chart does not run where a denominator is below this share of its scale: a factor of degree two in the distance from its

@@ -282,6 +282,12 @@ impl Program {
         self.blocks.iter().flat_map(|block| &block.charts)
     }
 
+    /// The highest degree of a polynomial whose roots a chart takes; 0 without one.
+    pub fn degree(&self) -> usize {
+        let steps = self.charts().filter(|chart| !chart.open).flat_map(|chart| &chart.steps);
+        steps.filter(|step| matches!(step, Step::Roots { .. })).map(Step::slots).max().unwrap_or(0)
+    }
+
     /// The joints that some chart frees, ascending.
     pub fn freed(&self) -> impl Iterator<Item = usize> {
         (0..self.joints.len()).filter(|joint| self.charts().any(|chart| chart.free.contains(joint)))

@@ -20,6 +20,14 @@ impl Checks {
         prune_checks(&mut self);
         self
     }
+
+    /// How many instructions the values and sizes need.
+    pub(crate) fn work(&self) -> usize {
+        let mut measured = Live::default();
+        self.residuals.iter().chain(&self.scales).for_each(|operand| measured.read(*operand));
+        measured.code(&self.code);
+        measured.0.len()
+    }
 }
 
 /// The registers that are read.

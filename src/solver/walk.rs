@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Block, Chart, JointValue, Program, Step, square};
 use super::template::SixAxes;
-use super::{MAX_JOINTS, MEETING, PIVOT};
+use super::{GRAZING, MAX_JOINTS, MEETING, PIVOT};
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The coefficients of a polynomial, constant term first.
@@ -42,6 +42,8 @@ pub(super) struct Walk<'a> {
     places: Vec<Place>,
     frame: Frame<'a>,
     answers: Answers<'a>,
+    /// A miss of `x^2 + c` up to this share counts as a root.
+    tangent: f64,
 }
 
 impl<'a> Walk<'a> {
@@ -53,7 +55,9 @@ impl<'a> Walk<'a> {
             Place { base, radix: block.branches() }
         };
         let places = program.blocks.iter().map(place).collect();
-        Walk { program, places, frame: Frame::new(parameters, magnitude, program.unknowns.len(), registers), answers }
+        let frame = Frame::new(parameters, magnitude, program.unknowns.len(), registers);
+        let tangent = if program.degree() > 2 { GRAZING } else { roots::TANGENT };
+        Walk { program, places, frame, answers, tangent }
     }
 
     /// Walks all paths.
@@ -184,7 +188,7 @@ impl<'a> Walk<'a> {
         let usual = if self.program.is_plain(unknown) { Operand::Magnitude } else { Operand::Constant(1.0) };
         let typical = frame.value(typical.unwrap_or(usual));
         if let Some(constant) = square(polynomials) {
-            let roots = roots::square_roots(frame.value(constant), typical);
+            let roots = roots::square_roots(frame.value(constant), typical, self.tangent);
             return (roots, roots.as_slice().last().is_some_and(|root| *root <= MEETING * typical));
         }
         let coefficients = self.leading(polynomials);

@@ -7,9 +7,6 @@ use crate::derive::closure::Arithmetic;
 use crate::number::BigRational;
 use crate::solver::Operand;
 
-/// The most terms of a sum that is not computed before it is read.
-const LONGEST: usize = 12;
-
 /// A number and multiples of results of code: sums are not computed before something else than a sum asks for them, so that what
 /// cancels leaves no code.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,7 +112,7 @@ impl Emitter<'_> {
 
     /// A sum, computed if it is long: it may be part of many others, in which little of it cancels.
     fn short(&mut self, sum: Emitted) -> Emitted {
-        if sum.terms.len() > LONGEST { Emitted::code(sum.operand(self.0)) } else { sum }
+        if sum.terms.len() > self.0.longest() { Emitted::code(sum.operand(self.0)) } else { sum }
     }
 }
 

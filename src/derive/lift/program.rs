@@ -134,6 +134,22 @@ pub(super) fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Blo
     Block::numbered(label, Vec::new(), vec![chart])
 }
 
+/// The symbols of a step's form, and what computes them.
+struct Symbols {
+    list: Vec<Sized>,
+    /// How many instructions compute their values.
+    work: usize,
+    assembler: Assembler,
+}
+
+impl Symbols {
+    /// Whether the same values are numbers, which no code computes.
+    fn has_numbers_of(&self, other: &Symbols) -> bool {
+        let is_number = |symbol: &Sized| matches!(symbol.value, Operand::Constant(_));
+        self.list.iter().map(is_number).eq(other.list.iter().map(is_number))
+    }
+}
+
 /// A step and what is known when it runs.
 pub(super) struct Context<'a> {
     pub mechanism: &'a Mechanism,
@@ -165,8 +181,7 @@ impl Context<'_> {
             }
             Form::Turn | Form::Linear | Form::Lengths => None,
         };
-        let mut assembler = Assembler::default();
-        let symbols = self.symbols(layout, &mut assembler)?;
+        let Symbols { list: symbols, mut assembler, .. } = self.shortest(layout)?;
         let code = assembler.take();
         let place = |symbols: Vec<Sized>| Place {
             free: self.free,
@@ -225,8 +240,24 @@ impl Context<'_> {
         }
     }
 
+    /// The symbols of the step's form, by sums of the length that leaves the least code. Other lengths than the usual must save an eighth,
+    /// and must not make code of what cancels.
+    fn shortest(&self, layout: &Layout) -> Result<Symbols> {
+        let [usual, others @ ..] = Assembler::sums();
+        let mut best = self.symbols(layout, Assembler::with_sums_of(usual))?;
+        let allowed = best.work - best.work / 8;
+        for longest in others {
+            let other = self.symbols(layout, Assembler::with_sums_of(longest))?;
+            if other.work < best.work.min(allowed) && other.has_numbers_of(&best) {
+                best = other;
+            }
+        }
+        Ok(best)
+    }
+
     /// The symbols of the step's form. Their sizes matter only where a guard asks for them.
-    fn symbols(&self, layout: &Layout, assembler: &mut Assembler) -> Result<Vec<Sized>> {
+    fn symbols(&self, layout: &Layout, mut assembler: Assembler) -> Result<Symbols> {
+        let assembler = &mut assembler;
         let mut equations = Vec::new();
         for (mechanism, layout, relations) in self.sides(layout) {
             let assignment = layout.assignment(mechanism, self.known, assembler)?;
@@ -235,11 +266,15 @@ impl Context<'_> {
             }
         }
         let values = self.combine(&equations, None, assembler);
-        if values.first().is_some_and(is_number) && !matches!(self.step.shape.form, Form::Pair | Form::Quartic) {
-            return Ok(values.into_iter().map(|value| Sized { value, size: Operand::Constant(1.0) }).collect());
-        }
-        let sizes = self.sizes(&equations, layout, assembler)?;
-        Ok(values.into_iter().zip(sizes).map(|(value, size)| Sized { value, size }).collect())
+        let work = assembler.count();
+        let is_sized =
+            matches!(self.step.shape.form, Form::Pair | Form::Quartic) || !values.first().is_some_and(is_number);
+        let sizes = match is_sized {
+            true => self.sizes(&equations, layout, assembler)?,
+            false => vec![Operand::Constant(1.0); values.len()],
+        };
+        let list = values.into_iter().zip(sizes).map(|(value, size)| Sized { value, size }).collect();
+        Ok(Symbols { list, work, assembler: std::mem::take(assembler) })
     }
 
     fn sizes(
