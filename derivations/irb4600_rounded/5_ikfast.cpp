@@ -1684,7 +1684,7 @@ typedef struct {
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r32 = shared->r30 * shared->r30 - 0.09922500009355499;
-    const double r35 = 3162.2776601683795 * (1.4142135623730951 * known->f1);
+    const double r35 = 3162.2776601683795 * (2.4437820360986144 * known->f1);
     const Roots roots0 = square_roots(r32 - 2.9860353199791447, r35);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0];

@@ -622,7 +622,7 @@ struct Shared2 {
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r32 = shared.r30 * shared.r30 - 0.09922500009355499;
-    let r35 = 3162.2776601683795 * (1.4142135623730951 * known.f1);
+    let r35 = 3162.2776601683795 * (2.4437820360986144 * known.f1);
     let roots0 = square_roots(r32 - 2.9860353199791447, r35);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
         let r39 = 0.3150000001485 * w3 - (0.0 - 1.7280148494671985 * shared.r30);

@@ -271,7 +271,12 @@ impl Context<'_> {
             matches!(self.step.shape.form, Form::Pair | Form::Quartic) || !values.first().is_some_and(is_number);
         let sizes = match is_sized {
             true => self.sizes(&equations, layout, assembler)?,
-            false => vec![Operand::Constant(1.0); values.len()],
+            false => {
+                vec![
+                    Operand::Constant(values.iter().filter_map(number).fold(1.0, |largest, x| largest.max(x.abs())));
+                    values.len()
+                ]
+            }
         };
         let list = values.into_iter().zip(sizes).map(|(value, size)| Sized { value, size }).collect();
         Ok(Symbols { list, work, assembler: std::mem::take(assembler) })
@@ -413,6 +418,14 @@ fn dependent([a, b, e, f]: [Sized; 4], slack: Slack, assembler: &mut Assembler) 
     let (value, size) = (determinant(|s| s.value, false), determinant(|s| s.size, true));
     let scale = assembler.mul(Operand::Constant(slack.share(DEPENDENT) / NEAR), size);
     Guard { text: "A*F - B*E".to_owned(), value, scale, near: true }
+}
+
+/// The value of a number.
+fn number(value: &Operand) -> Option<f64> {
+    match value {
+        Operand::Constant(value) => Some(*value),
+        _ => None,
+    }
 }
 
 /// Whether it is a number other than zero.
