@@ -60,6 +60,7 @@ pub(super) struct Tolerances {
     negligible: String,
     /// A critical point where a polynomial misses zero by this share of its size counts as a root.
     tangent: String,
+    /// The same of the square of a joint's sine behind a quartic, whose roots are off by more.
     grazing: String,
     /// How far a joint may be beyond a limit.
     slack: String,

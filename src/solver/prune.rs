@@ -23,10 +23,15 @@ impl Checks {
 
     /// How many instructions the values and sizes need.
     pub(crate) fn work(&self) -> usize {
-        let mut measured = Live::default();
-        self.residuals.iter().chain(&self.scales).for_each(|operand| measured.read(*operand));
-        measured.code(&self.code);
-        measured.0.len()
+        self.measured().0.len()
+    }
+
+    /// What values and sizes need.
+    fn measured(&self) -> Live {
+        let mut live = Live::default();
+        self.residuals.iter().chain(&self.scales).for_each(|operand| live.read(*operand));
+        live.code(&self.code);
+        live
     }
 }
 
@@ -153,10 +158,8 @@ fn prune_block(block: &mut Block) {
 }
 
 fn prune_checks(checks: &mut Checks) {
-    let (mut measured, mut derived) = (Live::default(), Live::default());
-    checks.residuals.iter().chain(&checks.scales).for_each(|operand| measured.read(*operand));
+    let (measured, mut derived) = (checks.measured(), Live::default());
     checks.jacobian.iter().flatten().for_each(|operand| derived.read(*operand));
-    measured.code(&checks.code);
     derived.code(&checks.code);
     derived.0.retain(|register| !measured.0.contains(register));
     let mut behind = checks.code.clone();

@@ -7,7 +7,7 @@ use num_traits::{One, ToPrimitive};
 
 use super::emit::{Emitted, Emitter};
 use super::layout::Layout;
-use crate::derive::assemble::Assembler;
+use crate::derive::assemble::{Assembler, of_least_work};
 use crate::derive::closure::{Arithmetic, Mechanism, ScrewJoint};
 use crate::kinematics::{ExactVector, Plane, Task};
 use crate::number::BigRational;
@@ -16,14 +16,10 @@ use crate::solver::{Checks, JointValue, Operand};
 type Vector = [Emitted; 3];
 
 /// The checks of a mechanism whose unknowns and parameters stand as `layout` says, by sums of the length that leaves the least code for what
-/// each candidate is measured by; others than the usual must save an eighth of it. `reach` is the size of its positions.
+/// each candidate is measured by. `reach` is the size of its positions.
 pub(super) fn checks(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Checks {
-    let [usual, others @ ..] = Assembler::sums();
-    let usual = written(mechanism, layout, reach, Assembler::with_sums_of(usual));
-    let allowed = usual.work() - usual.work() / 8;
-    let others = others.map(|longest| written(mechanism, layout, reach, Assembler::with_sums_of(longest)));
-    let best = others.into_iter().min_by_key(Checks::work).filter(|best| best.work() < allowed);
-    best.unwrap_or(usual)
+    let [usual, others @ ..] = Assembler::ways().map(|assembler| written(mechanism, layout, reach, assembler));
+    of_least_work(usual, others, Checks::work)
 }
 
 fn written(mechanism: &Mechanism, layout: &Layout, reach: f64, mut assembler: Assembler) -> Checks {

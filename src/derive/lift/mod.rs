@@ -18,6 +18,7 @@ mod shape;
 mod slack;
 mod squares;
 mod stages;
+mod symbols;
 mod target;
 mod template;
 

@@ -123,6 +123,22 @@ impl Draw {
     }
 }
 
+/// Whether every unknown joint moves what the task sees in a way of its own, at joint values like any others. Slides in one plane to a
+/// point in space do not, nor do four turns about parallel axes to a pose: such chains have families of answers everywhere.
+pub fn moves_freely(chain: &Chain) -> bool {
+    let given = chain.given();
+    let unknown: Vec<usize> = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
+    let q: Vec<f64> = (0..chain.joints().len()).map(|joint| 0.3 + 0.7 * joint as f64).collect();
+    let twists = chain.body_jacobian(&q).expect("a value for each joint").select_columns(&unknown);
+    let seen = match chain.task() {
+        Task::Position | Task::PlanarPosition { .. } => twists.rows(0, 3).into_owned(),
+        Task::Direction | Task::Rotation => twists.rows(3, 3).into_owned(),
+        Task::Pose | Task::PlanarPose { .. } | Task::Ray => twists.rows(0, 6).into_owned(),
+    };
+    let values = seen.singular_values();
+    seen.nrows() >= seen.ncols() && values.min() > 1e-9 * values.max()
+}
+
 /// The same chain asked for a ray along the axis of its last joint.
 pub fn along_the_last_axis(chain: &Chain) -> Chain {
     let axis = &chain.joints()[chain.joints().len() - 1].axis;

@@ -2,12 +2,20 @@
 
 use groebot::kinematics::{Chain, Plane, Task};
 
-use super::draw::{Draw, Placed, along_the_last_axis};
+use super::draw::{Draw, Placed, along_the_last_axis, moves_freely};
 
-/// Chains of one kind.
+/// Random chains of one kind.
 pub struct Family {
     pub name: &'static str,
-    pub make: fn(&mut Draw) -> Chain,
+    make: fn(&mut Draw) -> Chain,
+}
+
+impl Family {
+    /// Chain `number` of those that `seed` draws, the redundant ones left out.
+    pub fn chain(&self, number: usize, seed: u64) -> Chain {
+        let mut draw = Draw::new(1000 * number as u64 + seed);
+        std::iter::repeat_with(|| (self.make)(&mut draw)).find(moves_freely).expect("most chains move freely")
+    }
 }
 
 const PLANAR_POSE: Task = Task::PlanarPose { plane: Plane::Xy };

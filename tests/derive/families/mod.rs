@@ -15,7 +15,6 @@ use groebot::kinematics::Chain;
 use groebot::witness::chain::Check;
 use groebot::witness::{Options, Report};
 
-use draw::Draw;
 use list::{FAMILIES, Family};
 
 /// What became of the chains of one family.
@@ -37,7 +36,7 @@ impl Tally {
     fn of(family: &Family, chains: usize, options: &Options) -> Tally {
         let mut tally = Tally::default();
         for number in 0..chains {
-            let chain = (family.make)(&mut Draw::new(1000 * number as u64 + options.seed));
+            let chain = family.chain(number, options.seed);
             let start = Instant::now();
             let derived = Derived::of_chain(&chain, &Watch::none());
             tally.slowest = tally.slowest.max(start.elapsed());
@@ -116,7 +115,7 @@ fn a_chain_of_each_family() {
 fn a_straight_wrist_is_found_behind_an_arm_whose_quartic_costs_digits() {
     // Of this chain's arm the cosines and sines are off by up to 1e-9, and with them what the wrist's double root is zero by.
     let family = FAMILIES.iter().find(|family| family.name == "three joints, spherical wrist").expect("it is listed");
-    let chain = (family.make)(&mut Draw::new(40_012));
+    let chain = family.chain(40, 12);
     let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
     let mut tally = Tally::default();
     tally.check(40, &chain, &derived, &Options { targets: 200, oracle: 0, exact: 0, seed: 12 });
