@@ -84,14 +84,12 @@ typedef struct {
     bool free[BOOSTER_LEG_LIKE_JOINTS];
 } booster_leg_like_solution;
 
-
 /* Writes all solutions for the target (BOOSTER_LEG_LIKE_INPUTS numbers) to the front of out (BOOSTER_LEG_LIKE_CAPACITY places), by branch, and
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int booster_leg_like_solve(const double *target, booster_leg_like_solution *out);
 
 /* Writes the target (BOOSTER_LEG_LIKE_INPUTS numbers) that joint values q (BOOSTER_LEG_LIKE_JOINTS numbers) reach. */
 void booster_leg_like_forward(const double *q, double *target);
-
 
 static const int INPUTS = BOOSTER_LEG_LIKE_INPUTS;
 static const int JOINTS = BOOSTER_LEG_LIKE_JOINTS;
@@ -117,6 +115,9 @@ static const double APART = 0.7;
 static const double SPLIT = 0.001;
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 static const double LEVER = 0.1;
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+static const double FARTHER = 16.0;
+static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
@@ -146,18 +147,7 @@ typedef booster_leg_like_solution Solution;
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double pz;
-    double r11_;
-    double r12_;
-    double r13_;
-    double r21_;
-    double r22_;
-    double r23_;
-    double r31_;
-    double r32_;
-    double r33_;
+    double px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_;
 } Parameters;
 
 static Parameters parameters(const double *target)
@@ -212,18 +202,12 @@ static const int PLACES = 12;
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
-    at[4] = cos(q[2]);
-    at[5] = sin(q[2]);
-    at[6] = cos(q[3]);
-    at[7] = sin(q[3]);
-    at[8] = cos(q[4]);
-    at[9] = sin(q[4]);
-    at[10] = cos(q[5]);
-    at[11] = sin(q[5]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
+    at[4] = cos(q[2]); at[5] = sin(q[2]);
+    at[6] = cos(q[3]); at[7] = sin(q[3]);
+    at[8] = cos(q[4]); at[9] = sin(q[4]);
+    at[10] = cos(q[5]); at[11] = sin(q[5]);
 }
 
 static const int SIZES = 2;
@@ -241,24 +225,10 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->pz,
-            reached[3] - p->r11_,
-            reached[4] - p->r21_,
-            reached[5] - p->r31_,
-            reached[6] - p->r12_,
-            reached[7] - p->r22_,
-            reached[8] - p->r32_,
-            reached[9] - p->r13_,
-            reached[10] - p->r23_,
-            reached[11] - p->r33_,
-        },
-        {
-            0.5377293583447944,
-            1.0,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->pz, reached[3] - p->r11_,
+            reached[4] - p->r21_, reached[5] - p->r31_, reached[6] - p->r12_, reached[7] - p->r22_,
+            reached[8] - p->r32_, reached[9] - p->r13_, reached[10] - p->r23_, reached[11] - p->r33_ },
+        { 0.5377293583447944, 1.0 },
     };
     return result;
 }
@@ -420,7 +390,6 @@ static double angle(double cosine, double sine)
     return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -536,32 +505,20 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = wrap(q[2] - step[2]);
-    next[3] = wrap(q[3] - step[3]);
-    next[4] = wrap(q[4] - step[4]);
-    next[5] = wrap(q[5] - step[5]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]),
-fabs(step[3]),
-fabs(step[4]),
-fabs(step[5]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -694,29 +651,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = fmin(weight[2], 1.0);
-    weight[3] = fmin(weight[3], 1.0);
-    weight[4] = fmin(weight[4], 1.0);
-    weight[5] = fmin(weight[5], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -734,24 +677,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = shorter(a[2] - b[2]);
-    difference[3] = shorter(a[3] - b[3]);
-    difference[4] = shorter(a[4] - b[4]);
-    difference[5] = shorter(a[5] - b[5]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance;
-    limit[3] = tolerance;
-    limit[4] = tolerance;
-    limit[5] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1062,19 +999,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -3266,23 +3210,11 @@ static const SixChain CHAIN_1 = {
     SIX_FORMULATIONS_1,
 };
 
-
-/* Chart 1: six axes.
- */
+/* Chart 1: six axes. */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double target0[12] = {
-        p->px,
-        p->py,
-        p->pz,
-        p->r11_,
-        p->r12_,
-        p->r13_,
-        p->r21_,
-        p->r22_,
-        p->r23_,
-        p->r31_,
-        p->r32_,
+        p->px, p->py, p->pz, p->r11_, p->r12_, p->r13_, p->r21_, p->r22_, p->r23_, p->r31_, p->r32_,
         p->r33_,
     };
     SixAnswers found0;
@@ -3294,20 +3226,11 @@ static void chart_1_1(const Parameters *p, Answers *answers)
         const double c5 = cos(six0->q[4]), s5 = sin(six0->q[4]), c6 = cos(six0->q[5]), s6 = sin(six0->q[5]);
         const double at[PLACES] = {c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6};
         const double q[JOINTS] = {
-            angle(at[0], at[1]),
-            angle(at[2], at[3]),
-            angle(at[4], at[5]),
-            angle(at[6], at[7]),
-            angle(at[8], at[9]),
-            angle(at[10], at[11]),
+            angle(at[0], at[1]), angle(at[2], at[3]), angle(at[4], at[5]), angle(at[6], at[7]),
+            angle(at[8], at[9]), angle(at[10], at[11]),
         };
         const bool free_joints[JOINTS] = {
-            six0->free[0],
-            six0->free[1],
-            six0->free[2],
-            six0->free[3],
-            six0->free[4],
-            six0->free[5],
+            six0->free[0], six0->free[1], six0->free[2], six0->free[3], six0->free[4], six0->free[5],
         };
         finish(p, i0, 64, six0->lost, at, q, free_joints, answers);
     }
@@ -3403,24 +3326,15 @@ int booster_leg_like_solve(const double *target, booster_leg_like_solution *out)
     return (int)answers.count;
 }
 
-
 void booster_leg_like_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
-    target[3] = reached[3];
-    target[4] = reached[6];
-    target[5] = reached[9];
-    target[6] = reached[4];
-    target[7] = reached[7];
-    target[8] = reached[10];
-    target[9] = reached[5];
-    target[10] = reached[8];
-    target[11] = reached[11];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
+    target[3] = reached[3]; target[4] = reached[6]; target[5] = reached[9];
+    target[6] = reached[4]; target[7] = reached[7]; target[8] = reached[10];
+    target[9] = reached[5]; target[10] = reached[8]; target[11] = reached[11];
 }
 
 /* A length in metres times this is one in the unit of the equations. */

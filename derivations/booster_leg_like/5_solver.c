@@ -4,18 +4,8 @@
  * Hash of the input: 2397c7ce89efe46c
  *
  * Target, in order:
- *   px (m)
- *   py (m)
- *   pz (m)
- *   r11 (1)
- *   r12 (1)
- *   r13 (1)
- *   r21 (1)
- *   r22 (1)
- *   r23 (1)
- *   r31 (1)
- *   r32 (1)
- *   r33 (1)
+ *   `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
+ *   `r31` (1), `r32` (1), `r33` (1)
  * Joints, in order; angles lie in (-pi, pi]:
  *   Joint1 (rad)
  *   Joint2 (rad)
@@ -26,10 +16,8 @@
  *
  * A target has 32 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
- * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 32 Newton steps at most.
+ * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+ * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * BOOSTER_LEG_LIKE_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -134,7 +122,6 @@ int booster_leg_like_nearest(const booster_leg_like_solution *list, int count, c
 #include <float.h>
 #include <math.h>
 
-
 #define INPUTS BOOSTER_LEG_LIKE_INPUTS
 #define JOINTS BOOSTER_LEG_LIKE_JOINTS
 #define EQUATIONS 12
@@ -166,6 +153,9 @@ int booster_leg_like_nearest(const booster_leg_like_solution *list, int count, c
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+#define FARTHER 16.0
+#define FARTHEST 256.0
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
@@ -199,18 +189,7 @@ const double booster_leg_like_limits[2 * JOINTS] = {-INFINITY, INFINITY, -INFINI
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double pz;
-    double r11_;
-    double r12_;
-    double r13_;
-    double r21_;
-    double r22_;
-    double r23_;
-    double r31_;
-    double r32_;
-    double r33_;
+    double px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_;
 } Parameters;
 
 static Parameters parameters(const double *target)
@@ -265,18 +244,12 @@ static void tip(const double *at, double *reached)
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
-    at[4] = cos(q[2]);
-    at[5] = sin(q[2]);
-    at[6] = cos(q[3]);
-    at[7] = sin(q[3]);
-    at[8] = cos(q[4]);
-    at[9] = sin(q[4]);
-    at[10] = cos(q[5]);
-    at[11] = sin(q[5]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
+    at[4] = cos(q[2]); at[5] = sin(q[2]);
+    at[6] = cos(q[3]); at[7] = sin(q[3]);
+    at[8] = cos(q[4]); at[9] = sin(q[4]);
+    at[10] = cos(q[5]); at[11] = sin(q[5]);
 }
 
 #define SIZES 2
@@ -294,24 +267,10 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->pz,
-            reached[3] - p->r11_,
-            reached[4] - p->r21_,
-            reached[5] - p->r31_,
-            reached[6] - p->r12_,
-            reached[7] - p->r22_,
-            reached[8] - p->r32_,
-            reached[9] - p->r13_,
-            reached[10] - p->r23_,
-            reached[11] - p->r33_,
-        },
-        {
-            0.5377293583447944,
-            1.0,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->pz, reached[3] - p->r11_,
+            reached[4] - p->r21_, reached[5] - p->r31_, reached[6] - p->r12_, reached[7] - p->r22_,
+            reached[8] - p->r32_, reached[9] - p->r13_, reached[10] - p->r23_, reached[11] - p->r33_ },
+        { 0.5377293583447944, 1.0 },
     };
     return result;
 }
@@ -473,7 +432,6 @@ static double angle(double cosine, double sine)
     return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -589,32 +547,20 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = wrap(q[2] - step[2]);
-    next[3] = wrap(q[3] - step[3]);
-    next[4] = wrap(q[4] - step[4]);
-    next[5] = wrap(q[5] - step[5]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]),
-fabs(step[3]),
-fabs(step[4]),
-fabs(step[5]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -747,29 +693,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = fmin(weight[2], 1.0);
-    weight[3] = fmin(weight[3], 1.0);
-    weight[4] = fmin(weight[4], 1.0);
-    weight[5] = fmin(weight[5], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -787,24 +719,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = shorter(a[2] - b[2]);
-    difference[3] = shorter(a[3] - b[3]);
-    difference[4] = shorter(a[4] - b[4]);
-    difference[5] = shorter(a[5] - b[5]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance;
-    limit[3] = tolerance;
-    limit[4] = tolerance;
-    limit[5] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1115,19 +1041,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -3319,23 +3252,11 @@ static const SixChain CHAIN_1 = {
     SIX_FORMULATIONS_1,
 };
 
-
-/* Chart 1: six axes.
- */
+/* Chart 1: six axes. */
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double target0[12] = {
-        p->px,
-        p->py,
-        p->pz,
-        p->r11_,
-        p->r12_,
-        p->r13_,
-        p->r21_,
-        p->r22_,
-        p->r23_,
-        p->r31_,
-        p->r32_,
+        p->px, p->py, p->pz, p->r11_, p->r12_, p->r13_, p->r21_, p->r22_, p->r23_, p->r31_, p->r32_,
         p->r33_,
     };
     SixAnswers found0;
@@ -3347,20 +3268,11 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
         const double c5 = cos(six0->q[4]), s5 = sin(six0->q[4]), c6 = cos(six0->q[5]), s6 = sin(six0->q[5]);
         const double at[PLACES] = {c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6};
         const double q[JOINTS] = {
-            angle(at[0], at[1]),
-            angle(at[2], at[3]),
-            angle(at[4], at[5]),
-            angle(at[6], at[7]),
-            angle(at[8], at[9]),
-            angle(at[10], at[11]),
+            angle(at[0], at[1]), angle(at[2], at[3]), angle(at[4], at[5]), angle(at[6], at[7]),
+            angle(at[8], at[9]), angle(at[10], at[11]),
         };
         const bool free_joints[JOINTS] = {
-            six0->free[0],
-            six0->free[1],
-            six0->free[2],
-            six0->free[3],
-            six0->free[4],
-            six0->free[5],
+            six0->free[0], six0->free[1], six0->free[2], six0->free[3], six0->free[4], six0->free[5],
         };
         finish(p, i0, 64, six0->lost, at, q, free_joints, answers);
     }
@@ -3460,50 +3372,29 @@ int booster_leg_like_solve_pairs(const double *target, booster_leg_like_pairs *o
 {
     Solution list[BOOSTER_LEG_LIKE_CAPACITY];
     const int count = booster_leg_like_solve(target, list);
-    for (int i = 0; i < count; i++) {
-        const Solution *answer = &list[i];
-        out[i].residual = answer->residual;
-        out[i].branch = answer->branch;
-        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
-        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
-        out[i].free[0] = answer->free[0];
-        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
-        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
-        out[i].free[1] = answer->free[1];
-        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
-        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
-        out[i].free[2] = answer->free[2];
-        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
-        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
-        out[i].free[3] = answer->free[3];
-        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
-        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
-        out[i].free[4] = answer->free[4];
-        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
-        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
-        out[i].free[5] = answer->free[5];
+    for (int k = 0; k < count; k++) {
+        const Solution *answer = &list[k];
+        out[k].residual = answer->residual;
+        out[k].branch = answer->branch;
+        for (size_t i = 0; i < JOINTS; i++) {
+            const double value = answer->q[i];
+            out[k].joints[i][0] = cos(value) + 0.0;
+            out[k].joints[i][1] = sin(value) + 0.0;
+            out[k].free[i] = answer->free[i];
+        }
     }
     return count;
 }
-
 
 void booster_leg_like_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
-    target[3] = reached[3];
-    target[4] = reached[6];
-    target[5] = reached[9];
-    target[6] = reached[4];
-    target[7] = reached[7];
-    target[8] = reached[10];
-    target[9] = reached[5];
-    target[10] = reached[8];
-    target[11] = reached[11];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
+    target[3] = reached[3]; target[4] = reached[6]; target[5] = reached[9];
+    target[6] = reached[4]; target[7] = reached[7]; target[8] = reached[10];
+    target[9] = reached[5]; target[10] = reached[8]; target[11] = reached[11];
 }
 
 double booster_leg_like_residual(const double *given, const double *q)

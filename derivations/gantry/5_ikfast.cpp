@@ -84,14 +84,12 @@ typedef struct {
     bool free[GANTRY_JOINTS];
 } gantry_solution;
 
-
 /* Writes all solutions for the target (GANTRY_INPUTS numbers) to the front of out (GANTRY_CAPACITY places), by branch, and
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int gantry_solve(const double *target, gantry_solution *out);
 
 /* Writes the target (GANTRY_INPUTS numbers) that joint values q (GANTRY_JOINTS numbers) reach. */
 void gantry_forward(const double *q, double *target);
-
 
 static const int INPUTS = GANTRY_INPUTS;
 static const int JOINTS = GANTRY_JOINTS;
@@ -117,6 +115,9 @@ static const double APART = 0.7;
 static const double SPLIT = 0.001;
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 static const double LEVER = 0.1;
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+static const double FARTHER = 16.0;
+static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
@@ -193,18 +194,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double pz;
-    double r11_;
-    double r12_;
-    double r13_;
-    double r21_;
-    double r22_;
-    double r23_;
-    double r31_;
-    double r32_;
-    double r33_;
+    double px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_;
 } Parameters;
 
 static Parameters parameters(const double *target)
@@ -244,14 +234,10 @@ static const int PLACES = 9;
 /* The numbers that the equations read: q[0], q[1], q[2], cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
 static void place(const double *q, double *at)
 {
-    at[0] = q[0];
-    at[1] = q[1];
-    at[2] = q[2];
-    at[3] = cos(q[3]);
-    at[4] = sin(q[3]);
-    at[5] = cos(q[4]);
-    at[6] = sin(q[4]);
-    at[7] = cos(q[5]);
+    at[0] = q[0]; at[1] = q[1];
+    at[2] = q[2]; at[3] = cos(q[3]);
+    at[4] = sin(q[3]); at[5] = cos(q[4]);
+    at[6] = sin(q[4]); at[7] = cos(q[5]);
     at[8] = sin(q[5]);
 }
 
@@ -271,24 +257,10 @@ static Equations equations(const Parameters *p, const double *at)
     tip(at, reached);
     const double d1 = at[0], d2 = at[1], d3 = at[2], r19 = fabs(d1) + fabs(d2) + fabs(d3) + 1.02;
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->pz,
-            reached[3] - p->r11_,
-            reached[4] - p->r21_,
-            reached[5] - p->r31_,
-            reached[6] - p->r12_,
-            reached[7] - p->r22_,
-            reached[8] - p->r32_,
-            reached[9] - p->r13_,
-            reached[10] - p->r23_,
-            reached[11] - p->r33_,
-        },
-        {
-            r19,
-            1.0,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->pz, reached[3] - p->r11_,
+            reached[4] - p->r21_, reached[5] - p->r31_, reached[6] - p->r12_, reached[7] - p->r22_,
+            reached[8] - p->r32_, reached[9] - p->r13_, reached[10] - p->r23_, reached[11] - p->r33_ },
+        { r19, 1.0 },
     };
     return result;
 }
@@ -412,7 +384,6 @@ static double unfold(double size, double cosine, double sine)
     return half_open(copysign(value, sine)) + 0.0;
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -530,32 +501,23 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
+/* By joint: whether it turns. */
+static const bool IS_ANGLE[JOINTS] = { false, false, false, true, true, true };
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = q[0] - step[0];
-    next[1] = q[1] - step[1];
-    next[2] = q[2] - step[2];
-    next[3] = wrap(q[3] - step[3]);
-    next[4] = wrap(q[4] - step[4]);
-    next[5] = wrap(q[5] - step[5]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = IS_ANGLE[i] ? wrap(q[i] - step[i]) : q[i] - step[i];
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]) / 1.02,
-fabs(step[1]) / 1.02,
-fabs(step[2]) / 1.02,
-fabs(step[3]),
-fabs(step[4]),
-fabs(step[5]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 1.02);
     }
     return longest;
 }
@@ -688,29 +650,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
+        weight[i] = IS_ANGLE[i] ? fmin(weight[i], 1.0) : 1.0;
     }
-    weight[0] = 1.0;
-    weight[1] = 1.0;
-    weight[2] = 1.0;
-    weight[3] = fmin(weight[3], 1.0);
-    weight[4] = fmin(weight[4], 1.0);
-    weight[5] = fmin(weight[5], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        q[0] + way * fmax(1.02, fabs(q[0])),
-        q[1] + way * fmax(1.02, fabs(q[1])),
-        q[2] + way * fmax(1.02, fabs(q[2])),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * fmax(1.02, fabs(q[i]));
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -730,23 +678,17 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = a[0] - b[0];
-    difference[1] = a[1] - b[1];
-    difference[2] = a[2] - b[2];
-    difference[3] = shorter(a[3] - b[3]);
-    difference[4] = shorter(a[4] - b[4]);
-    difference[5] = shorter(a[5] - b[5]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = IS_ANGLE[i] ? shorter(a[i] - b[i]) : a[i] - b[i];
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
-    limit[0] = tolerance * fmax(1.02, fabs(q[0]));
-    limit[1] = tolerance * fmax(1.02, fabs(q[1]));
-    limit[2] = tolerance * fmax(1.02, fabs(q[2]));
-    limit[3] = tolerance;
-    limit[4] = tolerance;
-    limit[5] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * fmax(1.02, fabs(q[i]));
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1057,19 +999,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1272,66 +1221,40 @@ typedef struct {
     /* Whether a candidate stands for two, of which the second differs in signs. */
     bool pair;
     bool free[JOINTS];
-    double d1;
-    double d2;
-    double d3;
-    double c4;
-    double s4;
-    double c5;
-    double s5;
+    double d1, d2, d3, c4, s4, c5, s5;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r0;
-    double r1;
-    double r2;
-    double r3;
+    double r0, r1, r2, r3;
 } Shared6;
 
-/* Chart 1 of block 6: generic.
- */
+/* Chart 1 of block 6: generic. */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r4 = shared->r3 - shared->r2, r5 = shared->r1 - shared->r0;
     const double r10 = 1.0 / sqrt(fmax(r5 * r5 + r4 * r4, 0.0)), c6 = r5 * r10, s6 = r4 * r10;
     const double at[PLACES] = {
-        known->d1,
-        known->d2,
-        known->d3,
-        known->c4,
-        known->s4,
-        known->c5,
-        known->s5,
-        c6,
-        s6,
+        known->d1, known->d2, known->d3, known->c4, known->s4, known->c5, known->s5, c6, s6,
     };
     finish(p, known->branch, known->last, known->close, at, known->free, answers);
     if (known->pair) {
         const double at[PLACES] = {
-            known->d1,
-            known->d2,
-            known->d3,
-            -known->c4,
-            -known->s4,
-            known->c5,
-            -known->s5,
-            -c6,
-            -s6,
+            known->d1, known->d2, known->d3, -known->c4, -known->s4, known->c5, -known->s5, -c6, -s6,
         };
         finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
     }
@@ -1352,16 +1275,12 @@ typedef struct {
     double r2;
 } Shared5;
 
-/* Chart 1 of block 5: generic.
- */
+/* Chart 1 of block 5: generic. */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r6 = sqrt(fmax(p->r33_ * p->r33_ + shared->r2 * shared->r2, 0.0)), r7 = 1.0 / r6;
     const double c5 = 0.0 - p->r33_ * r7, s5 = 0.0 - shared->r2 * r7;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
     block_6(p, &next, answers);
@@ -1383,8 +1302,7 @@ static void again_5(const Parameters *p, const Known *known, Answers *answers)
 }
 
 /* Chart 1 of block 4: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = p->r23_ * p->r23_, r1 = p->r13_ * p->r13_, r2 = r0 + r1;
@@ -1408,19 +1326,17 @@ static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
 
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
- * Free: WristYaw.
- */
+ * Free: WristYaw. */
 static void chart_4_2(const Parameters *p, const Known *known, Answers *answers)
 {
     if (!is_near(p->r23_ * p->r23_ + p->r13_ * p->r13_, 2.0000000000000002e-7)) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
@@ -1440,15 +1356,11 @@ typedef struct {
     double r2;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
- */
+/* Chart 1 of block 3: generic. */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double d3 = shared->r2;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.d3 = d3;
     block_4(p, &next, answers);
 }
@@ -1467,15 +1379,11 @@ typedef struct {
     double r1;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
- */
+/* Chart 1 of block 2: generic. */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double d2 = shared->r1;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.d2 = d2;
     block_3(p, &next, answers);
 }
@@ -1494,15 +1402,12 @@ typedef struct {
     double r1;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
- */
+/* Chart 1 of block 1: generic. */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double d1 = shared->r1;
     Known next = NOTHING_KNOWN;
-    next.branch = 0;
     next.last = 1;
-    next.close = false;
     next.d1 = d1;
     block_2(p, &next, answers);
 }
@@ -1604,24 +1509,15 @@ int gantry_solve(const double *target, gantry_solution *out)
     return (int)answers.count;
 }
 
-
 void gantry_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
-    target[3] = reached[3];
-    target[4] = reached[6];
-    target[5] = reached[9];
-    target[6] = reached[4];
-    target[7] = reached[7];
-    target[8] = reached[10];
-    target[9] = reached[5];
-    target[10] = reached[8];
-    target[11] = reached[11];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
+    target[3] = reached[3]; target[4] = reached[6]; target[5] = reached[9];
+    target[6] = reached[4]; target[7] = reached[7]; target[8] = reached[10];
+    target[9] = reached[5]; target[10] = reached[8]; target[11] = reached[11];
 }
 
 /* A length in metres times this is one in the unit of the equations. */

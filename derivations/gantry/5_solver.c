@@ -4,18 +4,8 @@
  * Hash of the input: b8e69acb87de065c
  *
  * Target, in order:
- *   px (m)
- *   py (m)
- *   pz (m)
- *   r11 (1)
- *   r12 (1)
- *   r13 (1)
- *   r21 (1)
- *   r22 (1)
- *   r23 (1)
- *   r31 (1)
- *   r32 (1)
- *   r33 (1)
+ *   `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
+ *   `r31` (1), `r32` (1), `r33` (1)
  * Joints, in order; angles lie in (-pi, pi]:
  *   RailX (m)
  *   RailY (m)
@@ -26,10 +16,8 @@
  *
  * A target has 10 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
- * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 32 Newton steps at most.
+ * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+ * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * GANTRY_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -135,7 +123,6 @@ int gantry_nearest(const gantry_solution *list, int count, const double *referen
 #include <float.h>
 #include <math.h>
 
-
 #define INPUTS GANTRY_INPUTS
 #define JOINTS GANTRY_JOINTS
 #define EQUATIONS 12
@@ -167,6 +154,9 @@ int gantry_nearest(const gantry_solution *list, int count, const double *referen
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+#define FARTHER 16.0
+#define FARTHEST 256.0
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
@@ -247,18 +237,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double pz;
-    double r11_;
-    double r12_;
-    double r13_;
-    double r21_;
-    double r22_;
-    double r23_;
-    double r31_;
-    double r32_;
-    double r33_;
+    double px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_;
 } Parameters;
 
 static Parameters parameters(const double *target)
@@ -298,14 +277,10 @@ static void tip(const double *at, double *reached)
 /* The numbers that the equations read: q[0], q[1], q[2], cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]). */
 static void place(const double *q, double *at)
 {
-    at[0] = q[0];
-    at[1] = q[1];
-    at[2] = q[2];
-    at[3] = cos(q[3]);
-    at[4] = sin(q[3]);
-    at[5] = cos(q[4]);
-    at[6] = sin(q[4]);
-    at[7] = cos(q[5]);
+    at[0] = q[0]; at[1] = q[1];
+    at[2] = q[2]; at[3] = cos(q[3]);
+    at[4] = sin(q[3]); at[5] = cos(q[4]);
+    at[6] = sin(q[4]); at[7] = cos(q[5]);
     at[8] = sin(q[5]);
 }
 
@@ -325,24 +300,10 @@ static Equations equations(const Parameters *p, const double *at)
     tip(at, reached);
     const double d1 = at[0], d2 = at[1], d3 = at[2], r19 = fabs(d1) + fabs(d2) + fabs(d3) + 1.02;
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->pz,
-            reached[3] - p->r11_,
-            reached[4] - p->r21_,
-            reached[5] - p->r31_,
-            reached[6] - p->r12_,
-            reached[7] - p->r22_,
-            reached[8] - p->r32_,
-            reached[9] - p->r13_,
-            reached[10] - p->r23_,
-            reached[11] - p->r33_,
-        },
-        {
-            r19,
-            1.0,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->pz, reached[3] - p->r11_,
+            reached[4] - p->r21_, reached[5] - p->r31_, reached[6] - p->r12_, reached[7] - p->r22_,
+            reached[8] - p->r32_, reached[9] - p->r13_, reached[10] - p->r23_, reached[11] - p->r33_ },
+        { r19, 1.0 },
     };
     return result;
 }
@@ -466,7 +427,6 @@ static double unfold(double size, double cosine, double sine)
     return half_open(copysign(value, sine)) + 0.0;
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -584,32 +544,23 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
+/* By joint: whether it turns. */
+static const bool IS_ANGLE[JOINTS] = { false, false, false, true, true, true };
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = q[0] - step[0];
-    next[1] = q[1] - step[1];
-    next[2] = q[2] - step[2];
-    next[3] = wrap(q[3] - step[3]);
-    next[4] = wrap(q[4] - step[4]);
-    next[5] = wrap(q[5] - step[5]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = IS_ANGLE[i] ? wrap(q[i] - step[i]) : q[i] - step[i];
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]) / 1.02,
-fabs(step[1]) / 1.02,
-fabs(step[2]) / 1.02,
-fabs(step[3]),
-fabs(step[4]),
-fabs(step[5]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 1.02);
     }
     return longest;
 }
@@ -742,29 +693,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
+        weight[i] = IS_ANGLE[i] ? fmin(weight[i], 1.0) : 1.0;
     }
-    weight[0] = 1.0;
-    weight[1] = 1.0;
-    weight[2] = 1.0;
-    weight[3] = fmin(weight[3], 1.0);
-    weight[4] = fmin(weight[4], 1.0);
-    weight[5] = fmin(weight[5], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        q[0] + way * fmax(1.02, fabs(q[0])),
-        q[1] + way * fmax(1.02, fabs(q[1])),
-        q[2] + way * fmax(1.02, fabs(q[2])),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * fmax(1.02, fabs(q[i]));
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -787,23 +724,17 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = a[0] - b[0];
-    difference[1] = a[1] - b[1];
-    difference[2] = a[2] - b[2];
-    difference[3] = shorter(a[3] - b[3]);
-    difference[4] = shorter(a[4] - b[4]);
-    difference[5] = shorter(a[5] - b[5]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = IS_ANGLE[i] ? shorter(a[i] - b[i]) : a[i] - b[i];
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
-    limit[0] = tolerance * fmax(1.02, fabs(q[0]));
-    limit[1] = tolerance * fmax(1.02, fabs(q[1]));
-    limit[2] = tolerance * fmax(1.02, fabs(q[2]));
-    limit[3] = tolerance;
-    limit[4] = tolerance;
-    limit[5] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * fmax(1.02, fabs(q[i]));
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1114,19 +1045,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1247,24 +1185,18 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
     pairs->joints[0][0] = at[0];
     pairs->joints[0][1] = 0.0;
     q[0] = at[0];
-    pairs->free[0] = false;
     pairs->joints[1][0] = at[1];
     pairs->joints[1][1] = 0.0;
     q[1] = at[1];
-    pairs->free[1] = false;
     pairs->joints[2][0] = at[2];
     pairs->joints[2][1] = 0.0;
     q[2] = at[2];
-    pairs->free[2] = false;
-    pairs->joints[3][0] = at[3] + 0.0;
-    pairs->joints[3][1] = at[4] + 0.0;
-    pairs->free[3] = false;
-    pairs->joints[4][0] = at[5] + 0.0;
-    pairs->joints[4][1] = at[6] + 0.0;
-    pairs->free[4] = false;
-    pairs->joints[5][0] = at[7] + 0.0;
-    pairs->joints[5][1] = at[8] + 0.0;
-    pairs->free[5] = false;
+    pairs->joints[3][0] = at[3] + 0.0; pairs->joints[3][1] = at[4] + 0.0;
+    pairs->joints[4][0] = at[5] + 0.0; pairs->joints[4][1] = at[6] + 0.0;
+    pairs->joints[5][0] = at[7] + 0.0; pairs->joints[5][1] = at[8] + 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        pairs->free[i] = false;
+    }
     const Fit fit = measure_at(p, at, q);
     pairs->residual = fit.residual;
     pairs->branch = branch;
@@ -1391,66 +1323,40 @@ typedef struct {
     /* Whether a candidate stands for two, of which the second differs in signs. */
     bool pair;
     bool free[JOINTS];
-    double d1;
-    double d2;
-    double d3;
-    double c4;
-    double s4;
-    double c5;
-    double s5;
+    double d1, d2, d3, c4, s4, c5, s5;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r0;
-    double r1;
-    double r2;
-    double r3;
+    double r0, r1, r2, r3;
 } Shared6;
 
-/* Chart 1 of block 6: generic.
- */
+/* Chart 1 of block 6: generic. */
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r4 = shared->r3 - shared->r2, r5 = shared->r1 - shared->r0;
     const double r10 = 1.0 / sqrt(fmax(r5 * r5 + r4 * r4, 0.0)), c6 = r5 * r10, s6 = r4 * r10;
     const double at[PLACES] = {
-        known->d1,
-        known->d2,
-        known->d3,
-        known->c4,
-        known->s4,
-        known->c5,
-        known->s5,
-        c6,
-        s6,
+        known->d1, known->d2, known->d3, known->c4, known->s4, known->c5, known->s5, c6, s6,
     };
     finish(p, known->branch, known->last, known->close, at, known->free, answers);
     if (known->pair) {
         const double at[PLACES] = {
-            known->d1,
-            known->d2,
-            known->d3,
-            -known->c4,
-            -known->s4,
-            known->c5,
-            -known->s5,
-            -c6,
-            -s6,
+            known->d1, known->d2, known->d3, -known->c4, -known->s4, known->c5, -known->s5, -c6, -s6,
         };
         finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
     }
@@ -1471,16 +1377,12 @@ typedef struct {
     double r2;
 } Shared5;
 
-/* Chart 1 of block 5: generic.
- */
+/* Chart 1 of block 5: generic. */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r6 = sqrt(fmax(p->r33_ * p->r33_ + shared->r2 * shared->r2, 0.0)), r7 = 1.0 / r6;
     const double c5 = 0.0 - p->r33_ * r7, s5 = 0.0 - shared->r2 * r7;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.c5 = c5;
     next.s5 = s5;
     block_6(p, &next, answers);
@@ -1502,8 +1404,7 @@ COLD static void again_5(const Parameters *p, const Known *known, Answers *answe
 }
 
 /* Chart 1 of block 4: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = p->r23_ * p->r23_, r1 = p->r13_ * p->r13_, r2 = r0 + r1;
@@ -1527,19 +1428,17 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, Answers *a
 
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
- * Free: WristYaw.
- */
+ * Free: WristYaw. */
 static void chart_4_2(const Parameters *p, const Known *known, Answers *answers)
 {
     if (!is_near(p->r23_ * p->r23_ + p->r13_ * p->r13_, 2.0000000000000002e-7)) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
@@ -1559,15 +1458,11 @@ typedef struct {
     double r2;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
- */
+/* Chart 1 of block 3: generic. */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double d3 = shared->r2;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.d3 = d3;
     block_4(p, &next, answers);
 }
@@ -1586,15 +1481,11 @@ typedef struct {
     double r1;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
- */
+/* Chart 1 of block 2: generic. */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double d2 = shared->r1;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.d2 = d2;
     block_3(p, &next, answers);
 }
@@ -1613,15 +1504,12 @@ typedef struct {
     double r1;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
- */
+/* Chart 1 of block 1: generic. */
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double d1 = shared->r1;
     Known next = NOTHING_KNOWN;
-    next.branch = 0;
     next.last = 1;
-    next.close = false;
     next.d1 = d1;
     block_2(p, &next, answers);
 }
@@ -1747,50 +1635,29 @@ int gantry_solve_pairs(const double *target, gantry_pairs *out)
     }
     Solution list[GANTRY_CAPACITY];
     const int count = gantry_solve(target, list);
-    for (int i = 0; i < count; i++) {
-        const Solution *answer = &list[i];
-        out[i].residual = answer->residual;
-        out[i].branch = answer->branch;
-        out[i].joints[0][0] = answer->q[0];
-        out[i].joints[0][1] = 0.0;
-        out[i].free[0] = answer->free[0];
-        out[i].joints[1][0] = answer->q[1];
-        out[i].joints[1][1] = 0.0;
-        out[i].free[1] = answer->free[1];
-        out[i].joints[2][0] = answer->q[2];
-        out[i].joints[2][1] = 0.0;
-        out[i].free[2] = answer->free[2];
-        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
-        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
-        out[i].free[3] = answer->free[3];
-        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
-        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
-        out[i].free[4] = answer->free[4];
-        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
-        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
-        out[i].free[5] = answer->free[5];
+    for (int k = 0; k < count; k++) {
+        const Solution *answer = &list[k];
+        out[k].residual = answer->residual;
+        out[k].branch = answer->branch;
+        for (size_t i = 0; i < JOINTS; i++) {
+            const double value = answer->q[i];
+            out[k].joints[i][0] = IS_ANGLE[i] ? cos(value) + 0.0 : value;
+            out[k].joints[i][1] = IS_ANGLE[i] ? sin(value) + 0.0 : 0.0;
+            out[k].free[i] = answer->free[i];
+        }
     }
     return count;
 }
-
 
 void gantry_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
-    target[3] = reached[3];
-    target[4] = reached[6];
-    target[5] = reached[9];
-    target[6] = reached[4];
-    target[7] = reached[7];
-    target[8] = reached[10];
-    target[9] = reached[5];
-    target[10] = reached[8];
-    target[11] = reached[11];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
+    target[3] = reached[3]; target[4] = reached[6]; target[5] = reached[9];
+    target[6] = reached[4]; target[7] = reached[7]; target[8] = reached[10];
+    target[9] = reached[5]; target[10] = reached[8]; target[11] = reached[11];
 }
 
 double gantry_residual(const double *given, const double *q)

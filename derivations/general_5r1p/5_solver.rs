@@ -4,18 +4,8 @@
 //! - Hash of the input: b20228a8630e3974
 //!
 //! Target, in order:
-//! - `px` (m)
-//! - `py` (m)
-//! - `pz` (m)
-//! - `r11` (1)
-//! - `r12` (1)
-//! - `r13` (1)
-//! - `r21` (1)
-//! - `r22` (1)
-//! - `r23` (1)
-//! - `r31` (1)
-//! - `r32` (1)
-//! - `r33` (1)
+//! `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
+//! `r31` (1), `r32` (1), `r33` (1).
 //!
 //! Joints, in order; angles lie in (-pi, pi]:
 //! - `Joint1` (rad)
@@ -27,10 +17,8 @@
 //!
 //! A target has 32 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
 //!
-//! Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
-//! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
-//! scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
-//! answer is polished by 32 Newton steps at most.
+//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
 //! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
@@ -132,14 +120,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
     let mut list = [Solution::EMPTY; CAPACITY];
     let count = solve(target, &mut list)?;
     for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = [
-            [q[0].cos() + 0.0, q[0].sin() + 0.0],
-            [q[1].cos() + 0.0, q[1].sin() + 0.0],
-            [q[2], 0.0],
-            [q[3].cos() + 0.0, q[3].sin() + 0.0],
-            [q[4].cos() + 0.0, q[4].sin() + 0.0],
-            [q[5].cos() + 0.0, q[5].sin() + 0.0],
-        ];
+        let joints = core::array::from_fn(|i| if IS_ANGLE[i] { [q[i].cos() + 0.0, q[i].sin() + 0.0] } else { [q[i], 0.0] });
         *pairs = Pairs { joints, residual, branch, free };
     }
     Ok(count)
@@ -281,7 +262,6 @@ fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]
     None
 }
 
-
 /// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
 /// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
 /// its weight, which is not negative.
@@ -358,6 +338,9 @@ const APART: f64 = 0.7;
 const SPLIT: f64 = 0.001;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 const LEVER: f64 = 0.1;
+/// Points around a candidate are so much farther where no nearer one leads to an answer.
+const FARTHER: f64 = 16.0;
+const FARTHEST: f64 = 256.0;
 /// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
 /// is added to it in these.
 const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
@@ -422,18 +405,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Parameters of the equations.
 struct Parameters {
-    px: f64,
-    py: f64,
-    pz: f64,
-    r11_: f64,
-    r12_: f64,
-    r13_: f64,
-    r21_: f64,
-    r22_: f64,
-    r23_: f64,
-    r31_: f64,
-    r32_: f64,
-    r33_: f64,
+    px: f64, py: f64, pz: f64, r11_: f64, r12_: f64, r13_: f64, r21_: f64, r22_: f64, r23_: f64,
+    r31_: f64, r32_: f64, r33_: f64,
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
@@ -2065,7 +2038,6 @@ static CHAIN_1: six_axes::Chain = six_axes::Chain {
     ],
 };
 
-
 /// Block 1: all joints.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     chart_1_1(p, answers);
@@ -2075,18 +2047,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 #[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let found0 = CHAIN_1.solve(&[
-        p.px,
-        p.py,
-        p.pz,
-        p.r11_,
-        p.r12_,
-        p.r13_,
-        p.r21_,
-        p.r22_,
-        p.r23_,
-        p.r31_,
-        p.r32_,
-        p.r33_,
+        p.px, p.py, p.pz, p.r11_, p.r12_, p.r13_, p.r21_, p.r22_, p.r23_, p.r31_, p.r32_, p.r33_,
     ]);
     for (i0, six0) in found0.as_slice().iter().enumerate() {
         let c1 = six0.q[0].cos();
@@ -2102,11 +2063,7 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
         let s6 = six0.q[5].sin();
         let at = [c1, s1, c2, s2, d3, c4, s4, c5, s5, c6, s6];
         let q = [
-            angle(at[0], at[1]),
-            angle(at[2], at[3]),
-            at[4],
-            angle(at[5], at[6]),
-            angle(at[7], at[8]),
+            angle(at[0], at[1]), angle(at[2], at[3]), at[4], angle(at[5], at[6]), angle(at[7], at[8]),
             angle(at[9], at[10]),
         ];
         answers.finish(p, i0, 64, six0.lost, &at, q, [six0.free[0], six0.free[1], six0.free[2], six0.free[3], six0.free[4], six0.free[5]]);
@@ -2118,17 +2075,7 @@ const TIP: usize = 12;
 
 /// The tip, as the equations compare it.
 fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
-    let c1 = at[0];
-    let s1 = at[1];
-    let c2 = at[2];
-    let s2 = at[3];
-    let d3 = at[4];
-    let c4 = at[5];
-    let s4 = at[6];
-    let c5 = at[7];
-    let s5 = at[8];
-    let c6 = at[9];
-    let s6 = at[10];
+    let [c1, s1, c2, s2, d3, c4, s4, c5, s5, c6, s6] = *at;
     let r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
     let r3 = 0.20967741935483872 * c2 + 0.7903225806451613;
     let r5 = 0.9704949588309457 * s1;
@@ -2286,17 +2233,8 @@ const PLACES: usize = 11;
 /// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2], q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin().
 fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
     [
-        q[0].cos(),
-        q[0].sin(),
-        q[1].cos(),
-        q[1].sin(),
-        q[2],
-        q[3].cos(),
-        q[3].sin(),
-        q[4].cos(),
-        q[4].sin(),
-        q[5].cos(),
-        q[5].sin(),
+        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2], q[3].cos(), q[3].sin(), q[4].cos(),
+        q[4].sin(), q[5].cos(), q[5].sin(),
     ]
 }
 
@@ -2312,43 +2250,21 @@ const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1];
 
 fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
     let reached = tip(at);
-    let d3 = at[4];
+    let [_, _, _, _, d3, _, _, _, _, _, _] = *at;
     let r477 = f64::abs(d3) + 2.112994893313344;
     Equations {
         value: [
-            reached[0] - p.px,
-            reached[1] - p.py,
-            reached[2] - p.pz,
-            reached[3] - p.r11_,
-            reached[4] - p.r21_,
-            reached[5] - p.r31_,
-            reached[6] - p.r12_,
-            reached[7] - p.r22_,
-            reached[8] - p.r32_,
-            reached[9] - p.r13_,
-            reached[10] - p.r23_,
-            reached[11] - p.r33_,
+            reached[0] - p.px, reached[1] - p.py, reached[2] - p.pz, reached[3] - p.r11_,
+            reached[4] - p.r21_, reached[5] - p.r31_, reached[6] - p.r12_, reached[7] - p.r22_,
+            reached[8] - p.r32_, reached[9] - p.r13_, reached[10] - p.r23_, reached[11] - p.r33_,
         ],
-        size: [
-            r477,
-            1.0,
-        ],
+        size: [r477, 1.0],
     }
 }
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
-    let c1 = at[0];
-    let s1 = at[1];
-    let c2 = at[2];
-    let s2 = at[3];
-    let d3 = at[4];
-    let c4 = at[5];
-    let s4 = at[6];
-    let c5 = at[7];
-    let s5 = at[8];
-    let c6 = at[9];
-    let s6 = at[10];
+    let [c1, s1, c2, s2, d3, c4, s4, c5, s5, c6, s6] = *at;
     let r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
     let r3 = 0.20967741935483872 * c2 + 0.7903225806451613;
     let r5 = 0.9704949588309457 * s1;
@@ -2646,18 +2562,27 @@ impl Answers<'_> {
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters.
+    /// matters. Where none leads to an answer, from farther ones.
     fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
         let weights = weights(p, &end.0);
-        for i in 0..JOINTS {
-            for sign in [-1.0, 1.0] {
-                let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                let way = f64::min((missed / weight).sqrt(), APART);
-                let start = moved(&end.0, i, 2.0 * sign * way);
-                let start = (start, measure(p, &start));
-                let start = polish(p, start, &NONE_FREE);
-                self.keep(p, branch, last, start, free);
+        let mut is_found = end.1.accepted;
+        let mut farther = 1.0;
+        while farther <= FARTHEST {
+            for i in 0..JOINTS {
+                for sign in [-1.0, 1.0] {
+                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
+                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
+                    let start = moved(&end.0, i, 2.0 * sign * way);
+                    let start = (start, measure(p, &start));
+                    let start = polish(p, start, &NONE_FREE);
+                    is_found |= start.1.accepted;
+                    self.keep(p, branch, last, start, free);
+                }
             }
+            if is_found {
+                return;
+            }
+            farther *= FARTHER;
         }
     }
 
@@ -2909,16 +2834,12 @@ fn follow(p: &Parameters, q: [f64; JOINTS], free: &[bool; JOINTS]) -> ([f64; JOI
     polish(p, (q, measure(p, &q)), free)
 }
 
+/// By joint: whether it turns.
+const IS_ANGLE: [bool; JOINTS] = [true, true, false, true, true, true];
+
 /// `a - b` joint by joint, angles by the shorter way round.
 fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        shorter(a[0] - b[0]),
-        shorter(a[1] - b[1]),
-        a[2] - b[2],
-        shorter(a[3] - b[3]),
-        shorter(a[4] - b[4]),
-        shorter(a[5] - b[5]),
-    ]
+    core::array::from_fn(|i| if IS_ANGLE[i] { shorter(a[i] - b[i]) } else { a[i] - b[i] })
 }
 
 fn shorter(difference: f64) -> f64 {
@@ -2947,14 +2868,7 @@ fn is_isolated(answer: &Solution) -> bool {
 
 /// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
 fn spans(q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [
-tolerance,
-tolerance,
-tolerance * f64::max(2.112994893313344, q[2].abs()),
-tolerance,
-tolerance,
-tolerance,
-    ]
+    core::array::from_fn(|i| if IS_ANGLE[i] { tolerance } else { tolerance * f64::max(2.112994893313344, q[i].abs()) })
 }
 
 /// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
@@ -3121,27 +3035,12 @@ fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -
 
 /// The longest way of a joint in a step: an angle, or a share of the length scale.
 fn longest(step: &[f64; JOINTS]) -> f64 {
-    let ways = [
-step[0].abs(),
-step[1].abs(),
-step[2].abs() / 2.112994893313344,
-step[3].abs(),
-step[4].abs(),
-step[5].abs(),
-    ];
-    ways.iter().fold(0.0, |longest, &way| f64::max(longest, way))
+    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, if IS_ANGLE[i] { step[i].abs() } else { step[i].abs() / 2.112994893313344 }))
 }
 
 /// `q - step`, angles in (-pi, pi].
 fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        wrap(q[0] - step[0]),
-        wrap(q[1] - step[1]),
-        q[2] - step[2],
-        wrap(q[3] - step[3]),
-        wrap(q[4] - step[4]),
-        wrap(q[5] - step[5]),
-    ]
+    core::array::from_fn(|i| if IS_ANGLE[i] { wrap(q[i] - step[i]) } else { q[i] - step[i] })
 }
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
@@ -3156,28 +3055,13 @@ fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
     }
-    [
-        f64::min(weights[0], 1.0),
-        f64::min(weights[1], 1.0),
-        1.0,
-        f64::min(weights[3], 1.0),
-        f64::min(weights[4], 1.0),
-        f64::min(weights[5], 1.0),
-    ]
+    core::array::from_fn(|i| if IS_ANGLE[i] { f64::min(weights[i], 1.0) } else { 1.0 })
 }
 
 /// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
 fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let ends = [
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        q[2] + way * f64::max(2.112994893313344, q[2].abs()),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-    ];
     let mut next = *q;
-    next[i] = ends[i];
+    next[i] = if IS_ANGLE[i] { wrap(q[i] + way) } else { q[i] + way * f64::max(2.112994893313344, q[i].abs()) };
     next
 }
 

@@ -4,18 +4,15 @@
  * Hash of the input: f33baa6d4a60aab0
  *
  * Target, in order:
- *   py (mm)
- *   pz (mm)
+ *   `py` (mm), `pz` (mm)
  * Joints, in order; angles lie in (-pi, pi]:
  *   ShoulderRoll (rad)
  *   ForearmAngle (rad)
  *
  * A target has 4 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
- * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 32 Newton steps at most.
+ * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+ * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * NAO_ARM_PLANAR_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -116,7 +113,6 @@ int nao_arm_planar_nearest(const nao_arm_planar_solution *list, int count, const
 #include <float.h>
 #include <math.h>
 
-
 #define INPUTS NAO_ARM_PLANAR_INPUTS
 #define JOINTS NAO_ARM_PLANAR_JOINTS
 #define EQUATIONS 2
@@ -148,6 +144,9 @@ int nao_arm_planar_nearest(const nao_arm_planar_solution *list, int count, const
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+#define FARTHER 16.0
+#define FARTHEST 256.0
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
@@ -297,8 +296,7 @@ static Roots real_roots(const double *coefficients, size_t length, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double py;
-    double pz;
+    double py, pz;
     /* The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale. */
     double magnitude;
 } Parameters;
@@ -327,10 +325,8 @@ static void tip(const double *at, double *reached)
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
 }
 
 #define SIZES 2
@@ -348,14 +344,8 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->pz,
-            reached[1] - p->py,
-        },
-        {
-            fabs(p->pz) + 218.7,
-            fabs(p->py) + 218.7,
-        },
+        { reached[0] - p->pz, reached[1] - p->py },
+        { fabs(p->pz) + 218.7, fabs(p->py) + 218.7 },
     };
     return result;
 }
@@ -465,7 +455,6 @@ static double unfold(double size, double cosine, double sine)
     return half_open(copysign(value, sine)) + 0.0;
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -568,24 +557,20 @@ static bool newton_step(const Parameters *p, const double *q, double damping, do
     return substituted(columns, step);
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -718,21 +703,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -755,16 +734,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -925,19 +906,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1008,12 +996,11 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
     }
     nao_arm_planar_pairs *pairs = &answers->pairs[answers->count];
     double q[JOINTS] = {0.0};
-    pairs->joints[0][0] = at[0] + 0.0;
-    pairs->joints[0][1] = at[1] + 0.0;
-    pairs->free[0] = false;
-    pairs->joints[1][0] = at[2] + 0.0;
-    pairs->joints[1][1] = at[3] + 0.0;
-    pairs->free[1] = false;
+    pairs->joints[0][0] = at[0] + 0.0; pairs->joints[0][1] = at[1] + 0.0;
+    pairs->joints[1][0] = at[2] + 0.0; pairs->joints[1][1] = at[3] + 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        pairs->free[i] = false;
+    }
     const Fit fit = measure_at(p, at, q);
     pairs->residual = fit.residual;
     pairs->branch = branch;
@@ -1144,8 +1131,7 @@ static bool is_away(double value, double scale)
 }
 
 /* Chart 1: generic.
- * It runs where pz is not zero and py^2 + pz^2 is not zero.
- */
+ * It runs where pz is not zero and py^2 + pz^2 is not zero. */
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->py * p->py, r1 = p->pz * p->pz;
@@ -1168,8 +1154,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 }
 
 /* Chart 2: pz = 0.
- * It runs where pz is near zero and py is not zero.
- */
+ * It runs where pz is near zero and py is not zero. */
 static void chart_1_2(const Parameters *p, Answers *answers)
 {
     if (!(is_near(p->pz, p->magnitude) && is_away(p->py, p->magnitude))) {
@@ -1258,28 +1243,26 @@ int nao_arm_planar_solve_pairs(const double *target, nao_arm_planar_pairs *out)
     }
     Solution list[NAO_ARM_PLANAR_CAPACITY];
     const int count = nao_arm_planar_solve(target, list);
-    for (int i = 0; i < count; i++) {
-        const Solution *answer = &list[i];
-        out[i].residual = answer->residual;
-        out[i].branch = answer->branch;
-        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
-        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
-        out[i].free[0] = answer->free[0];
-        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
-        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
-        out[i].free[1] = answer->free[1];
+    for (int k = 0; k < count; k++) {
+        const Solution *answer = &list[k];
+        out[k].residual = answer->residual;
+        out[k].branch = answer->branch;
+        for (size_t i = 0; i < JOINTS; i++) {
+            const double value = answer->q[i];
+            out[k].joints[i][0] = cos(value) + 0.0;
+            out[k].joints[i][1] = sin(value) + 0.0;
+            out[k].free[i] = answer->free[i];
+        }
     }
     return count;
 }
-
 
 void nao_arm_planar_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[1];
-    target[1] = reached[0];
+    target[0] = reached[1]; target[1] = reached[0];
 }
 
 double nao_arm_planar_residual(const double *target, const double *q)

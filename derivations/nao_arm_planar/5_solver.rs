@@ -4,8 +4,7 @@
 //! - Hash of the input: f33baa6d4a60aab0
 //!
 //! Target, in order:
-//! - `py` (mm)
-//! - `pz` (mm)
+//! `py` (mm), `pz` (mm).
 //!
 //! Joints, in order; angles lie in (-pi, pi]:
 //! - `ShoulderRoll` (rad)
@@ -13,10 +12,8 @@
 //!
 //! A target has 4 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
 //!
-//! Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
-//! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
-//! scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
-//! answer is polished by 32 Newton steps at most.
+//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
 //! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
@@ -136,10 +133,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
     let mut list = [Solution::EMPTY; CAPACITY];
     let count = solve(target, &mut list)?;
     for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = [
-            [q[0].cos() + 0.0, q[0].sin() + 0.0],
-            [q[1].cos() + 0.0, q[1].sin() + 0.0],
-        ];
+        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
         *pairs = Pairs { joints, residual, branch, free };
     }
     Ok(count)
@@ -234,7 +228,6 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
     Some(place)
 }
 
-
 /// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
 /// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
 /// its weight, which is not negative.
@@ -311,6 +304,9 @@ const APART: f64 = 0.7;
 const SPLIT: f64 = 0.001;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 const LEVER: f64 = 0.1;
+/// Points around a candidate are so much farther where no nearer one leads to an answer.
+const FARTHER: f64 = 16.0;
+const FARTHEST: f64 = 256.0;
 /// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
 /// is added to it in these.
 const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
@@ -326,8 +322,7 @@ const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 
 /// Parameters of the equations.
 struct Parameters {
-    py: f64,
-    pz: f64,
+    py: f64, pz: f64,
     /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
     magnitude: f64,
 }
@@ -397,10 +392,7 @@ const TIP: usize = 2;
 /// The tip, as the equations compare it.
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
-    let c2 = at[0];
-    let s2 = at[1];
-    let c4 = at[2];
-    let s4 = at[3];
+    let [c2, s2, c4, s4] = *at;
     [
         105.0 * c2 + 113.7 * s4,
         105.0 * s2 + 113.7 * c4,
@@ -413,10 +405,7 @@ const PLACES: usize = 4;
 /// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin().
 fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
     [
-        q[0].cos(),
-        q[0].sin(),
-        q[1].cos(),
-        q[1].sin(),
+        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(),
     ]
 }
 
@@ -435,8 +424,7 @@ const SIZE_OF: [usize; EQUATIONS] = [0, 1];
 fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
     let reached = tip(at);
     [
-        reached[0] - p.pz,
-        reached[1] - p.py,
+        reached[0] - p.pz, reached[1] - p.py,
     ]
 }
 
@@ -452,10 +440,7 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
-    let c2 = at[0];
-    let s2 = at[1];
-    let c4 = at[2];
-    let s4 = at[3];
+    let [c2, s2, c4, s4] = *at;
     [
         [0.0 - 105.0 * s2, 113.7 * c4],
         [105.0 * c2, 0.0 - 113.7 * s4],
@@ -500,18 +485,27 @@ impl Answers<'_> {
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters.
+    /// matters. Where none leads to an answer, from farther ones.
     fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
         let weights = weights(p, &end.0);
-        for i in 0..JOINTS {
-            for sign in [-1.0, 1.0] {
-                let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                let way = f64::min((missed / weight).sqrt(), APART);
-                let start = moved(&end.0, i, 2.0 * sign * way);
-                let start = (start, measure(p, &start));
-                let start = polish(p, start);
-                self.keep(p, branch, last, start, free);
+        let mut is_found = end.1.accepted;
+        let mut farther = 1.0;
+        while farther <= FARTHEST {
+            for i in 0..JOINTS {
+                for sign in [-1.0, 1.0] {
+                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
+                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
+                    let start = moved(&end.0, i, 2.0 * sign * way);
+                    let start = (start, measure(p, &start));
+                    let start = polish(p, start);
+                    is_found |= start.1.accepted;
+                    self.keep(p, branch, last, start, free);
+                }
             }
+            if is_found {
+                return;
+            }
+            farther *= FARTHER;
         }
     }
 
@@ -662,10 +656,7 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 
 /// `a - b` joint by joint, angles by the shorter way round.
 fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        shorter(a[0] - b[0]),
-        shorter(a[1] - b[1]),
-    ]
+    core::array::from_fn(|i| shorter(a[i] - b[i]))
 }
 
 fn shorter(difference: f64) -> f64 {
@@ -690,10 +681,7 @@ fn is_isolated(answer: &Solution) -> bool {
 
 /// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
 fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [
-tolerance,
-tolerance,
-    ]
+    [tolerance; JOINTS]
 }
 
 /// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
@@ -850,19 +838,12 @@ fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64) -> Option<([f64; JOINTS]
 
 /// The longest way of a joint in a step: an angle, or a share of the length scale.
 fn longest(step: &[f64; JOINTS]) -> f64 {
-    let ways = [
-step[0].abs(),
-step[1].abs(),
-    ];
-    ways.iter().fold(0.0, |longest, &way| f64::max(longest, way))
+    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
 }
 
 /// `q - step`, angles in (-pi, pi].
 fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        wrap(q[0] - step[0]),
-        wrap(q[1] - step[1]),
-    ]
+    core::array::from_fn(|i| wrap(q[i] - step[i]))
 }
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
@@ -877,20 +858,13 @@ fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
     }
-    [
-        f64::min(weights[0], 1.0),
-        f64::min(weights[1], 1.0),
-    ]
+    core::array::from_fn(|i| f64::min(weights[i], 1.0))
 }
 
 /// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
 fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let ends = [
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-    ];
     let mut next = *q;
-    next[i] = ends[i];
+    next[i] = wrap(q[i] + way);
     next
 }
 

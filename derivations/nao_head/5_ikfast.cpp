@@ -80,14 +80,12 @@ typedef struct {
     bool free[NAO_HEAD_JOINTS];
 } nao_head_solution;
 
-
 /* Writes all solutions for the target (NAO_HEAD_INPUTS numbers) to the front of out (NAO_HEAD_CAPACITY places), by branch, and
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_head_solve(const double *target, nao_head_solution *out);
 
 /* Writes the target (NAO_HEAD_INPUTS numbers) that joint values q (NAO_HEAD_JOINTS numbers) reach. */
 void nao_head_forward(const double *q, double *target);
-
 
 static const int INPUTS = NAO_HEAD_INPUTS;
 static const int JOINTS = NAO_HEAD_JOINTS;
@@ -113,6 +111,9 @@ static const double APART = 0.7;
 static const double SPLIT = 0.001;
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 static const double LEVER = 0.1;
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+static const double FARTHER = 16.0;
+static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
@@ -189,9 +190,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double dx;
-    double dy;
-    double dz;
+    double dx, dy, dz;
 } Parameters;
 
 static Parameters parameters(const double *target)
@@ -219,10 +218,8 @@ static const int PLACES = 4;
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
 }
 
 static const int SIZES = 1;
@@ -240,14 +237,8 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->dx,
-            reached[1] - p->dy,
-            reached[2] - p->dz,
-        },
-        {
-            1.0,
-        },
+        { reached[0] - p->dx, reached[1] - p->dy, reached[2] - p->dz },
+        { 1.0 },
     };
     return result;
 }
@@ -357,7 +348,6 @@ static double unfold(double size, double cosine, double sine)
     const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
     return half_open(copysign(value, sine)) + 0.0;
 }
-
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -476,24 +466,20 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -626,21 +612,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -660,16 +640,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -976,19 +958,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1187,22 +1176,21 @@ typedef struct {
     /* Whether a candidate stands for two, of which the second differs in signs. */
     bool pair;
     bool free[JOINTS];
-    double c1;
-    double s1;
+    double c1, s1;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 2 share. */
@@ -1210,8 +1198,7 @@ typedef struct {
     double r2;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
- */
+/* Chart 1 of block 2: generic. */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r6 = sqrt(fmax(shared->r2 * shared->r2 + p->dz * p->dz, 0.0)), r7 = 1.0 / r6;
@@ -1240,8 +1227,7 @@ static void again_2(const Parameters *p, const Known *known, Answers *answers)
 }
 
 /* Chart 1 of block 1: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->dy * p->dy, r1 = p->dx * p->dx, r2 = r0 + r1;
@@ -1265,19 +1251,17 @@ static void chart_1_1(const Parameters *p, Answers *answers)
 
 /* Chart 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
- * Free: HeadYaw.
- */
+ * Free: HeadYaw. */
 static void chart_1_2(const Parameters *p, Answers *answers)
 {
     if (!is_near(p->dy * p->dy + p->dx * p->dx, 2.0000000000000002e-7)) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 2;
         next.last = 3;
-        next.close = false;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
@@ -1367,15 +1351,12 @@ int nao_head_solve(const double *target, nao_head_solution *out)
     return (int)answers.count;
 }
 
-
 void nao_head_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
 }
 
 /* A length in metres times this is one in the unit of the equations. */

@@ -82,14 +82,12 @@ typedef struct {
     bool free[NAO_LEFT_ARM_POSITION_JOINTS];
 } nao_left_arm_position_solution;
 
-
 /* Writes all solutions for the target (NAO_LEFT_ARM_POSITION_INPUTS numbers) to the front of out (NAO_LEFT_ARM_POSITION_CAPACITY places), by branch, and
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int nao_left_arm_position_solve(const double *target, nao_left_arm_position_solution *out);
 
 /* Writes the target (NAO_LEFT_ARM_POSITION_INPUTS numbers) that joint values q (NAO_LEFT_ARM_POSITION_JOINTS numbers) reach. */
 void nao_left_arm_position_forward(const double *q, double *target);
-
 
 static const int INPUTS = NAO_LEFT_ARM_POSITION_INPUTS;
 static const int JOINTS = NAO_LEFT_ARM_POSITION_JOINTS;
@@ -115,6 +113,9 @@ static const double APART = 0.7;
 static const double SPLIT = 0.001;
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 static const double LEVER = 0.1;
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+static const double FARTHER = 16.0;
+static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
@@ -189,11 +190,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double pz;
-    double c3;
-    double s3;
+    double px, py, pz, c3, s3;
     /* The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale. */
     double magnitude;
 } Parameters;
@@ -232,14 +229,10 @@ static const int PLACES = 8;
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
-    at[4] = cos(q[2]);
-    at[5] = sin(q[2]);
-    at[6] = cos(q[3]);
-    at[7] = sin(q[3]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
+    at[4] = cos(q[2]); at[5] = sin(q[2]);
+    at[6] = cos(q[3]); at[7] = sin(q[3]);
 }
 
 static const int SIZES = 2;
@@ -257,17 +250,9 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->pz,
-            reached[3] - p->c3,
-            reached[4] - p->s3,
-        },
-        {
-            0.36044474637583046,
-            1.0,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->pz, reached[3] - p->c3,
+            reached[4] - p->s3 },
+        { 0.36044474637583046, 1.0 },
     };
     return result;
 }
@@ -391,7 +376,6 @@ static double unfold(double size, double cosine, double sine)
     return half_open(copysign(value, sine)) + 0.0;
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -509,28 +493,20 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = wrap(q[2] - step[2]);
-    next[3] = wrap(q[3] - step[3]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]),
-fabs(step[3]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -663,25 +639,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = fmin(weight[2], 1.0);
-    weight[3] = fmin(weight[3], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -701,20 +667,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = shorter(a[2] - b[2]);
-    difference[3] = shorter(a[3] - b[3]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance;
-    limit[3] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1023,19 +987,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1234,42 +1205,30 @@ typedef struct {
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
     bool free[JOINTS];
-    double c3_;
-    double s3_;
-    double c4;
-    double s4;
-    double f4;
-    double c1;
-    double s1;
+    double c3_, s3_, c4, s4, f4, c1, s1;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r7;
-    double r9;
-    double r10;
-    double r11;
-    double r15;
-    double r16;
+    double r7, r9, r10, r11, r15, r16;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r19 = shared->r7 * shared->r7 + shared->r9 * shared->r9;
@@ -1280,39 +1239,24 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     const double r26 = shared->r7 * shared->r10 - shared->r9 * shared->r11;
     const double r31 = 1.0 / sqrt(fmax(r26 * r26 + r23 * r23, 0.0)), c2 = r26 * r31, s2 = r23 * r31;
     const double at[PLACES] = {
-        known->c1,
-        known->s1,
-        c2,
-        s2,
-        known->c3_,
-        known->s3_,
-        known->c4,
-        known->s4,
+        known->c1, known->s1, c2, s2, known->c3_, known->s3_, known->c4, known->s4,
     };
     finish(p, 2 * known->branch, 2 * known->last, known->close, at, known->free, answers);
 }
 
 /* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: ShoulderRoll.
- */
+ * Free: ShoulderRoll. */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r19 = shared->r7 * shared->r7 + shared->r9 * shared->r9;
     if (!(is_near(r19, 8.745627862900002e-7) && is_near(shared->r11, 0.01 * shared->r16) && is_near(shared->r10, 0.01 * shared->r15))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         const double at[PLACES] = {
-            known->c1,
-            known->s1,
-            c2,
-            s2,
-            known->c3_,
-            known->s3_,
-            known->c4,
-            known->s4,
+            known->c1, known->s1, c2, s2, known->c3_, known->s3_, known->c4, known->s4,
         };
         const bool free_joints[JOINTS] = {known->free[0], true, known->free[2], known->free[3]};
         finish(p, 2 * known->branch + 1, 2 * known->last, known->close, at, free_joints, answers);
@@ -1340,14 +1284,11 @@ static void again_4(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r1;
-    double r4;
-    double r6;
+    double r1, r4, r6;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r7 = shared->r1 * shared->r1, r8 = p->px * p->px, r9 = r7 + r8;
@@ -1372,20 +1313,18 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 
 /* Chart 2 of block 3: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
- * Free: ShoulderPitch.
- */
+ * Free: ShoulderPitch. */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r12 = shared->r6 * shared->r6 + p->magnitude * p->magnitude;
     if (!(is_near(shared->r1 * shared->r1 + p->px * p->px, 1.0000000000000001e-7 * r12) && is_near(shared->r4, 0.0173877))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
@@ -1412,13 +1351,11 @@ static void again_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r3;
-    double r12;
+    double r3, r12;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r13 = shared->r3 * shared->r3, r14 = r13 + 0.0005701111289999999;
@@ -1444,8 +1381,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
- * Free: ElbowRoll.
- */
+ * Free: ElbowRoll. */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r14 = shared->r3 * shared->r3 + 0.0005701111289999999;
@@ -1453,12 +1389,11 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     const double f4 = 1000000.0;
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[3] = true;
         next.c4 = c4;
         next.s4 = s4;
@@ -1478,15 +1413,12 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     chart_2_2(p, known, shared, answers);
 }
 
-/* Chart 1 of block 1: given.
- */
+/* Chart 1 of block 1: given. */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double c3_ = p->c3, s3_ = p->s3;
     Known next = NOTHING_KNOWN;
-    next.branch = 0;
     next.last = 1;
-    next.close = false;
     next.c3_ = c3_;
     next.s3_ = s3_;
     block_2(p, &next, answers);
@@ -1537,15 +1469,12 @@ int nao_left_arm_position_solve(const double *target, nao_left_arm_position_solu
     return (int)answers.count;
 }
 
-
 void nao_left_arm_position_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
     target[3] = q[2];
 }
 

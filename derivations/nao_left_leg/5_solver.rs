@@ -4,18 +4,8 @@
 //! - Hash of the input: 9a0e2b822cb466c7
 //!
 //! Target, in order:
-//! - `px` (m)
-//! - `py` (m)
-//! - `pz` (m)
-//! - `r11` (1)
-//! - `r12` (1)
-//! - `r13` (1)
-//! - `r21` (1)
-//! - `r22` (1)
-//! - `r23` (1)
-//! - `r31` (1)
-//! - `r32` (1)
-//! - `r33` (1)
+//! `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
+//! `r31` (1), `r32` (1), `r33` (1).
 //!
 //! Joints, in order; angles lie in (-pi, pi]:
 //! - `HipYawPitch` (rad)
@@ -27,10 +17,8 @@
 //!
 //! A target has 22 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
 //!
-//! Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
-//! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
-//! scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
-//! answer is polished by 32 Newton steps at most.
+//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
 //! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
@@ -143,14 +131,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
     let mut list = [Solution::EMPTY; CAPACITY];
     let count = solve(target, &mut list)?;
     for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = [
-            [q[0].cos() + 0.0, q[0].sin() + 0.0],
-            [q[1].cos() + 0.0, q[1].sin() + 0.0],
-            [q[2].cos() + 0.0, q[2].sin() + 0.0],
-            [q[3].cos() + 0.0, q[3].sin() + 0.0],
-            [q[4].cos() + 0.0, q[4].sin() + 0.0],
-            [q[5].cos() + 0.0, q[5].sin() + 0.0],
-        ];
+        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
         *pairs = Pairs { joints, residual, branch, free };
     }
     Ok(count)
@@ -292,7 +273,6 @@ fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]
     None
 }
 
-
 /// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
 /// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
 /// its weight, which is not negative.
@@ -369,6 +349,9 @@ const APART: f64 = 0.7;
 const SPLIT: f64 = 0.001;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 const LEVER: f64 = 0.1;
+/// Points around a candidate are so much farther where no nearer one leads to an answer.
+const FARTHER: f64 = 16.0;
+const FARTHEST: f64 = 256.0;
 /// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
 /// is added to it in these.
 const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
@@ -439,18 +422,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Parameters of the equations.
 struct Parameters {
-    px: f64,
-    py: f64,
-    pz: f64,
-    r11_: f64,
-    r12_: f64,
-    r13_: f64,
-    r21_: f64,
-    r22_: f64,
-    r23_: f64,
-    r31_: f64,
-    r32_: f64,
-    r33_: f64,
+    px: f64, py: f64, pz: f64, r11_: f64, r12_: f64, r13_: f64, r21_: f64, r22_: f64, r23_: f64,
+    r31_: f64, r32_: f64, r33_: f64,
     /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
     magnitude: f64,
 }
@@ -482,32 +455,22 @@ struct Known {
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
     free: [bool; JOINTS],
-    c4: f64,
-    s4: f64,
-    c6: f64,
-    s6: f64,
-    f6: f64,
-    c5: f64,
-    s5: f64,
-    f5: f64,
-    c1: f64,
-    s1: f64,
-    c2: f64,
-    s2: f64,
+    c4: f64, s4: f64, c6: f64, s6: f64, f6: f64, c5: f64, s5: f64, f5: f64, c1: f64, s1: f64,
+    c2: f64, s2: f64,
 }
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c4: 0.0, s4: 0.0, c6: 0.0, s6: 0.0, f6: 0.0, c5: 0.0, s5: 0.0, f5: 0.0, c1: 0.0, s1: 0.0, c2: 0.0, s2: 0.0 };
 
 /// Where charts put a free joint: cosine and sine.
-const SAMPLES_1: [[f64; 2]; 8] = [
-    [-0.9210609940028851, -0.3894183423086505],
-    [-0.37592812418099103, -0.926648825310733],
-    [0.38941834230865047, -0.9210609940028851],
-    [0.926648825310733, -0.375928124180991],
-    [0.9210609940028851, 0.3894183423086505],
-    [0.37592812418099114, 0.926648825310733],
-    [-0.38941834230865036, 0.9210609940028851],
-    [-0.9266488253107329, 0.3759281241809912],
+const SAMPLES_1: [[f64; 2]; 16] = [
+    [-0.9210609940028851, -0.3894183423086505], [-0.7019254526931687, -0.7122504186460616],
+    [-0.37592812418099103, -0.926648825310733], [0.007300853440810815, -0.9999733484143644],
+    [0.38941834230865047, -0.9210609940028851], [0.7122504186460618, -0.7019254526931686],
+    [0.926648825310733, -0.375928124180991], [0.9999733484143644, 0.007300853440810865],
+    [0.9210609940028851, 0.3894183423086505], [0.7019254526931687, 0.7122504186460616],
+    [0.37592812418099114, 0.926648825310733], [-0.007300853440810693, 0.9999733484143644],
+    [-0.38941834230865036, 0.9210609940028851], [-0.7122504186460615, 0.7019254526931689],
+    [-0.9266488253107329, 0.3759281241809912], [-0.9999733484143644, -0.007300853440810631],
 ];
 
 /// Block 1: KneePitch.
@@ -522,9 +485,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 1 share.
-struct Shared1 {
-    r28: f64,
-}
+struct Shared1 { r28: f64 }
 
 /// Chart 1 of block 1: generic.
 #[inline(always)]
@@ -556,12 +517,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 2 share.
-struct Shared2 {
-    r11: f64,
-    r18: f64,
-    r22: f64,
-    r23: f64,
-}
+struct Shared2 { r11: f64, r18: f64, r22: f64, r23: f64 }
 
 /// Chart 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
@@ -640,16 +596,7 @@ fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 3 share.
-struct Shared3 {
-    r41: f64,
-    r50: f64,
-    r67: f64,
-    r68: f64,
-    r69: f64,
-    r83: f64,
-    r84: f64,
-    r85: f64,
-}
+struct Shared3 { r41: f64, r50: f64, r67: f64, r68: f64, r69: f64, r83: f64, r84: f64, r85: f64 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
@@ -705,10 +652,7 @@ fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 4 share.
-struct Shared4 {
-    r6: f64,
-    r10: f64,
-}
+struct Shared4 { r6: f64, r10: f64 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
@@ -767,10 +711,7 @@ fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 5 share.
-struct Shared5 {
-    r19: f64,
-    r21: f64,
-}
+struct Shared5 { r19: f64, r21: f64 }
 
 /// Chart 1 of block 5: generic.
 #[inline(always)]
@@ -806,10 +747,7 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 6 share.
-struct Shared6 {
-    r59: f64,
-    r62: f64,
-}
+struct Shared6 { r59: f64, r62: f64 }
 
 /// Chart 1 of block 6: generic.
 #[inline(always)]
@@ -820,17 +758,7 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
     let c3 = r64 * r69;
     let s3 = 0.0 - r63 * r69;
     let at = [
-        known.c1,
-        known.s1,
-        known.c2,
-        known.s2,
-        c3,
-        s3,
-        known.c4,
-        known.s4,
-        known.c5,
-        known.s5,
-        known.c6,
+        known.c1, known.s1, known.c2, known.s2, c3, s3, known.c4, known.s4, known.c5, known.s5, known.c6,
         known.s6,
     ];
     answers.finish(p, known.branch, known.last, known.close, &at, known.free);
@@ -842,18 +770,7 @@ const TIP: usize = 12;
 /// The tip, as the equations compare it.
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
-    let c1 = at[0];
-    let s1 = at[1];
-    let c2 = at[2];
-    let s2 = at[3];
-    let c3 = at[4];
-    let s3 = at[5];
-    let c4 = at[6];
-    let s4 = at[7];
-    let c5 = at[8];
-    let s5 = at[9];
-    let c6 = at[10];
-    let s6 = at[11];
+    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
     let r0 = s1 * c2;
     let r1 = s1 * s2;
     let r2 = c1 + 1.0;
@@ -929,18 +846,8 @@ const PLACES: usize = 12;
 /// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin().
 fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
     [
-        q[0].cos(),
-        q[0].sin(),
-        q[1].cos(),
-        q[1].sin(),
-        q[2].cos(),
-        q[2].sin(),
-        q[3].cos(),
-        q[3].sin(),
-        q[4].cos(),
-        q[4].sin(),
-        q[5].cos(),
-        q[5].sin(),
+        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(),
+        q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(),
     ]
 }
 
@@ -959,18 +866,9 @@ const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1];
 fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
     let reached = tip(at);
     [
-        reached[0] - p.px,
-        reached[1] - p.py,
-        reached[2] - p.pz,
-        reached[3] - p.r11_,
-        reached[4] - p.r21_,
-        reached[5] - p.r31_,
-        reached[6] - p.r12_,
-        reached[7] - p.r22_,
-        reached[8] - p.r32_,
-        reached[9] - p.r13_,
-        reached[10] - p.r23_,
-        reached[11] - p.r33_,
+        reached[0] - p.px, reached[1] - p.py, reached[2] - p.pz, reached[3] - p.r11_,
+        reached[4] - p.r21_, reached[5] - p.r31_, reached[6] - p.r12_, reached[7] - p.r22_,
+        reached[8] - p.r32_, reached[9] - p.r13_, reached[10] - p.r23_, reached[11] - p.r33_,
     ]
 }
 
@@ -986,18 +884,7 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
-    let c1 = at[0];
-    let s1 = at[1];
-    let c2 = at[2];
-    let s2 = at[3];
-    let c3 = at[4];
-    let s3 = at[5];
-    let c4 = at[6];
-    let s4 = at[7];
-    let c5 = at[8];
-    let s5 = at[9];
-    let c6 = at[10];
-    let s6 = at[11];
+    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
     let r0 = s1 * c2;
     let r1 = s1 * s2;
     let r2 = c1 + 1.0;
@@ -1206,18 +1093,27 @@ impl Answers<'_> {
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters.
+    /// matters. Where none leads to an answer, from farther ones.
     fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
         let weights = weights(p, &end.0);
-        for i in 0..JOINTS {
-            for sign in [-1.0, 1.0] {
-                let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                let way = f64::min((missed / weight).sqrt(), APART);
-                let start = moved(&end.0, i, 2.0 * sign * way);
-                let start = (start, measure(p, &start));
-                let start = polish(p, start, &NONE_FREE);
-                self.keep(p, branch, last, start, free);
+        let mut is_found = end.1.accepted;
+        let mut farther = 1.0;
+        while farther <= FARTHEST {
+            for i in 0..JOINTS {
+                for sign in [-1.0, 1.0] {
+                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
+                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
+                    let start = moved(&end.0, i, 2.0 * sign * way);
+                    let start = (start, measure(p, &start));
+                    let start = polish(p, start, &NONE_FREE);
+                    is_found |= start.1.accepted;
+                    self.keep(p, branch, last, start, free);
+                }
             }
+            if is_found {
+                return;
+            }
+            farther *= FARTHER;
         }
     }
 
@@ -1471,14 +1367,7 @@ fn follow(p: &Parameters, q: [f64; JOINTS], free: &[bool; JOINTS]) -> ([f64; JOI
 
 /// `a - b` joint by joint, angles by the shorter way round.
 fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        shorter(a[0] - b[0]),
-        shorter(a[1] - b[1]),
-        shorter(a[2] - b[2]),
-        shorter(a[3] - b[3]),
-        shorter(a[4] - b[4]),
-        shorter(a[5] - b[5]),
-    ]
+    core::array::from_fn(|i| shorter(a[i] - b[i]))
 }
 
 fn shorter(difference: f64) -> f64 {
@@ -1507,14 +1396,7 @@ fn is_isolated(answer: &Solution) -> bool {
 
 /// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
 fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-    ]
+    [tolerance; JOINTS]
 }
 
 /// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
@@ -1672,27 +1554,12 @@ fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -
 
 /// The longest way of a joint in a step: an angle, or a share of the length scale.
 fn longest(step: &[f64; JOINTS]) -> f64 {
-    let ways = [
-step[0].abs(),
-step[1].abs(),
-step[2].abs(),
-step[3].abs(),
-step[4].abs(),
-step[5].abs(),
-    ];
-    ways.iter().fold(0.0, |longest, &way| f64::max(longest, way))
+    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
 }
 
 /// `q - step`, angles in (-pi, pi].
 fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        wrap(q[0] - step[0]),
-        wrap(q[1] - step[1]),
-        wrap(q[2] - step[2]),
-        wrap(q[3] - step[3]),
-        wrap(q[4] - step[4]),
-        wrap(q[5] - step[5]),
-    ]
+    core::array::from_fn(|i| wrap(q[i] - step[i]))
 }
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
@@ -1707,28 +1574,13 @@ fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
     }
-    [
-        f64::min(weights[0], 1.0),
-        f64::min(weights[1], 1.0),
-        f64::min(weights[2], 1.0),
-        f64::min(weights[3], 1.0),
-        f64::min(weights[4], 1.0),
-        f64::min(weights[5], 1.0),
-    ]
+    core::array::from_fn(|i| f64::min(weights[i], 1.0))
 }
 
 /// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
 fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let ends = [
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-    ];
     let mut next = *q;
-    next[i] = ends[i];
+    next[i] = wrap(q[i] + way);
     next
 }
 

@@ -4,8 +4,7 @@
 //! - Hash of the input: c6048dbd06bbf618
 //!
 //! Target, in order:
-//! - `px` (mm)
-//! - `pz` (mm)
+//! `px` (mm), `pz` (mm).
 //!
 //! Joints, in order; angles lie in (-pi, pi]:
 //! - `HipPitch` (rad)
@@ -13,10 +12,8 @@
 //!
 //! A target has 2 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
 //!
-//! Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
-//! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
-//! scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
-//! answer is polished by 32 Newton steps at most.
+//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
 //! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
@@ -121,10 +118,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
     let mut list = [Solution::EMPTY; CAPACITY];
     let count = solve(target, &mut list)?;
     for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = [
-            [q[0].cos() + 0.0, q[0].sin() + 0.0],
-            [q[1].cos() + 0.0, q[1].sin() + 0.0],
-        ];
+        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
         *pairs = Pairs { joints, residual, branch, free };
     }
     Ok(count)
@@ -212,7 +206,6 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
     Some(place)
 }
 
-
 /// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
 /// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
 /// its weight, which is not negative.
@@ -289,6 +282,9 @@ const APART: f64 = 0.7;
 const SPLIT: f64 = 0.001;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 const LEVER: f64 = 0.1;
+/// Points around a candidate are so much farther where no nearer one leads to an answer.
+const FARTHER: f64 = 16.0;
+const FARTHEST: f64 = 256.0;
 /// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
 /// is added to it in these.
 const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
@@ -302,8 +298,7 @@ const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 
 /// Parameters of the equations.
 struct Parameters {
-    px: f64,
-    pz: f64,
+    px: f64, pz: f64,
     /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
     magnitude: f64,
 }
@@ -332,9 +327,7 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r6 = 20000.0 * r1;
     let r13 = r1 * (10000.0 * r1 - 411768200.0) + 3462263281.0;
     let roots0 = real_roots(&[
-        r0 * (10000.0 * r0 + r6 - 411768200.0) + r13,
-        0.0,
-        4235364000000.0,
+        r0 * (10000.0 * r0 + r6 - 411768200.0) + r13, 0.0, 4235364000000.0,
     ], 1.0);
     for (i0, &s4) in roots0.as_slice().iter().enumerate() {
         let r17 = 100.0 * r0 + 100.0 * r1;
@@ -355,10 +348,7 @@ const PLACES: usize = 4;
 /// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin().
 fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
     [
-        q[0].cos(),
-        q[0].sin(),
-        q[1].cos(),
-        q[1].sin(),
+        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(),
     ]
 }
 
@@ -373,29 +363,19 @@ const SIZES: usize = 2;
 const SIZE_OF: [usize; EQUATIONS] = [0, 1];
 
 fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
-    let c3 = at[0];
-    let s3 = at[1];
-    let c4 = at[2];
-    let s4 = at[3];
+    let [c3, s3, c4, s4] = *at;
     let r1 = 102.9 * c4 + 100.0;
     Equations {
         value: [
-            s3 * r1 + (102.9 * (c3 * s4) - p.px),
-            c3 * r1 - (p.pz + 102.9 * (s4 * s3)),
+            s3 * r1 + (102.9 * (c3 * s4) - p.px), c3 * r1 - (p.pz + 102.9 * (s4 * s3)),
         ],
-        size: [
-            f64::abs(p.px) + 305.8,
-            f64::abs(p.pz) + 305.8,
-        ],
+        size: [f64::abs(p.px) + 305.8, f64::abs(p.pz) + 305.8],
     }
 }
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
-    let c3 = at[0];
-    let s3 = at[1];
-    let c4 = at[2];
-    let s4 = at[3];
+    let [c3, s3, c4, s4] = *at;
     let r0 = 102.9 * c4;
     let r4 = 102.9 * (c3 * s4);
     let r9 = 102.9 * (s4 * s3);
@@ -447,18 +427,27 @@ impl Answers<'_> {
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters.
+    /// matters. Where none leads to an answer, from farther ones.
     fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
         let weights = weights(p, &end.0);
-        for i in 0..JOINTS {
-            for sign in [-1.0, 1.0] {
-                let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                let way = f64::min((missed / weight).sqrt(), APART);
-                let start = moved(&end.0, i, 2.0 * sign * way);
-                let start = (start, measure(p, &start));
-                let start = polish(p, start);
-                self.keep(p, branch, last, start, free);
+        let mut is_found = end.1.accepted;
+        let mut farther = 1.0;
+        while farther <= FARTHEST {
+            for i in 0..JOINTS {
+                for sign in [-1.0, 1.0] {
+                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
+                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
+                    let start = moved(&end.0, i, 2.0 * sign * way);
+                    let start = (start, measure(p, &start));
+                    let start = polish(p, start);
+                    is_found |= start.1.accepted;
+                    self.keep(p, branch, last, start, free);
+                }
             }
+            if is_found {
+                return;
+            }
+            farther *= FARTHER;
         }
     }
 
@@ -597,10 +586,7 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 
 /// `a - b` joint by joint, angles by the shorter way round.
 fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        shorter(a[0] - b[0]),
-        shorter(a[1] - b[1]),
-    ]
+    core::array::from_fn(|i| shorter(a[i] - b[i]))
 }
 
 fn shorter(difference: f64) -> f64 {
@@ -625,10 +611,7 @@ fn is_isolated(answer: &Solution) -> bool {
 
 /// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
 fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [
-tolerance,
-tolerance,
-    ]
+    [tolerance; JOINTS]
 }
 
 /// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
@@ -791,19 +774,12 @@ fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64) -> Option<([f64; JOINTS]
 
 /// The longest way of a joint in a step: an angle, or a share of the length scale.
 fn longest(step: &[f64; JOINTS]) -> f64 {
-    let ways = [
-step[0].abs(),
-step[1].abs(),
-    ];
-    ways.iter().fold(0.0, |longest, &way| f64::max(longest, way))
+    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
 }
 
 /// `q - step`, angles in (-pi, pi].
 fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        wrap(q[0] - step[0]),
-        wrap(q[1] - step[1]),
-    ]
+    core::array::from_fn(|i| wrap(q[i] - step[i]))
 }
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
@@ -818,20 +794,13 @@ fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
     }
-    [
-        f64::min(weights[0], 1.0),
-        f64::min(weights[1], 1.0),
-    ]
+    core::array::from_fn(|i| f64::min(weights[i], 1.0))
 }
 
 /// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
 fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let ends = [
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-    ];
     let mut next = *q;
-    next[i] = ends[i];
+    next[i] = wrap(q[i] + way);
     next
 }
 

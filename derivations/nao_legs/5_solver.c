@@ -4,24 +4,9 @@
  * Hash of the input: 4db789cf7eefd3e6
  *
  * Target, in order:
- *   left_px (m)
- *   left_py (m)
- *   left_pz (m)
- *   left_r11 (1)
- *   left_r12 (1)
- *   left_r13 (1)
- *   left_r21 (1)
- *   left_r22 (1)
- *   left_r23 (1)
- *   left_r31 (1)
- *   left_r32 (1)
- *   left_r33 (1)
- *   right_px (m)
- *   right_py (m)
- *   right_pz (m)
- *   right_dx (1)
- *   right_dy (1)
- *   right_dz (1)
+ *   `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
+ *   `left_r21` (1), `left_r22` (1), `left_r23` (1), `left_r31` (1), `left_r32` (1), `left_r33` (1),
+ *   `right_px` (m), `right_py` (m), `right_pz` (m), `right_dx` (1), `right_dy` (1), `right_dz` (1)
  * Joints, in order; angles lie in (-pi, pi]:
  *   HipYawPitch (rad)
  *   left_HipRoll (rad)
@@ -37,10 +22,8 @@
  *
  * A target has 141 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
- * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 32 Newton steps at most.
+ * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+ * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * NAO_LEGS_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -142,7 +125,6 @@ int nao_legs_nearest(const nao_legs_solution *list, int count, const double *ref
 #include <float.h>
 #include <math.h>
 
-
 #define INPUTS NAO_LEGS_INPUTS
 #define JOINTS NAO_LEGS_JOINTS
 #define EQUATIONS 18
@@ -174,6 +156,9 @@ int nao_legs_nearest(const nao_legs_solution *list, int count, const double *ref
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+#define FARTHER 16.0
+#define FARTHEST 256.0
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
@@ -254,24 +239,8 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double left_px;
-    double left_py;
-    double left_pz;
-    double left_r11;
-    double left_r12;
-    double left_r13;
-    double left_r21;
-    double left_r22;
-    double left_r23;
-    double left_r31;
-    double left_r32;
-    double left_r33;
-    double right_px;
-    double right_py;
-    double right_pz;
-    double right_dx;
-    double right_dy;
-    double right_dz;
+    double left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31,
+        left_r32, left_r33, right_px, right_py, right_pz, right_dx, right_dy, right_dz;
     /* The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale. */
     double magnitude;
 } Parameters;
@@ -366,28 +335,17 @@ static void tip(const double *at, double *reached)
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]), cos(q[6]), sin(q[6]), cos(q[7]), sin(q[7]), cos(q[8]), sin(q[8]), cos(q[9]), sin(q[9]), cos(q[10]), sin(q[10]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
-    at[4] = cos(q[2]);
-    at[5] = sin(q[2]);
-    at[6] = cos(q[3]);
-    at[7] = sin(q[3]);
-    at[8] = cos(q[4]);
-    at[9] = sin(q[4]);
-    at[10] = cos(q[5]);
-    at[11] = sin(q[5]);
-    at[12] = cos(q[6]);
-    at[13] = sin(q[6]);
-    at[14] = cos(q[7]);
-    at[15] = sin(q[7]);
-    at[16] = cos(q[8]);
-    at[17] = sin(q[8]);
-    at[18] = cos(q[9]);
-    at[19] = sin(q[9]);
-    at[20] = cos(q[10]);
-    at[21] = sin(q[10]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
+    at[4] = cos(q[2]); at[5] = sin(q[2]);
+    at[6] = cos(q[3]); at[7] = sin(q[3]);
+    at[8] = cos(q[4]); at[9] = sin(q[4]);
+    at[10] = cos(q[5]); at[11] = sin(q[5]);
+    at[12] = cos(q[6]); at[13] = sin(q[6]);
+    at[14] = cos(q[7]); at[15] = sin(q[7]);
+    at[16] = cos(q[8]); at[17] = sin(q[8]);
+    at[18] = cos(q[9]); at[19] = sin(q[9]);
+    at[20] = cos(q[10]); at[21] = sin(q[10]);
 }
 
 #define SIZES 2
@@ -405,30 +363,13 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->left_px,
-            reached[1] - p->left_py,
-            reached[2] - p->left_pz,
-            reached[3] - p->left_r11,
-            reached[4] - p->left_r21,
-            reached[5] - p->left_r31,
-            reached[6] - p->left_r12,
-            reached[7] - p->left_r22,
-            reached[8] - p->left_r32,
-            reached[9] - p->left_r13,
-            reached[10] - p->left_r23,
-            reached[11] - p->left_r33,
-            reached[12] - p->right_px,
-            reached[13] - p->right_py,
-            reached[14] - p->right_pz,
-            reached[15] - p->right_dx,
-            reached[16] - p->right_dy,
-            reached[17] - p->right_dz,
-        },
-        {
-            0.3467054146165801,
-            1.0,
-        },
+        { reached[0] - p->left_px, reached[1] - p->left_py, reached[2] - p->left_pz,
+            reached[3] - p->left_r11, reached[4] - p->left_r21, reached[5] - p->left_r31,
+            reached[6] - p->left_r12, reached[7] - p->left_r22, reached[8] - p->left_r32,
+            reached[9] - p->left_r13, reached[10] - p->left_r23, reached[11] - p->left_r33,
+            reached[12] - p->right_px, reached[13] - p->right_py, reached[14] - p->right_pz,
+            reached[15] - p->right_dx, reached[16] - p->right_dy, reached[17] - p->right_dz },
+        { 0.3467054146165801, 1.0 },
     };
     return result;
 }
@@ -683,7 +624,6 @@ static double unfold(double size, double cosine, double sine)
     return half_open(copysign(value, sine)) + 0.0;
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -801,42 +741,20 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = wrap(q[2] - step[2]);
-    next[3] = wrap(q[3] - step[3]);
-    next[4] = wrap(q[4] - step[4]);
-    next[5] = wrap(q[5] - step[5]);
-    next[6] = wrap(q[6] - step[6]);
-    next[7] = wrap(q[7] - step[7]);
-    next[8] = wrap(q[8] - step[8]);
-    next[9] = wrap(q[9] - step[9]);
-    next[10] = wrap(q[10] - step[10]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]),
-fabs(step[3]),
-fabs(step[4]),
-fabs(step[5]),
-fabs(step[6]),
-fabs(step[7]),
-fabs(step[8]),
-fabs(step[9]),
-fabs(step[10]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -969,39 +887,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = fmin(weight[2], 1.0);
-    weight[3] = fmin(weight[3], 1.0);
-    weight[4] = fmin(weight[4], 1.0);
-    weight[5] = fmin(weight[5], 1.0);
-    weight[6] = fmin(weight[6], 1.0);
-    weight[7] = fmin(weight[7], 1.0);
-    weight[8] = fmin(weight[8], 1.0);
-    weight[9] = fmin(weight[9], 1.0);
-    weight[10] = fmin(weight[10], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-        wrap(q[6] + way),
-        wrap(q[7] + way),
-        wrap(q[8] + way),
-        wrap(q[9] + way),
-        wrap(q[10] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -1024,34 +918,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = shorter(a[2] - b[2]);
-    difference[3] = shorter(a[3] - b[3]);
-    difference[4] = shorter(a[4] - b[4]);
-    difference[5] = shorter(a[5] - b[5]);
-    difference[6] = shorter(a[6] - b[6]);
-    difference[7] = shorter(a[7] - b[7]);
-    difference[8] = shorter(a[8] - b[8]);
-    difference[9] = shorter(a[9] - b[9]);
-    difference[10] = shorter(a[10] - b[10]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance;
-    limit[3] = tolerance;
-    limit[4] = tolerance;
-    limit[5] = tolerance;
-    limit[6] = tolerance;
-    limit[7] = tolerance;
-    limit[8] = tolerance;
-    limit[9] = tolerance;
-    limit[10] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1367,19 +1245,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1497,39 +1382,20 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
     }
     nao_legs_pairs *pairs = &answers->pairs[answers->count];
     double q[JOINTS] = {0.0};
-    pairs->joints[0][0] = at[0] + 0.0;
-    pairs->joints[0][1] = at[1] + 0.0;
-    pairs->free[0] = false;
-    pairs->joints[1][0] = at[2] + 0.0;
-    pairs->joints[1][1] = at[3] + 0.0;
-    pairs->free[1] = false;
-    pairs->joints[2][0] = at[4] + 0.0;
-    pairs->joints[2][1] = at[5] + 0.0;
-    pairs->free[2] = false;
-    pairs->joints[3][0] = at[6] + 0.0;
-    pairs->joints[3][1] = at[7] + 0.0;
-    pairs->free[3] = false;
-    pairs->joints[4][0] = at[8] + 0.0;
-    pairs->joints[4][1] = at[9] + 0.0;
-    pairs->free[4] = false;
-    pairs->joints[5][0] = at[10] + 0.0;
-    pairs->joints[5][1] = at[11] + 0.0;
-    pairs->free[5] = false;
-    pairs->joints[6][0] = at[12] + 0.0;
-    pairs->joints[6][1] = at[13] + 0.0;
-    pairs->free[6] = false;
-    pairs->joints[7][0] = at[14] + 0.0;
-    pairs->joints[7][1] = at[15] + 0.0;
-    pairs->free[7] = false;
-    pairs->joints[8][0] = at[16] + 0.0;
-    pairs->joints[8][1] = at[17] + 0.0;
-    pairs->free[8] = false;
-    pairs->joints[9][0] = at[18] + 0.0;
-    pairs->joints[9][1] = at[19] + 0.0;
-    pairs->free[9] = false;
-    pairs->joints[10][0] = at[20] + 0.0;
-    pairs->joints[10][1] = at[21] + 0.0;
-    pairs->free[10] = false;
+    pairs->joints[0][0] = at[0] + 0.0; pairs->joints[0][1] = at[1] + 0.0;
+    pairs->joints[1][0] = at[2] + 0.0; pairs->joints[1][1] = at[3] + 0.0;
+    pairs->joints[2][0] = at[4] + 0.0; pairs->joints[2][1] = at[5] + 0.0;
+    pairs->joints[3][0] = at[6] + 0.0; pairs->joints[3][1] = at[7] + 0.0;
+    pairs->joints[4][0] = at[8] + 0.0; pairs->joints[4][1] = at[9] + 0.0;
+    pairs->joints[5][0] = at[10] + 0.0; pairs->joints[5][1] = at[11] + 0.0;
+    pairs->joints[6][0] = at[12] + 0.0; pairs->joints[6][1] = at[13] + 0.0;
+    pairs->joints[7][0] = at[14] + 0.0; pairs->joints[7][1] = at[15] + 0.0;
+    pairs->joints[8][0] = at[16] + 0.0; pairs->joints[8][1] = at[17] + 0.0;
+    pairs->joints[9][0] = at[18] + 0.0; pairs->joints[9][1] = at[19] + 0.0;
+    pairs->joints[10][0] = at[20] + 0.0; pairs->joints[10][1] = at[21] + 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        pairs->free[i] = false;
+    }
     const Fit fit = measure_at(p, at, q);
     pairs->residual = fit.residual;
     pairs->branch = branch;
@@ -1675,101 +1541,41 @@ typedef struct {
     /* Whether a candidate stands for two, of which the second differs in signs. */
     bool pair;
     bool free[JOINTS];
-    double left_c4;
-    double left_s4;
-    double left_c6;
-    double left_s6;
-    double left_f6;
-    double left_c5;
-    double left_s5;
-    double left_f5;
-    double left_c1;
-    double left_s1;
-    double left_c2;
-    double left_s2;
-    double left_c3;
-    double left_s3;
-    double right_c2;
-    double right_s2;
-    double right_f2;
-    double right_c4;
-    double right_s4;
-    double right_c3;
-    double right_s3;
-    double right_f3;
-    double right_c5;
-    double right_s5;
-    double right_c6;
-    double right_s6;
+    double left_c4, left_s4, left_c6, left_s6, left_f6, left_c5, left_s5, left_f5, left_c1, left_s1,
+        left_c2, left_s2, left_c3, left_s3, right_c2, right_s2, right_f2, right_c4, right_s4, right_c3,
+        right_s3, right_f3, right_c5, right_s5, right_c6, right_s6;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
-/* Chart 1 of block 13: generic.
- */
+/* Chart 1 of block 13: generic. */
 INLINE static void chart_13_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double at[PLACES] = {
-        known->left_c1,
-        known->left_s1,
-        known->left_c2,
-        known->left_s2,
-        known->left_c3,
-        known->left_s3,
-        known->left_c4,
-        known->left_s4,
-        known->left_c5,
-        known->left_s5,
-        known->left_c6,
-        known->left_s6,
-        known->right_c2,
-        known->right_s2,
-        known->right_c3,
-        known->right_s3,
-        known->right_c4,
-        known->right_s4,
-        known->right_c5,
-        known->right_s5,
-        known->right_c6,
-        known->right_s6,
+        known->left_c1, known->left_s1, known->left_c2, known->left_s2, known->left_c3, known->left_s3,
+        known->left_c4, known->left_s4, known->left_c5, known->left_s5, known->left_c6, known->left_s6,
+        known->right_c2, known->right_s2, known->right_c3, known->right_s3, known->right_c4,
+        known->right_s4, known->right_c5, known->right_s5, known->right_c6, known->right_s6,
     };
     finish(p, known->branch, known->last, known->close, at, known->free, answers);
     if (known->pair) {
         const double at[PLACES] = {
-            known->left_c1,
-            known->left_s1,
-            known->left_c2,
-            known->left_s2,
-            known->left_c3,
-            known->left_s3,
-            known->left_c4,
-            known->left_s4,
-            known->left_c5,
-            known->left_s5,
-            known->left_c6,
-            known->left_s6,
-            known->right_c2,
-            known->right_s2,
-            known->right_c3,
-            known->right_s3,
-            known->right_c4,
-            known->right_s4,
-            -known->right_c5,
-            -known->right_s5,
-            -known->right_c6,
-            known->right_s6,
+            known->left_c1, known->left_s1, known->left_c2, known->left_s2, known->left_c3, known->left_s3,
+            known->left_c4, known->left_s4, known->left_c5, known->left_s5, known->left_c6, known->left_s6,
+            known->right_c2, known->right_s2, known->right_c3, known->right_s3, known->right_c4,
+            known->right_s4, -known->right_c5, -known->right_s5, -known->right_c6, known->right_s6,
         };
         finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
     }
@@ -1783,20 +1589,15 @@ INLINE static void block_13(const Parameters *p, const Known *known, Answers *an
 
 /* What the charts of block 12 share. */
 typedef struct {
-    double r38;
-    double r39;
+    double r38, r39;
 } Shared12;
 
-/* Chart 1 of block 12: generic.
- */
+/* Chart 1 of block 12: generic. */
 INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
     const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38, r44 = 1.0 / sqrt(fmax(r42, 0.0));
     const double right_c6 = shared->r39 * r44, right_s6 = 0.0 - shared->r38 * r44;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.right_c6 = right_c6;
     next.right_s6 = right_s6;
     block_13(p, &next, answers);
@@ -1830,13 +1631,11 @@ COLD static void again_12(const Parameters *p, const Known *known, Answers *answ
 
 /* What the charts of block 11 share. */
 typedef struct {
-    double r32;
-    double r33;
+    double r32, r33;
 } Shared11;
 
 /* Chart 1 of block 11: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r34 = shared->r32 * shared->r32, r35 = shared->r33 * shared->r33, r36 = r34 + r35;
@@ -1861,20 +1660,18 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
 
 /* Chart 2 of block 11: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
- * Free: right_AnklePitch.
- */
+ * Free: right_AnklePitch. */
 static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r36 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
     if (!is_near(r36, 0.0002312)) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[9] = true;
         next.right_c5 = right_c5;
         next.right_s5 = right_s5;
@@ -1909,17 +1706,11 @@ COLD static void again_11(const Parameters *p, const Known *known, Answers *answ
 
 /* What the charts of block 10 share. */
 typedef struct {
-    double r19;
-    double r30;
-    double r32;
-    double r33;
-    double r38;
-    double r39;
+    double r19, r30, r32, r33, r38, r39;
 } Shared10;
 
 /* Chart 1 of block 10: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r42 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
@@ -1933,7 +1724,6 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
-    next.close = known->close;
     next.right_c3 = right_c3;
     next.right_s3 = right_s3;
     next.right_f3 = right_f3;
@@ -1942,8 +1732,7 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
 
 /* Chart 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: right_HipPitch.
- */
+ * Free: right_HipPitch. */
 static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r42 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
@@ -1951,12 +1740,11 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
         return;
     }
     const double right_f3 = 1000000.0;
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double right_c3 = SAMPLES_1[i0][0], right_s3 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.close = known->close;
         next.free[7] = true;
         next.right_c3 = right_c3;
         next.right_s3 = right_s3;
@@ -1987,8 +1775,7 @@ typedef struct {
     double r28;
 } Shared9;
 
-/* Chart 1 of block 9: generic.
- */
+/* Chart 1 of block 9: generic. */
 INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
@@ -2029,15 +1816,11 @@ COLD static void again_9(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 8 share. */
 typedef struct {
-    double r20;
-    double r21;
-    double r25;
-    double r26;
+    double r20, r21, r25, r26;
 } Shared8;
 
 /* Chart 1 of block 8: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     const double r27 = shared->r20 * shared->r20, r28 = shared->r21 * shared->r21, r29 = r27 + r28;
@@ -2063,8 +1846,7 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 8: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
- * Free: right_HipRoll.
- */
+ * Free: right_HipRoll. */
 static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     const double r29 = shared->r20 * shared->r20 + shared->r21 * shared->r21;
@@ -2073,12 +1855,11 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
         return;
     }
     const double right_f2 = 1000000.0;
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double right_c2 = SAMPLES_1[i0][0], right_s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[6] = true;
         next.right_c2 = right_c2;
         next.right_s2 = right_s2;
@@ -2101,14 +1882,10 @@ static void block_8(const Parameters *p, const Known *known, Answers *answers)
     chart_8_2(p, known, shared, answers);
 }
 
-/* Chart 1 of block 7: across x.
- */
+/* Chart 1 of block 7: across x. */
 static void chart_7_1(const Parameters *p, const Known *known, Answers *answers)
 {
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     block_8(p, &next, answers);
 }
 
@@ -2119,14 +1896,10 @@ static double claim_7_1(const Parameters *p)
     return fabs(r2);
 }
 
-/* Chart 2 of block 7: across y.
- */
+/* Chart 2 of block 7: across y. */
 static void chart_7_2(const Parameters *p, const Known *known, Answers *answers)
 {
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     block_8(p, &next, answers);
 }
 
@@ -2137,14 +1910,10 @@ static double claim_7_2(const Parameters *p)
     return fabs(r2);
 }
 
-/* Chart 3 of block 7: across z.
- */
+/* Chart 3 of block 7: across z. */
 static void chart_7_3(const Parameters *p, const Known *known, Answers *answers)
 {
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     block_8(p, &next, answers);
 }
 
@@ -2176,21 +1945,16 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r59;
-    double r62;
+    double r59, r62;
 } Shared6;
 
-/* Chart 1 of block 6: generic.
- */
+/* Chart 1 of block 6: generic. */
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
     const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
     const double left_s3 = 0.0 - r63 * r69;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.left_c3 = left_c3;
     next.left_s3 = left_s3;
     block_7(p, &next, answers);
@@ -2222,20 +1986,15 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r19;
-    double r21;
+    double r19, r21;
 } Shared5;
 
-/* Chart 1 of block 5: generic.
- */
+/* Chart 1 of block 5: generic. */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
     const double left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.left_c2 = left_c2;
     next.left_s2 = left_s2;
     block_6(p, &next, answers);
@@ -2263,13 +2022,11 @@ COLD static void again_5(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r6;
-    double r10;
+    double r6, r10;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10, r13 = r11 + r12;
@@ -2293,20 +2050,18 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
- * Free: HipYawPitch.
- */
+ * Free: HipYawPitch. */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r13 = shared->r6 * shared->r6 + shared->r10 * shared->r10;
     if (!is_near(r13, 1.2e-6)) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[0] = true;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
@@ -2335,19 +2090,11 @@ COLD static void again_4(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r41;
-    double r50;
-    double r67;
-    double r68;
-    double r69;
-    double r83;
-    double r84;
-    double r85;
+    double r41, r50, r67, r68, r69, r83, r84, r85;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
@@ -2361,7 +2108,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
-    next.close = known->close;
     next.left_c5 = left_c5;
     next.left_s5 = left_s5;
     next.left_f5 = left_f5;
@@ -2370,8 +2116,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: left_AnklePitch.
- */
+ * Free: left_AnklePitch. */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
@@ -2380,12 +2125,11 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     const double left_f5 = 1000000.0;
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.close = known->close;
         next.free[4] = true;
         next.left_c5 = left_c5;
         next.left_s5 = left_s5;
@@ -2432,15 +2176,11 @@ COLD static void again_3(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r11;
-    double r18;
-    double r22;
-    double r23;
+    double r11, r18, r22, r23;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18, r26 = r24 + r25;
@@ -2466,8 +2206,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
- * Free: left_AnkleRoll.
- */
+ * Free: left_AnkleRoll. */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r26 = shared->r11 * shared->r11 + shared->r18 * shared->r18;
@@ -2476,12 +2215,11 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     const double left_f6 = 1000000.0;
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[5] = true;
         next.left_c6 = left_c6;
         next.left_s6 = left_s6;
@@ -2509,8 +2247,7 @@ typedef struct {
     double r28;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
- */
+/* Chart 1 of block 1: generic. */
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
@@ -2671,71 +2408,31 @@ int nao_legs_solve_pairs(const double *target, nao_legs_pairs *out)
     }
     Solution list[NAO_LEGS_CAPACITY];
     const int count = nao_legs_solve(target, list);
-    for (int i = 0; i < count; i++) {
-        const Solution *answer = &list[i];
-        out[i].residual = answer->residual;
-        out[i].branch = answer->branch;
-        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
-        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
-        out[i].free[0] = answer->free[0];
-        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
-        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
-        out[i].free[1] = answer->free[1];
-        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
-        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
-        out[i].free[2] = answer->free[2];
-        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
-        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
-        out[i].free[3] = answer->free[3];
-        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
-        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
-        out[i].free[4] = answer->free[4];
-        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
-        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
-        out[i].free[5] = answer->free[5];
-        out[i].joints[6][0] = cos(answer->q[6]) + 0.0;
-        out[i].joints[6][1] = sin(answer->q[6]) + 0.0;
-        out[i].free[6] = answer->free[6];
-        out[i].joints[7][0] = cos(answer->q[7]) + 0.0;
-        out[i].joints[7][1] = sin(answer->q[7]) + 0.0;
-        out[i].free[7] = answer->free[7];
-        out[i].joints[8][0] = cos(answer->q[8]) + 0.0;
-        out[i].joints[8][1] = sin(answer->q[8]) + 0.0;
-        out[i].free[8] = answer->free[8];
-        out[i].joints[9][0] = cos(answer->q[9]) + 0.0;
-        out[i].joints[9][1] = sin(answer->q[9]) + 0.0;
-        out[i].free[9] = answer->free[9];
-        out[i].joints[10][0] = cos(answer->q[10]) + 0.0;
-        out[i].joints[10][1] = sin(answer->q[10]) + 0.0;
-        out[i].free[10] = answer->free[10];
+    for (int k = 0; k < count; k++) {
+        const Solution *answer = &list[k];
+        out[k].residual = answer->residual;
+        out[k].branch = answer->branch;
+        for (size_t i = 0; i < JOINTS; i++) {
+            const double value = answer->q[i];
+            out[k].joints[i][0] = cos(value) + 0.0;
+            out[k].joints[i][1] = sin(value) + 0.0;
+            out[k].free[i] = answer->free[i];
+        }
     }
     return count;
 }
-
 
 void nao_legs_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
-    target[3] = reached[3];
-    target[4] = reached[6];
-    target[5] = reached[9];
-    target[6] = reached[4];
-    target[7] = reached[7];
-    target[8] = reached[10];
-    target[9] = reached[5];
-    target[10] = reached[8];
-    target[11] = reached[11];
-    target[12] = reached[12];
-    target[13] = reached[13];
-    target[14] = reached[14];
-    target[15] = reached[15];
-    target[16] = reached[16];
-    target[17] = reached[17];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
+    target[3] = reached[3]; target[4] = reached[6]; target[5] = reached[9];
+    target[6] = reached[4]; target[7] = reached[7]; target[8] = reached[10];
+    target[9] = reached[5]; target[10] = reached[8]; target[11] = reached[11];
+    target[12] = reached[12]; target[13] = reached[13]; target[14] = reached[14];
+    target[15] = reached[15]; target[16] = reached[16]; target[17] = reached[17];
 }
 
 double nao_legs_residual(const double *given, const double *q)

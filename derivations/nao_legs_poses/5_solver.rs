@@ -4,30 +4,11 @@
 //! - Hash of the input: 065ce0fa72de0de2
 //!
 //! Target, in order:
-//! - `left_px` (m)
-//! - `left_py` (m)
-//! - `left_pz` (m)
-//! - `left_r11` (1)
-//! - `left_r12` (1)
-//! - `left_r13` (1)
-//! - `left_r21` (1)
-//! - `left_r22` (1)
-//! - `left_r23` (1)
-//! - `left_r31` (1)
-//! - `left_r32` (1)
-//! - `left_r33` (1)
-//! - `right_px` (m)
-//! - `right_py` (m)
-//! - `right_pz` (m)
-//! - `right_r11` (1)
-//! - `right_r12` (1)
-//! - `right_r13` (1)
-//! - `right_r21` (1)
-//! - `right_r22` (1)
-//! - `right_r23` (1)
-//! - `right_r31` (1)
-//! - `right_r32` (1)
-//! - `right_r33` (1)
+//! `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
+//! `left_r21` (1), `left_r22` (1), `left_r23` (1), `left_r31` (1), `left_r32` (1), `left_r33` (1),
+//! `right_px` (m), `right_py` (m), `right_pz` (m), `right_r11` (1), `right_r12` (1),
+//! `right_r13` (1), `right_r21` (1), `right_r22` (1), `right_r23` (1), `right_r31` (1),
+//! `right_r32` (1), `right_r33` (1).
 //!
 //! Joints, in order; angles lie in (-pi, pi]:
 //! - `HipYawPitch` (rad)
@@ -44,10 +25,8 @@
 //!
 //! A target has 75 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
 //!
-//! Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
-//! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
-//! scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
-//! answer is polished by 32 Newton steps at most.
+//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
 //! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
@@ -159,19 +138,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
     let mut list = [Solution::EMPTY; CAPACITY];
     let count = solve(target, &mut list)?;
     for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = [
-            [q[0].cos() + 0.0, q[0].sin() + 0.0],
-            [q[1].cos() + 0.0, q[1].sin() + 0.0],
-            [q[2].cos() + 0.0, q[2].sin() + 0.0],
-            [q[3].cos() + 0.0, q[3].sin() + 0.0],
-            [q[4].cos() + 0.0, q[4].sin() + 0.0],
-            [q[5].cos() + 0.0, q[5].sin() + 0.0],
-            [q[6].cos() + 0.0, q[6].sin() + 0.0],
-            [q[7].cos() + 0.0, q[7].sin() + 0.0],
-            [q[8].cos() + 0.0, q[8].sin() + 0.0],
-            [q[9].cos() + 0.0, q[9].sin() + 0.0],
-            [q[10].cos() + 0.0, q[10].sin() + 0.0],
-        ];
+        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
         *pairs = Pairs { joints, residual, branch, free };
     }
     Ok(count)
@@ -293,7 +260,6 @@ fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]
     None
 }
 
-
 /// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
 /// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
 /// its weight, which is not negative.
@@ -370,6 +336,9 @@ const APART: f64 = 0.7;
 const SPLIT: f64 = 0.001;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 const LEVER: f64 = 0.1;
+/// Points around a candidate are so much farther where no nearer one leads to an answer.
+const FARTHER: f64 = 16.0;
+const FARTHEST: f64 = 256.0;
 /// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
 /// is added to it in these.
 const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
@@ -443,30 +412,10 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Parameters of the equations.
 struct Parameters {
-    left_px: f64,
-    left_py: f64,
-    left_pz: f64,
-    left_r11: f64,
-    left_r12: f64,
-    left_r13: f64,
-    left_r21: f64,
-    left_r22: f64,
-    left_r23: f64,
-    left_r31: f64,
-    left_r32: f64,
-    left_r33: f64,
-    right_px: f64,
-    right_py: f64,
-    right_pz: f64,
-    right_r11: f64,
-    right_r12: f64,
-    right_r13: f64,
-    right_r21: f64,
-    right_r22: f64,
-    right_r23: f64,
-    right_r31: f64,
-    right_r32: f64,
-    right_r33: f64,
+    left_px: f64, left_py: f64, left_pz: f64, left_r11: f64, left_r12: f64, left_r13: f64,
+    left_r21: f64, left_r22: f64, left_r23: f64, left_r31: f64, left_r32: f64, left_r33: f64,
+    right_px: f64, right_py: f64, right_pz: f64, right_r11: f64, right_r12: f64, right_r13: f64,
+    right_r21: f64, right_r22: f64, right_r23: f64, right_r31: f64, right_r32: f64, right_r33: f64,
     /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
     magnitude: f64,
 }
@@ -510,40 +459,24 @@ struct Known {
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
     free: [bool; JOINTS],
-    left_c1: f64,
-    left_s1: f64,
-    left_c4: f64,
-    left_s4: f64,
-    left_c6: f64,
-    left_s6: f64,
-    left_c5: f64,
-    left_s5: f64,
-    left_c2: f64,
-    left_s2: f64,
-    left_c3: f64,
-    left_s3: f64,
-    right_c4: f64,
-    right_s4: f64,
-    right_c6: f64,
-    right_s6: f64,
-    right_c5: f64,
-    right_s5: f64,
-    right_c2: f64,
+    left_c1: f64, left_s1: f64, left_c4: f64, left_s4: f64, left_c6: f64, left_s6: f64, left_c5: f64,
+    left_s5: f64, left_c2: f64, left_s2: f64, left_c3: f64, left_s3: f64, right_c4: f64,
+    right_s4: f64, right_c6: f64, right_s6: f64, right_c5: f64, right_s5: f64, right_c2: f64,
     right_s2: f64,
 }
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c6: 0.0, left_s6: 0.0, left_c5: 0.0, left_s5: 0.0, left_c2: 0.0, left_s2: 0.0, left_c3: 0.0, left_s3: 0.0, right_c4: 0.0, right_s4: 0.0, right_c6: 0.0, right_s6: 0.0, right_c5: 0.0, right_s5: 0.0, right_c2: 0.0, right_s2: 0.0 };
 
 /// Where charts put a free joint: cosine and sine.
-const SAMPLES_1: [[f64; 2]; 8] = [
-    [-0.9210609940028851, -0.3894183423086505],
-    [-0.37592812418099103, -0.926648825310733],
-    [0.38941834230865047, -0.9210609940028851],
-    [0.926648825310733, -0.375928124180991],
-    [0.9210609940028851, 0.3894183423086505],
-    [0.37592812418099114, 0.926648825310733],
-    [-0.38941834230865036, 0.9210609940028851],
-    [-0.9266488253107329, 0.3759281241809912],
+const SAMPLES_1: [[f64; 2]; 16] = [
+    [-0.9210609940028851, -0.3894183423086505], [-0.7019254526931687, -0.7122504186460616],
+    [-0.37592812418099103, -0.926648825310733], [0.007300853440810815, -0.9999733484143644],
+    [0.38941834230865047, -0.9210609940028851], [0.7122504186460618, -0.7019254526931686],
+    [0.926648825310733, -0.375928124180991], [0.9999733484143644, 0.007300853440810865],
+    [0.9210609940028851, 0.3894183423086505], [0.7019254526931687, 0.7122504186460616],
+    [0.37592812418099114, 0.926648825310733], [-0.007300853440810693, 0.9999733484143644],
+    [-0.38941834230865036, 0.9210609940028851], [-0.7122504186460615, 0.7019254526931689],
+    [-0.9266488253107329, 0.3759281241809912], [-0.9999733484143644, -0.007300853440810631],
 ];
 
 /// Block 1: HipYawPitch.
@@ -584,19 +517,8 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 1 share.
-struct Shared1 {
-    r19: f64,
-    r32: f64,
-    r41: f64,
-    r54: f64,
-    r59: f64,
-    r60: f64,
-    r61: f64,
-    r63: f64,
-    r64: f64,
-    r66: f64,
-    r67: f64,
-}
+struct Shared1 { r19: f64, r32: f64, r41: f64, r54: f64, r59: f64, r60: f64, r61: f64, r63: f64, r64: f64,
+    r66: f64, r67: f64 }
 
 /// Chart 1 of block 1: generic.
 /// It runs where B*E - A*F is not zero.
@@ -704,9 +626,7 @@ fn again_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 2 share.
-struct Shared2 {
-    r28: f64,
-}
+struct Shared2 { r28: f64 }
 
 /// Chart 1 of block 2: generic.
 #[inline(always)]
@@ -751,19 +671,8 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 3 share.
-struct Shared3 {
-    r17: f64,
-    r24: f64,
-    r26: f64,
-    r28: f64,
-    r32: f64,
-    r33: f64,
-    r34: f64,
-    r35: f64,
-    r36: f64,
-    r39: f64,
-    r40: f64,
-}
+struct Shared3 { r17: f64, r24: f64, r26: f64, r28: f64, r32: f64, r33: f64, r34: f64, r35: f64, r36: f64,
+    r39: f64, r40: f64 }
 
 /// Chart 1 of block 3: generic.
 /// It runs where B*E - A*F is not zero.
@@ -889,16 +798,7 @@ fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 4 share.
-struct Shared4 {
-    r41: f64,
-    r50: f64,
-    r67: f64,
-    r68: f64,
-    r69: f64,
-    r83: f64,
-    r84: f64,
-    r85: f64,
-}
+struct Shared4 { r41: f64, r50: f64, r67: f64, r68: f64, r69: f64, r83: f64, r84: f64, r85: f64 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
@@ -956,10 +856,7 @@ fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 5 share.
-struct Shared5 {
-    r19: f64,
-    r21: f64,
-}
+struct Shared5 { r19: f64, r21: f64 }
 
 /// Chart 1 of block 5: generic.
 #[inline(always)]
@@ -998,10 +895,7 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 6 share.
-struct Shared6 {
-    r59: f64,
-    r62: f64,
-}
+struct Shared6 { r59: f64, r62: f64 }
 
 /// Chart 1 of block 6: generic.
 #[inline(always)]
@@ -1031,9 +925,7 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 7 share.
-struct Shared7 {
-    r28: f64,
-}
+struct Shared7 { r28: f64 }
 
 /// Chart 1 of block 7: generic.
 #[inline(always)]
@@ -1079,19 +971,8 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 8 share.
-struct Shared8 {
-    r17: f64,
-    r24: f64,
-    r26: f64,
-    r28: f64,
-    r32: f64,
-    r33: f64,
-    r34: f64,
-    r36: f64,
-    r37: f64,
-    r40: f64,
-    r41: f64,
-}
+struct Shared8 { r17: f64, r24: f64, r26: f64, r28: f64, r32: f64, r33: f64, r34: f64, r36: f64, r37: f64,
+    r40: f64, r41: f64 }
 
 /// Chart 1 of block 8: generic.
 /// It runs where B*E - A*F is not zero.
@@ -1217,16 +1098,7 @@ fn again_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 9 share.
-struct Shared9 {
-    r41: f64,
-    r50: f64,
-    r67: f64,
-    r68: f64,
-    r69: f64,
-    r83: f64,
-    r84: f64,
-    r85: f64,
-}
+struct Shared9 { r41: f64, r50: f64, r67: f64, r68: f64, r69: f64, r83: f64, r84: f64, r85: f64 }
 
 /// Chart 1 of block 9: generic.
 /// It runs where A^2 + B^2 is not zero.
@@ -1284,10 +1156,7 @@ fn again_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 10 share.
-struct Shared10 {
-    r19: f64,
-    r21: f64,
-}
+struct Shared10 { r19: f64, r21: f64 }
 
 /// Chart 1 of block 10: generic.
 #[inline(always)]
@@ -1326,10 +1195,7 @@ fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 11 share.
-struct Shared11 {
-    r59: f64,
-    r62: f64,
-}
+struct Shared11 { r59: f64, r62: f64 }
 
 /// Chart 1 of block 11: generic.
 #[inline(always)]
@@ -1340,28 +1206,10 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
     let right_c3 = r64 * r69;
     let right_s3 = 0.0 - r63 * r69;
     let at = [
-        known.left_c1,
-        known.left_s1,
-        known.left_c2,
-        known.left_s2,
-        known.left_c3,
-        known.left_s3,
-        known.left_c4,
-        known.left_s4,
-        known.left_c5,
-        known.left_s5,
-        known.left_c6,
-        known.left_s6,
-        known.right_c2,
-        known.right_s2,
-        right_c3,
-        right_s3,
-        known.right_c4,
-        known.right_s4,
-        known.right_c5,
-        known.right_s5,
-        known.right_c6,
-        known.right_s6,
+        known.left_c1, known.left_s1, known.left_c2, known.left_s2, known.left_c3, known.left_s3,
+        known.left_c4, known.left_s4, known.left_c5, known.left_s5, known.left_c6, known.left_s6,
+        known.right_c2, known.right_s2, right_c3, right_s3, known.right_c4, known.right_s4,
+        known.right_c5, known.right_s5, known.right_c6, known.right_s6,
     ];
     answers.finish(p, known.branch, known.last, known.close, &at, known.free);
 }
@@ -1372,28 +1220,11 @@ const TIP: usize = 24;
 /// The tip, as the equations compare it.
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
-    let left_c1 = at[0];
-    let left_s1 = at[1];
-    let left_c2 = at[2];
-    let left_s2 = at[3];
-    let left_c3 = at[4];
-    let left_s3 = at[5];
-    let left_c4 = at[6];
-    let left_s4 = at[7];
-    let left_c5 = at[8];
-    let left_s5 = at[9];
-    let left_c6 = at[10];
-    let left_s6 = at[11];
-    let right_c2 = at[12];
-    let right_s2 = at[13];
-    let right_c3 = at[14];
-    let right_s3 = at[15];
-    let right_c4 = at[16];
-    let right_s4 = at[17];
-    let right_c5 = at[18];
-    let right_s5 = at[19];
-    let right_c6 = at[20];
-    let right_s6 = at[21];
+    let [
+        left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5,
+        left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5,
+        right_c6, right_s6,
+    ] = *at;
     let r0 = left_s1 * left_c2;
     let r1 = left_s1 * left_s2;
     let r2 = left_c1 + 1.0;
@@ -1537,28 +1368,9 @@ const PLACES: usize = 22;
 /// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(), q[6].cos(), q[6].sin(), q[7].cos(), q[7].sin(), q[8].cos(), q[8].sin(), q[9].cos(), q[9].sin(), q[10].cos(), q[10].sin().
 fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
     [
-        q[0].cos(),
-        q[0].sin(),
-        q[1].cos(),
-        q[1].sin(),
-        q[2].cos(),
-        q[2].sin(),
-        q[3].cos(),
-        q[3].sin(),
-        q[4].cos(),
-        q[4].sin(),
-        q[5].cos(),
-        q[5].sin(),
-        q[6].cos(),
-        q[6].sin(),
-        q[7].cos(),
-        q[7].sin(),
-        q[8].cos(),
-        q[8].sin(),
-        q[9].cos(),
-        q[9].sin(),
-        q[10].cos(),
-        q[10].sin(),
+        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(),
+        q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(), q[6].cos(), q[6].sin(), q[7].cos(), q[7].sin(),
+        q[8].cos(), q[8].sin(), q[9].cos(), q[9].sin(), q[10].cos(), q[10].sin(),
     ]
 }
 
@@ -1577,30 +1389,14 @@ const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0
 fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
     let reached = tip(at);
     [
-        reached[0] - p.left_px,
-        reached[1] - p.left_py,
-        reached[2] - p.left_pz,
-        reached[3] - p.left_r11,
-        reached[4] - p.left_r21,
-        reached[5] - p.left_r31,
-        reached[6] - p.left_r12,
-        reached[7] - p.left_r22,
-        reached[8] - p.left_r32,
-        reached[9] - p.left_r13,
-        reached[10] - p.left_r23,
-        reached[11] - p.left_r33,
-        reached[12] - p.right_px,
-        reached[13] - p.right_py,
-        reached[14] - p.right_pz,
-        reached[15] - p.right_r11,
-        reached[16] - p.right_r21,
-        reached[17] - p.right_r31,
-        reached[18] - p.right_r12,
-        reached[19] - p.right_r22,
-        reached[20] - p.right_r32,
-        reached[21] - p.right_r13,
-        reached[22] - p.right_r23,
-        reached[23] - p.right_r33,
+        reached[0] - p.left_px, reached[1] - p.left_py, reached[2] - p.left_pz, reached[3] - p.left_r11,
+        reached[4] - p.left_r21, reached[5] - p.left_r31, reached[6] - p.left_r12,
+        reached[7] - p.left_r22, reached[8] - p.left_r32, reached[9] - p.left_r13,
+        reached[10] - p.left_r23, reached[11] - p.left_r33, reached[12] - p.right_px,
+        reached[13] - p.right_py, reached[14] - p.right_pz, reached[15] - p.right_r11,
+        reached[16] - p.right_r21, reached[17] - p.right_r31, reached[18] - p.right_r12,
+        reached[19] - p.right_r22, reached[20] - p.right_r32, reached[21] - p.right_r13,
+        reached[22] - p.right_r23, reached[23] - p.right_r33,
     ]
 }
 
@@ -1616,28 +1412,11 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
-    let left_c1 = at[0];
-    let left_s1 = at[1];
-    let left_c2 = at[2];
-    let left_s2 = at[3];
-    let left_c3 = at[4];
-    let left_s3 = at[5];
-    let left_c4 = at[6];
-    let left_s4 = at[7];
-    let left_c5 = at[8];
-    let left_s5 = at[9];
-    let left_c6 = at[10];
-    let left_s6 = at[11];
-    let right_c2 = at[12];
-    let right_s2 = at[13];
-    let right_c3 = at[14];
-    let right_s3 = at[15];
-    let right_c4 = at[16];
-    let right_s4 = at[17];
-    let right_c5 = at[18];
-    let right_s5 = at[19];
-    let right_c6 = at[20];
-    let right_s6 = at[21];
+    let [
+        left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5,
+        left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5,
+        right_c6, right_s6,
+    ] = *at;
     let r0 = left_s1 * left_c2;
     let r1 = left_s1 * left_s2;
     let r2 = left_c1 + 1.0;
@@ -1988,18 +1767,27 @@ impl Answers<'_> {
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters.
+    /// matters. Where none leads to an answer, from farther ones.
     fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
         let weights = weights(p, &end.0);
-        for i in 0..JOINTS {
-            for sign in [-1.0, 1.0] {
-                let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                let way = f64::min((missed / weight).sqrt(), APART);
-                let start = moved(&end.0, i, 2.0 * sign * way);
-                let start = (start, measure(p, &start));
-                let start = polish(p, start, &NONE_FREE);
-                self.keep(p, branch, last, start, free);
+        let mut is_found = end.1.accepted;
+        let mut farther = 1.0;
+        while farther <= FARTHEST {
+            for i in 0..JOINTS {
+                for sign in [-1.0, 1.0] {
+                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
+                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
+                    let start = moved(&end.0, i, 2.0 * sign * way);
+                    let start = (start, measure(p, &start));
+                    let start = polish(p, start, &NONE_FREE);
+                    is_found |= start.1.accepted;
+                    self.keep(p, branch, last, start, free);
+                }
             }
+            if is_found {
+                return;
+            }
+            farther *= FARTHER;
         }
     }
 
@@ -2233,19 +2021,7 @@ fn follow(p: &Parameters, q: [f64; JOINTS], free: &[bool; JOINTS]) -> ([f64; JOI
 
 /// `a - b` joint by joint, angles by the shorter way round.
 fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        shorter(a[0] - b[0]),
-        shorter(a[1] - b[1]),
-        shorter(a[2] - b[2]),
-        shorter(a[3] - b[3]),
-        shorter(a[4] - b[4]),
-        shorter(a[5] - b[5]),
-        shorter(a[6] - b[6]),
-        shorter(a[7] - b[7]),
-        shorter(a[8] - b[8]),
-        shorter(a[9] - b[9]),
-        shorter(a[10] - b[10]),
-    ]
+    core::array::from_fn(|i| shorter(a[i] - b[i]))
 }
 
 fn shorter(difference: f64) -> f64 {
@@ -2279,19 +2055,7 @@ fn is_isolated(answer: &Solution) -> bool {
 
 /// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
 fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-    ]
+    [tolerance; JOINTS]
 }
 
 /// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
@@ -2449,37 +2213,12 @@ fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -
 
 /// The longest way of a joint in a step: an angle, or a share of the length scale.
 fn longest(step: &[f64; JOINTS]) -> f64 {
-    let ways = [
-step[0].abs(),
-step[1].abs(),
-step[2].abs(),
-step[3].abs(),
-step[4].abs(),
-step[5].abs(),
-step[6].abs(),
-step[7].abs(),
-step[8].abs(),
-step[9].abs(),
-step[10].abs(),
-    ];
-    ways.iter().fold(0.0, |longest, &way| f64::max(longest, way))
+    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
 }
 
 /// `q - step`, angles in (-pi, pi].
 fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        wrap(q[0] - step[0]),
-        wrap(q[1] - step[1]),
-        wrap(q[2] - step[2]),
-        wrap(q[3] - step[3]),
-        wrap(q[4] - step[4]),
-        wrap(q[5] - step[5]),
-        wrap(q[6] - step[6]),
-        wrap(q[7] - step[7]),
-        wrap(q[8] - step[8]),
-        wrap(q[9] - step[9]),
-        wrap(q[10] - step[10]),
-    ]
+    core::array::from_fn(|i| wrap(q[i] - step[i]))
 }
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
@@ -2494,38 +2233,13 @@ fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
     }
-    [
-        f64::min(weights[0], 1.0),
-        f64::min(weights[1], 1.0),
-        f64::min(weights[2], 1.0),
-        f64::min(weights[3], 1.0),
-        f64::min(weights[4], 1.0),
-        f64::min(weights[5], 1.0),
-        f64::min(weights[6], 1.0),
-        f64::min(weights[7], 1.0),
-        f64::min(weights[8], 1.0),
-        f64::min(weights[9], 1.0),
-        f64::min(weights[10], 1.0),
-    ]
+    core::array::from_fn(|i| f64::min(weights[i], 1.0))
 }
 
 /// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
 fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let ends = [
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-        wrap(q[6] + way),
-        wrap(q[7] + way),
-        wrap(q[8] + way),
-        wrap(q[9] + way),
-        wrap(q[10] + way),
-    ];
     let mut next = *q;
-    next[i] = ends[i];
+    next[i] = wrap(q[i] + way);
     next
 }
 

@@ -4,32 +4,11 @@
  * Hash of the input: 97304683922ba4ba
  *
  * Target, in order:
- *   left_px (m)
- *   left_py (m)
- *   left_pz (m)
- *   left_r11 (1)
- *   left_r12 (1)
- *   left_r13 (1)
- *   left_r21 (1)
- *   left_r22 (1)
- *   left_r23 (1)
- *   left_r31 (1)
- *   left_r32 (1)
- *   left_r33 (1)
- *   left_TorsoPitch (rad)
- *   left_TorsoRoll (rad)
- *   right_px (m)
- *   right_py (m)
- *   right_pz (m)
- *   right_r11 (1)
- *   right_r12 (1)
- *   right_r13 (1)
- *   right_r21 (1)
- *   right_r22 (1)
- *   right_r23 (1)
- *   right_r31 (1)
- *   right_r32 (1)
- *   right_r33 (1)
+ *   `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
+ *   `left_r21` (1), `left_r22` (1), `left_r23` (1), `left_r31` (1), `left_r32` (1), `left_r33` (1),
+ *   `left_TorsoPitch` (rad), `left_TorsoRoll` (rad), `right_px` (m), `right_py` (m), `right_pz` (m),
+ *   `right_r11` (1), `right_r12` (1), `right_r13` (1), `right_r21` (1), `right_r22` (1),
+ *   `right_r23` (1), `right_r31` (1), `right_r32` (1), `right_r33` (1)
  * Joints, in order; angles lie in (-pi, pi]:
  *   TorsoYaw (rad)
  *   TorsoPitch (rad)
@@ -48,10 +27,8 @@
  *
  * A target has 270 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
- * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 32 Newton steps at most.
+ * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+ * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * NAO_LEGS_YAW_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -153,7 +130,6 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #include <float.h>
 #include <math.h>
 
-
 #define INPUTS NAO_LEGS_YAW_INPUTS
 #define JOINTS NAO_LEGS_YAW_JOINTS
 #define EQUATIONS 28
@@ -185,6 +161,9 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+#define FARTHER 16.0
+#define FARTHEST 256.0
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
@@ -635,34 +614,9 @@ static Roots real_roots(const double *coefficients, size_t length, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double left_px;
-    double left_py;
-    double left_pz;
-    double left_r11;
-    double left_r12;
-    double left_r13;
-    double left_r21;
-    double left_r22;
-    double left_r23;
-    double left_r31;
-    double left_r32;
-    double left_r33;
-    double left_c2;
-    double left_s2;
-    double left_c3;
-    double left_s3;
-    double right_px;
-    double right_py;
-    double right_pz;
-    double right_r11;
-    double right_r12;
-    double right_r13;
-    double right_r21;
-    double right_r22;
-    double right_r23;
-    double right_r31;
-    double right_r32;
-    double right_r33;
+    double left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31,
+        left_r32, left_r33, left_c2, left_s2, left_c3, left_s3, right_px, right_py, right_pz, right_r11,
+        right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33;
     /* The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale. */
     double magnitude;
 } Parameters;
@@ -792,34 +746,20 @@ static void tip(const double *at, double *reached)
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]), cos(q[5]), sin(q[5]), cos(q[6]), sin(q[6]), cos(q[7]), sin(q[7]), cos(q[8]), sin(q[8]), cos(q[9]), sin(q[9]), cos(q[10]), sin(q[10]), cos(q[11]), sin(q[11]), cos(q[12]), sin(q[12]), cos(q[13]), sin(q[13]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
-    at[4] = cos(q[2]);
-    at[5] = sin(q[2]);
-    at[6] = cos(q[3]);
-    at[7] = sin(q[3]);
-    at[8] = cos(q[4]);
-    at[9] = sin(q[4]);
-    at[10] = cos(q[5]);
-    at[11] = sin(q[5]);
-    at[12] = cos(q[6]);
-    at[13] = sin(q[6]);
-    at[14] = cos(q[7]);
-    at[15] = sin(q[7]);
-    at[16] = cos(q[8]);
-    at[17] = sin(q[8]);
-    at[18] = cos(q[9]);
-    at[19] = sin(q[9]);
-    at[20] = cos(q[10]);
-    at[21] = sin(q[10]);
-    at[22] = cos(q[11]);
-    at[23] = sin(q[11]);
-    at[24] = cos(q[12]);
-    at[25] = sin(q[12]);
-    at[26] = cos(q[13]);
-    at[27] = sin(q[13]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
+    at[4] = cos(q[2]); at[5] = sin(q[2]);
+    at[6] = cos(q[3]); at[7] = sin(q[3]);
+    at[8] = cos(q[4]); at[9] = sin(q[4]);
+    at[10] = cos(q[5]); at[11] = sin(q[5]);
+    at[12] = cos(q[6]); at[13] = sin(q[6]);
+    at[14] = cos(q[7]); at[15] = sin(q[7]);
+    at[16] = cos(q[8]); at[17] = sin(q[8]);
+    at[18] = cos(q[9]); at[19] = sin(q[9]);
+    at[20] = cos(q[10]); at[21] = sin(q[10]);
+    at[22] = cos(q[11]); at[23] = sin(q[11]);
+    at[24] = cos(q[12]); at[25] = sin(q[12]);
+    at[26] = cos(q[13]); at[27] = sin(q[13]);
 }
 
 #define SIZES 2
@@ -837,40 +777,17 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->left_c2,
-            reached[1] - p->left_s2,
-            reached[2] - p->left_c3,
-            reached[3] - p->left_s3,
-            reached[4] - p->left_px,
-            reached[5] - p->left_py,
-            reached[6] - p->left_pz,
-            reached[7] - p->left_r11,
-            reached[8] - p->left_r21,
-            reached[9] - p->left_r31,
-            reached[10] - p->left_r12,
-            reached[11] - p->left_r22,
-            reached[12] - p->left_r32,
-            reached[13] - p->left_r13,
-            reached[14] - p->left_r23,
-            reached[15] - p->left_r33,
-            reached[16] - p->right_px,
-            reached[17] - p->right_py,
-            reached[18] - p->right_pz,
-            reached[19] - p->right_r11,
-            reached[20] - p->right_r21,
-            reached[21] - p->right_r31,
-            reached[22] - p->right_r12,
-            reached[23] - p->right_r22,
-            reached[24] - p->right_r32,
-            reached[25] - p->right_r13,
-            reached[26] - p->right_r23,
-            reached[27] - p->right_r33,
-        },
-        {
-            1.0,
-            0.3467054146165801,
-        },
+        { reached[0] - p->left_c2, reached[1] - p->left_s2, reached[2] - p->left_c3,
+            reached[3] - p->left_s3, reached[4] - p->left_px, reached[5] - p->left_py,
+            reached[6] - p->left_pz, reached[7] - p->left_r11, reached[8] - p->left_r21,
+            reached[9] - p->left_r31, reached[10] - p->left_r12, reached[11] - p->left_r22,
+            reached[12] - p->left_r32, reached[13] - p->left_r13, reached[14] - p->left_r23,
+            reached[15] - p->left_r33, reached[16] - p->right_px, reached[17] - p->right_py,
+            reached[18] - p->right_pz, reached[19] - p->right_r11, reached[20] - p->right_r21,
+            reached[21] - p->right_r31, reached[22] - p->right_r12, reached[23] - p->right_r22,
+            reached[24] - p->right_r32, reached[25] - p->right_r13, reached[26] - p->right_r23,
+            reached[27] - p->right_r33 },
+        { 1.0, 0.3467054146165801 },
     };
     return result;
 }
@@ -1140,7 +1057,6 @@ static double angle(double cosine, double sine)
     return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -1258,48 +1174,20 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = wrap(q[2] - step[2]);
-    next[3] = wrap(q[3] - step[3]);
-    next[4] = wrap(q[4] - step[4]);
-    next[5] = wrap(q[5] - step[5]);
-    next[6] = wrap(q[6] - step[6]);
-    next[7] = wrap(q[7] - step[7]);
-    next[8] = wrap(q[8] - step[8]);
-    next[9] = wrap(q[9] - step[9]);
-    next[10] = wrap(q[10] - step[10]);
-    next[11] = wrap(q[11] - step[11]);
-    next[12] = wrap(q[12] - step[12]);
-    next[13] = wrap(q[13] - step[13]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]),
-fabs(step[3]),
-fabs(step[4]),
-fabs(step[5]),
-fabs(step[6]),
-fabs(step[7]),
-fabs(step[8]),
-fabs(step[9]),
-fabs(step[10]),
-fabs(step[11]),
-fabs(step[12]),
-fabs(step[13]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -1432,45 +1320,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = fmin(weight[2], 1.0);
-    weight[3] = fmin(weight[3], 1.0);
-    weight[4] = fmin(weight[4], 1.0);
-    weight[5] = fmin(weight[5], 1.0);
-    weight[6] = fmin(weight[6], 1.0);
-    weight[7] = fmin(weight[7], 1.0);
-    weight[8] = fmin(weight[8], 1.0);
-    weight[9] = fmin(weight[9], 1.0);
-    weight[10] = fmin(weight[10], 1.0);
-    weight[11] = fmin(weight[11], 1.0);
-    weight[12] = fmin(weight[12], 1.0);
-    weight[13] = fmin(weight[13], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-        wrap(q[6] + way),
-        wrap(q[7] + way),
-        wrap(q[8] + way),
-        wrap(q[9] + way),
-        wrap(q[10] + way),
-        wrap(q[11] + way),
-        wrap(q[12] + way),
-        wrap(q[13] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -1493,40 +1351,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = shorter(a[2] - b[2]);
-    difference[3] = shorter(a[3] - b[3]);
-    difference[4] = shorter(a[4] - b[4]);
-    difference[5] = shorter(a[5] - b[5]);
-    difference[6] = shorter(a[6] - b[6]);
-    difference[7] = shorter(a[7] - b[7]);
-    difference[8] = shorter(a[8] - b[8]);
-    difference[9] = shorter(a[9] - b[9]);
-    difference[10] = shorter(a[10] - b[10]);
-    difference[11] = shorter(a[11] - b[11]);
-    difference[12] = shorter(a[12] - b[12]);
-    difference[13] = shorter(a[13] - b[13]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance;
-    limit[3] = tolerance;
-    limit[4] = tolerance;
-    limit[5] = tolerance;
-    limit[6] = tolerance;
-    limit[7] = tolerance;
-    limit[8] = tolerance;
-    limit[9] = tolerance;
-    limit[10] = tolerance;
-    limit[11] = tolerance;
-    limit[12] = tolerance;
-    limit[13] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1845,19 +1681,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1975,48 +1818,23 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
     }
     nao_legs_yaw_pairs *pairs = &answers->pairs[answers->count];
     double q[JOINTS] = {0.0};
-    pairs->joints[0][0] = at[0] + 0.0;
-    pairs->joints[0][1] = at[1] + 0.0;
-    pairs->free[0] = false;
-    pairs->joints[1][0] = at[2] + 0.0;
-    pairs->joints[1][1] = at[3] + 0.0;
-    pairs->free[1] = false;
-    pairs->joints[2][0] = at[4] + 0.0;
-    pairs->joints[2][1] = at[5] + 0.0;
-    pairs->free[2] = false;
-    pairs->joints[3][0] = at[6] + 0.0;
-    pairs->joints[3][1] = at[7] + 0.0;
-    pairs->free[3] = false;
-    pairs->joints[4][0] = at[8] + 0.0;
-    pairs->joints[4][1] = at[9] + 0.0;
-    pairs->free[4] = false;
-    pairs->joints[5][0] = at[10] + 0.0;
-    pairs->joints[5][1] = at[11] + 0.0;
-    pairs->free[5] = false;
-    pairs->joints[6][0] = at[12] + 0.0;
-    pairs->joints[6][1] = at[13] + 0.0;
-    pairs->free[6] = false;
-    pairs->joints[7][0] = at[14] + 0.0;
-    pairs->joints[7][1] = at[15] + 0.0;
-    pairs->free[7] = false;
-    pairs->joints[8][0] = at[16] + 0.0;
-    pairs->joints[8][1] = at[17] + 0.0;
-    pairs->free[8] = false;
-    pairs->joints[9][0] = at[18] + 0.0;
-    pairs->joints[9][1] = at[19] + 0.0;
-    pairs->free[9] = false;
-    pairs->joints[10][0] = at[20] + 0.0;
-    pairs->joints[10][1] = at[21] + 0.0;
-    pairs->free[10] = false;
-    pairs->joints[11][0] = at[22] + 0.0;
-    pairs->joints[11][1] = at[23] + 0.0;
-    pairs->free[11] = false;
-    pairs->joints[12][0] = at[24] + 0.0;
-    pairs->joints[12][1] = at[25] + 0.0;
-    pairs->free[12] = false;
-    pairs->joints[13][0] = at[26] + 0.0;
-    pairs->joints[13][1] = at[27] + 0.0;
-    pairs->free[13] = false;
+    pairs->joints[0][0] = at[0] + 0.0; pairs->joints[0][1] = at[1] + 0.0;
+    pairs->joints[1][0] = at[2] + 0.0; pairs->joints[1][1] = at[3] + 0.0;
+    pairs->joints[2][0] = at[4] + 0.0; pairs->joints[2][1] = at[5] + 0.0;
+    pairs->joints[3][0] = at[6] + 0.0; pairs->joints[3][1] = at[7] + 0.0;
+    pairs->joints[4][0] = at[8] + 0.0; pairs->joints[4][1] = at[9] + 0.0;
+    pairs->joints[5][0] = at[10] + 0.0; pairs->joints[5][1] = at[11] + 0.0;
+    pairs->joints[6][0] = at[12] + 0.0; pairs->joints[6][1] = at[13] + 0.0;
+    pairs->joints[7][0] = at[14] + 0.0; pairs->joints[7][1] = at[15] + 0.0;
+    pairs->joints[8][0] = at[16] + 0.0; pairs->joints[8][1] = at[17] + 0.0;
+    pairs->joints[9][0] = at[18] + 0.0; pairs->joints[9][1] = at[19] + 0.0;
+    pairs->joints[10][0] = at[20] + 0.0; pairs->joints[10][1] = at[21] + 0.0;
+    pairs->joints[11][0] = at[22] + 0.0; pairs->joints[11][1] = at[23] + 0.0;
+    pairs->joints[12][0] = at[24] + 0.0; pairs->joints[12][1] = at[25] + 0.0;
+    pairs->joints[13][0] = at[26] + 0.0; pairs->joints[13][1] = at[27] + 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        pairs->free[i] = false;
+    }
     const Fit fit = measure_at(p, at, q);
     pairs->residual = fit.residual;
     pairs->branch = branch;
@@ -2125,90 +1943,42 @@ typedef struct {
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
     bool free[JOINTS];
-    double left_c2_;
-    double left_s2_;
-    double left_c3_;
-    double left_s3_;
-    double left_c1;
-    double left_s1;
-    double left_c4;
-    double left_s4;
-    double left_c7;
-    double left_s7;
-    double left_c9;
-    double left_s9;
-    double left_c8;
-    double left_s8;
-    double left_c5;
-    double left_s5;
-    double left_c6;
-    double left_s6;
-    double right_c7;
-    double right_s7;
-    double right_c9;
-    double right_s9;
-    double right_c8;
-    double right_s8;
-    double right_c5;
-    double right_s5;
+    double left_c2_, left_s2_, left_c3_, left_s3_, left_c1, left_s1, left_c4, left_s4, left_c7, left_s7,
+        left_c9, left_s9, left_c8, left_s8, left_c5, left_s5, left_c6, left_s6, right_c7, right_s7,
+        right_c9, right_s9, right_c8, right_s8, right_c5, right_s5;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 14 share. */
 typedef struct {
-    double r95;
-    double r98;
+    double r95, r98;
 } Shared14;
 
-/* Chart 1 of block 14: generic.
- */
+/* Chart 1 of block 14: generic. */
 INLINE static void chart_14_1(const Parameters *p, const Known *known, const Shared14 *shared, Answers *answers)
 {
     const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
     const double r105 = 1.0 / sqrt(fmax(r100 * r100 + r99 * r99, 0.0)), right_c6 = r100 * r105;
     const double right_s6 = 0.0 - r99 * r105;
     const double at[PLACES] = {
-        known->left_c1,
-        known->left_s1,
-        known->left_c2_,
-        known->left_s2_,
-        known->left_c3_,
-        known->left_s3_,
-        known->left_c4,
-        known->left_s4,
-        known->left_c5,
-        known->left_s5,
-        known->left_c6,
-        known->left_s6,
-        known->left_c7,
-        known->left_s7,
-        known->left_c8,
-        known->left_s8,
-        known->left_c9,
-        known->left_s9,
-        known->right_c5,
-        known->right_s5,
-        right_c6,
-        right_s6,
-        known->right_c7,
-        known->right_s7,
-        known->right_c8,
-        known->right_s8,
-        known->right_c9,
-        known->right_s9,
+        known->left_c1, known->left_s1, known->left_c2_, known->left_s2_, known->left_c3_,
+        known->left_s3_, known->left_c4, known->left_s4, known->left_c5, known->left_s5, known->left_c6,
+        known->left_s6, known->left_c7, known->left_s7, known->left_c8, known->left_s8, known->left_c9,
+        known->left_s9, known->right_c5, known->right_s5, right_c6, right_s6, known->right_c7,
+        known->right_s7, known->right_c8, known->right_s8, known->right_c9, known->right_s9,
     };
     finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
@@ -2251,20 +2021,15 @@ INLINE static void block_14(const Parameters *p, const Known *known, Answers *an
 
 /* What the charts of block 13 share. */
 typedef struct {
-    double r44;
-    double r47;
+    double r44, r47;
 } Shared13;
 
-/* Chart 1 of block 13: generic.
- */
+/* Chart 1 of block 13: generic. */
 INLINE static void chart_13_1(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
 {
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
     const double right_c5 = shared->r47 * r52, right_s5 = shared->r44 * r52;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.right_c5 = right_c5;
     next.right_s5 = right_s5;
     block_14(p, &next, answers);
@@ -2298,16 +2063,11 @@ COLD static void again_13(const Parameters *p, const Known *known, Answers *answ
 
 /* What the charts of block 12 share. */
 typedef struct {
-    double r77;
-    double r89;
-    double r91;
-    double r92;
-    double r95;
+    double r77, r89, r91, r92, r95;
 } Shared12;
 
 /* Chart 1 of block 12: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
@@ -2321,7 +2081,6 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
-    next.close = known->close;
     next.right_c8 = right_c8;
     next.right_s8 = right_s8;
     block_13(p, &next, answers);
@@ -2329,20 +2088,18 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
 
 /* Chart 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: right_AnklePitch.
- */
+ * Free: right_AnklePitch. */
 static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
     if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared->r92, 0.004729) && is_near(shared->r91, 0.011129))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double right_c8 = SAMPLES_1[i0][0], right_s8 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.close = known->close;
         next.free[12] = true;
         next.right_c8 = right_c8;
         next.right_s8 = right_s8;
@@ -2389,22 +2146,11 @@ COLD static void again_12(const Parameters *p, const Known *known, Answers *answ
 
 /* What the charts of block 11 share. */
 typedef struct {
-    double r57;
-    double r68;
-    double r70;
-    double r72;
-    double r76;
-    double r77;
-    double r78;
-    double r80;
-    double r81;
-    double r84;
-    double r85;
+    double r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85;
 } Shared11;
 
 /* Chart 1 of block 11: generic.
- * It runs where B*E - A*F is not zero.
- */
+ * It runs where B*E - A*F is not zero. */
 INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     if (!is_away(shared->r80 - shared->r78, 16.0 * shared->r84)) {
@@ -2414,15 +2160,13 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
-    next.close = known->close;
     next.right_c9 = right_c9;
     next.right_s9 = right_s9;
     block_12(p, &next, answers);
 }
 
 /* Chart 2 of block 11: generic.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
- */
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
 static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68, r88 = r86 + r87;
@@ -2446,8 +2190,7 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
 
 /* Chart 3 of block 11: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
- * Free: right_AnkleRoll.
- */
+ * Free: right_AnkleRoll. */
 static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r88 = shared->r57 * shared->r57 + shared->r68 * shared->r68;
@@ -2455,12 +2198,11 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
     if (!(is_near(shared->r81, shared->r85) && is_near(r88, 1.0000000000000001e-7 * r91))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
-        next.close = known->close;
         next.free[13] = true;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
@@ -2469,8 +2211,7 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
 }
 
 /* Chart 4 of block 11: generic.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
- */
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
 static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72, r88 = r86 + r87;
@@ -2493,20 +2234,18 @@ static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *
 
 /* Chart 5 of block 11: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
- * Free: right_AnkleRoll.
- */
+ * Free: right_AnkleRoll. */
 static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r88 = shared->r70 * shared->r70 + shared->r72 * shared->r72;
     if (!(is_near(shared->r81, shared->r85) && is_near(r88, 0.00027380000000000004))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
-        next.close = known->close;
         next.free[13] = true;
         next.right_c9 = right_c9;
         next.right_s9 = right_s9;
@@ -2554,8 +2293,7 @@ typedef struct {
     double r41;
 } Shared10;
 
-/* Chart 1 of block 10: generic.
- */
+/* Chart 1 of block 10: generic. */
 INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
@@ -2593,21 +2331,16 @@ INLINE static void block_10(const Parameters *p, const Known *known, Answers *an
 
 /* What the charts of block 9 share. */
 typedef struct {
-    double r95;
-    double r98;
+    double r95, r98;
 } Shared9;
 
-/* Chart 1 of block 9: generic.
- */
+/* Chart 1 of block 9: generic. */
 INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
     const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
     const double r105 = 1.0 / sqrt(fmax(r100 * r100 + r99 * r99, 0.0)), left_c6 = r100 * r105;
     const double left_s6 = 0.0 - r99 * r105;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.left_c6 = left_c6;
     next.left_s6 = left_s6;
     block_10(p, &next, answers);
@@ -2650,20 +2383,15 @@ INLINE static void block_9(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 8 share. */
 typedef struct {
-    double r44;
-    double r47;
+    double r44, r47;
 } Shared8;
 
-/* Chart 1 of block 8: generic.
- */
+/* Chart 1 of block 8: generic. */
 INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
     const double left_c5 = shared->r47 * r52, left_s5 = shared->r44 * r52;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.left_c5 = left_c5;
     next.left_s5 = left_s5;
     block_9(p, &next, answers);
@@ -2697,16 +2425,11 @@ COLD static void again_8(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 7 share. */
 typedef struct {
-    double r77;
-    double r89;
-    double r91;
-    double r92;
-    double r95;
+    double r77, r89, r91, r92, r95;
 } Shared7;
 
 /* Chart 1 of block 7: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
@@ -2720,7 +2443,6 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
-    next.close = known->close;
     next.left_c8 = left_c8;
     next.left_s8 = left_s8;
     block_8(p, &next, answers);
@@ -2728,20 +2450,18 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: left_AnklePitch.
- */
+ * Free: left_AnklePitch. */
 static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
     if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared->r92, 0.004729) && is_near(shared->r91, 0.011129))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c8 = SAMPLES_1[i0][0], left_s8 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.close = known->close;
         next.free[7] = true;
         next.left_c8 = left_c8;
         next.left_s8 = left_s8;
@@ -2787,22 +2507,11 @@ COLD static void again_7(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r57;
-    double r68;
-    double r70;
-    double r72;
-    double r76;
-    double r77;
-    double r78;
-    double r79;
-    double r80;
-    double r83;
-    double r84;
+    double r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84;
 } Shared6;
 
 /* Chart 1 of block 6: generic.
- * It runs where B*E - A*F is not zero.
- */
+ * It runs where B*E - A*F is not zero. */
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     if (!is_away(shared->r79 - shared->r78, 16.0 * shared->r83)) {
@@ -2812,15 +2521,13 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
-    next.close = known->close;
     next.left_c9 = left_c9;
     next.left_s9 = left_s9;
     block_7(p, &next, answers);
 }
 
 /* Chart 2 of block 6: generic.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
- */
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
 static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68, r87 = r85 + r86;
@@ -2844,8 +2551,7 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
 
 /* Chart 3 of block 6: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
- * Free: left_AnkleRoll.
- */
+ * Free: left_AnkleRoll. */
 static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r87 = shared->r57 * shared->r57 + shared->r68 * shared->r68;
@@ -2853,12 +2559,11 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
     if (!(is_near(shared->r80, shared->r84) && is_near(r87, 1.0000000000000001e-7 * r90))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
-        next.close = known->close;
         next.free[8] = true;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
@@ -2867,8 +2572,7 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
 }
 
 /* Chart 4 of block 6: generic.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
- */
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
 static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72, r87 = r85 + r86;
@@ -2891,20 +2595,18 @@ static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *sh
 
 /* Chart 5 of block 6: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
- * Free: left_AnkleRoll.
- */
+ * Free: left_AnkleRoll. */
 static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r87 = shared->r70 * shared->r70 + shared->r72 * shared->r72;
     if (!(is_near(shared->r80, shared->r84) && is_near(r87, 0.00027380000000000004))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
-        next.close = known->close;
         next.free[8] = true;
         next.left_c9 = left_c9;
         next.left_s9 = left_s9;
@@ -2949,8 +2651,7 @@ typedef struct {
     double r41;
 } Shared5;
 
-/* Chart 1 of block 5: generic.
- */
+/* Chart 1 of block 5: generic. */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
@@ -2994,22 +2695,11 @@ COLD static void again_5(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r98;
-    double r110;
-    double r120;
-    double r132;
-    double r137;
-    double r138;
-    double r139;
-    double r141;
-    double r142;
-    double r144;
-    double r145;
+    double r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145;
 } Shared4;
 
 /* Chart 1 of block 4: generic.
- * It runs where B*E - A*F is not zero.
- */
+ * It runs where B*E - A*F is not zero. */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     if (!is_away(shared->r139 + shared->r141, 16.0 * shared->r144)) {
@@ -3019,15 +2709,13 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     Known next = *known;
     next.branch = 7 * known->branch;
     next.last = 7 * known->last;
-    next.close = known->close;
     next.left_c4 = left_c4;
     next.left_s4 = left_s4;
     block_5(p, &next, answers);
 }
 
 /* Chart 2 of block 4: generic.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
- */
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
 static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110, r148 = r146 + r147;
@@ -3051,8 +2739,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 
 /* Chart 3 of block 4: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
- * Free: HipYawPitch.
- */
+ * Free: HipYawPitch. */
 static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r148 = shared->r98 * shared->r98 + shared->r110 * shared->r110;
@@ -3060,12 +2747,11 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
     if (!(is_near(shared->r142, shared->r145) && is_near(r148, 1.0000000000000001e-7 * r151))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
-        next.close = known->close;
         next.free[3] = true;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
@@ -3074,8 +2760,7 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
 }
 
 /* Chart 4 of block 4: generic.
- * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
- */
+ * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
 static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132, r148 = r146 + r147;
@@ -3100,8 +2785,7 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
 
 /* Chart 5 of block 4: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
- * Free: HipYawPitch.
- */
+ * Free: HipYawPitch. */
 static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r148 = shared->r120 * shared->r120 + shared->r132 * shared->r132;
@@ -3109,12 +2793,11 @@ static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *sh
     if (!(is_near(shared->r142, shared->r145) && is_near(r148, 1.0000000000000001e-7 * r151))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
-        next.close = known->close;
         next.free[3] = true;
         next.left_c4 = left_c4;
         next.left_s4 = left_s4;
@@ -3185,21 +2868,11 @@ COLD static void again_4(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r175;
-    double r184;
-    double r192;
-    double r200;
-    double r207;
-    double r299;
-    double r300;
-    double r301;
-    double r302;
-    double r303;
+    double r175, r184, r192, r200, r207, r299, r300, r301, r302, r303;
 } Shared3;
 
 /* Chart 1 of block 3: half angle.
- * It runs where leading coefficient is not zero.
- */
+ * It runs where leading coefficient is not zero. */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r306 = 2.0 * shared->r175, r308 = 2.0 * shared->r200;
@@ -3209,11 +2882,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     const double choice0_0[5] = {
-        0.0 - shared->r192 - shared->r207,
-        0.0 - r306 - r308,
-        r313,
-        r306 - r308,
-        r315,
+        0.0 - shared->r192 - shared->r207, 0.0 - r306 - r308, r313, r306 - r308, r315,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
@@ -3245,8 +2914,7 @@ static double claim_3_1(const Shared3 *shared)
 }
 
 /* Chart 2 of block 3: half angle.
- * It runs where leading coefficient is not zero.
- */
+ * It runs where leading coefficient is not zero. */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r306 = 2.0 * shared->r175, r308 = 2.0 * shared->r192;
@@ -3256,11 +2924,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     const double choice0_0[5] = {
-        shared->r207 + (shared->r184 + shared->r200),
-        0.0 - r306 - r308,
-        2.0 * shared->r207 - 2.0 * shared->r184,
-        r306 - r308,
-        r315,
+        shared->r207 + (shared->r184 + shared->r200), 0.0 - r306 - r308,
+        2.0 * shared->r207 - 2.0 * shared->r184, r306 - r308, r315,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
@@ -3293,8 +2958,7 @@ static double claim_3_2(const Shared3 *shared)
 }
 
 /* Chart 3 of block 3: half angle.
- * It runs where leading coefficient is not zero.
- */
+ * It runs where leading coefficient is not zero. */
 static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r305 = 2.0 * shared->r175, r306 = 2.0 * shared->r200, r313 = shared->r192 + shared->r207;
@@ -3303,11 +2967,8 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     const double choice0_0[5] = {
-        shared->r207 - shared->r192,
-        r305 - r306,
-        4.0 * shared->r184 + 2.0 * shared->r207,
-        0.0 - r305 - r306,
-        r313,
+        shared->r207 - shared->r192, r305 - r306, 4.0 * shared->r184 + 2.0 * shared->r207,
+        0.0 - r305 - r306, r313,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
@@ -3338,8 +2999,7 @@ static double claim_3_3(const Shared3 *shared)
 }
 
 /* Chart 4 of block 3: half angle.
- * It runs where leading coefficient is not zero.
- */
+ * It runs where leading coefficient is not zero. */
 static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r306 = 2.0 * shared->r192, r307 = 2.0 * shared->r175;
@@ -3349,11 +3009,8 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     const double choice0_0[5] = {
-        shared->r207 + (shared->r184 - shared->r200),
-        r306 - r307,
-        2.0 * shared->r207 - 2.0 * shared->r184,
-        r306 + r307,
-        r314,
+        shared->r207 + (shared->r184 - shared->r200), r306 - r307,
+        2.0 * shared->r207 - 2.0 * shared->r184, r306 + r307, r314,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
@@ -3386,8 +3043,7 @@ static double claim_3_4(const Shared3 *shared)
 }
 
 /* Chart 5 of block 3: half angle.
- * It runs where leading coefficient is not zero.
- */
+ * It runs where leading coefficient is not zero. */
 static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r305 = shared->r175 + 1.3333333333333333 * shared->r184, r306 = 1.25 * shared->r192;
@@ -3401,11 +3057,8 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     const double choice0_0[5] = {
-        r305 + r306 + r308 + r310,
-        r312 - r313 - r315 + r317,
-        r321 + 4.166666666666667 * shared->r207,
-        r317 + (r313 - r312 - r315),
-        r329,
+        r305 + r306 + r308 + r310, r312 - r313 - r315 + r317, r321 + 4.166666666666667 * shared->r207,
+        r317 + (r313 - r312 - r315), r329,
     };
     const Roots roots0 = real_roots(choice0_0, 5, 1.0);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
@@ -3449,19 +3102,17 @@ static double claim_3_5(const Shared3 *shared)
 
 /* Chart 6 of block 3: A = B = C = D = E = 0.
  * It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
- * Free: TorsoYaw.
- */
+ * Free: TorsoYaw. */
 static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     if (!(is_near(shared->r175, 0.01 * shared->r299) && is_near(shared->r184, 0.01 * shared->r300) && is_near(shared->r192, 0.01 * shared->r301) && is_near(shared->r200, 0.01 * shared->r302) && is_near(shared->r207, 0.01 * shared->r303))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 5 * known->branch + 4;
         next.last = 5 * known->last;
-        next.close = known->close;
         next.free[0] = true;
         next.left_c1 = left_c1;
         next.left_s1 = left_s1;
@@ -3564,15 +3215,11 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     chart_3_6(p, known, shared, answers);
 }
 
-/* Chart 1 of block 2: given.
- */
+/* Chart 1 of block 2: given. */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double left_c3_ = p->left_c3, left_s3_ = p->left_s3;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.left_c3_ = left_c3_;
     next.left_s3_ = left_s3_;
     block_3(p, &next, answers);
@@ -3584,15 +3231,12 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     chart_2_1(p, known, answers);
 }
 
-/* Chart 1 of block 1: given.
- */
+/* Chart 1 of block 1: given. */
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double left_c2_ = p->left_c2, left_s2_ = p->left_s2;
     Known next = NOTHING_KNOWN;
-    next.branch = 0;
     next.last = 1;
-    next.close = false;
     next.left_c2_ = left_c2_;
     next.left_s2_ = left_s2_;
     block_2(p, &next, answers);
@@ -3718,88 +3362,34 @@ int nao_legs_yaw_solve_pairs(const double *target, nao_legs_yaw_pairs *out)
     }
     Solution list[NAO_LEGS_YAW_CAPACITY];
     const int count = nao_legs_yaw_solve(target, list);
-    for (int i = 0; i < count; i++) {
-        const Solution *answer = &list[i];
-        out[i].residual = answer->residual;
-        out[i].branch = answer->branch;
-        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
-        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
-        out[i].free[0] = answer->free[0];
-        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
-        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
-        out[i].free[1] = answer->free[1];
-        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
-        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
-        out[i].free[2] = answer->free[2];
-        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
-        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
-        out[i].free[3] = answer->free[3];
-        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
-        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
-        out[i].free[4] = answer->free[4];
-        out[i].joints[5][0] = cos(answer->q[5]) + 0.0;
-        out[i].joints[5][1] = sin(answer->q[5]) + 0.0;
-        out[i].free[5] = answer->free[5];
-        out[i].joints[6][0] = cos(answer->q[6]) + 0.0;
-        out[i].joints[6][1] = sin(answer->q[6]) + 0.0;
-        out[i].free[6] = answer->free[6];
-        out[i].joints[7][0] = cos(answer->q[7]) + 0.0;
-        out[i].joints[7][1] = sin(answer->q[7]) + 0.0;
-        out[i].free[7] = answer->free[7];
-        out[i].joints[8][0] = cos(answer->q[8]) + 0.0;
-        out[i].joints[8][1] = sin(answer->q[8]) + 0.0;
-        out[i].free[8] = answer->free[8];
-        out[i].joints[9][0] = cos(answer->q[9]) + 0.0;
-        out[i].joints[9][1] = sin(answer->q[9]) + 0.0;
-        out[i].free[9] = answer->free[9];
-        out[i].joints[10][0] = cos(answer->q[10]) + 0.0;
-        out[i].joints[10][1] = sin(answer->q[10]) + 0.0;
-        out[i].free[10] = answer->free[10];
-        out[i].joints[11][0] = cos(answer->q[11]) + 0.0;
-        out[i].joints[11][1] = sin(answer->q[11]) + 0.0;
-        out[i].free[11] = answer->free[11];
-        out[i].joints[12][0] = cos(answer->q[12]) + 0.0;
-        out[i].joints[12][1] = sin(answer->q[12]) + 0.0;
-        out[i].free[12] = answer->free[12];
-        out[i].joints[13][0] = cos(answer->q[13]) + 0.0;
-        out[i].joints[13][1] = sin(answer->q[13]) + 0.0;
-        out[i].free[13] = answer->free[13];
+    for (int k = 0; k < count; k++) {
+        const Solution *answer = &list[k];
+        out[k].residual = answer->residual;
+        out[k].branch = answer->branch;
+        for (size_t i = 0; i < JOINTS; i++) {
+            const double value = answer->q[i];
+            out[k].joints[i][0] = cos(value) + 0.0;
+            out[k].joints[i][1] = sin(value) + 0.0;
+            out[k].free[i] = answer->free[i];
+        }
     }
     return count;
 }
-
 
 void nao_legs_yaw_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[4];
-    target[1] = reached[5];
-    target[2] = reached[6];
-    target[3] = reached[7];
-    target[4] = reached[10];
-    target[5] = reached[13];
-    target[6] = reached[8];
-    target[7] = reached[11];
-    target[8] = reached[14];
-    target[9] = reached[9];
-    target[10] = reached[12];
-    target[11] = reached[15];
-    target[12] = angle(reached[0], reached[1]);
-    target[13] = angle(reached[2], reached[3]);
-    target[14] = reached[16];
-    target[15] = reached[17];
-    target[16] = reached[18];
-    target[17] = reached[19];
-    target[18] = reached[22];
-    target[19] = reached[25];
-    target[20] = reached[20];
-    target[21] = reached[23];
-    target[22] = reached[26];
-    target[23] = reached[21];
-    target[24] = reached[24];
-    target[25] = reached[27];
+    target[0] = reached[4]; target[1] = reached[5]; target[2] = reached[6];
+    target[3] = reached[7]; target[4] = reached[10]; target[5] = reached[13];
+    target[6] = reached[8]; target[7] = reached[11]; target[8] = reached[14];
+    target[9] = reached[9]; target[10] = reached[12]; target[11] = reached[15];
+    target[12] = angle(reached[0], reached[1]); target[13] = angle(reached[2], reached[3]); target[14] = reached[16];
+    target[15] = reached[17]; target[16] = reached[18]; target[17] = reached[19];
+    target[18] = reached[22]; target[19] = reached[25]; target[20] = reached[20];
+    target[21] = reached[23]; target[22] = reached[26]; target[23] = reached[21];
+    target[24] = reached[24]; target[25] = reached[27];
 }
 
 double nao_legs_yaw_residual(const double *given, const double *q)

@@ -4,32 +4,11 @@
 //! - Hash of the input: 97304683922ba4ba
 //!
 //! Target, in order:
-//! - `left_px` (m)
-//! - `left_py` (m)
-//! - `left_pz` (m)
-//! - `left_r11` (1)
-//! - `left_r12` (1)
-//! - `left_r13` (1)
-//! - `left_r21` (1)
-//! - `left_r22` (1)
-//! - `left_r23` (1)
-//! - `left_r31` (1)
-//! - `left_r32` (1)
-//! - `left_r33` (1)
-//! - `left_TorsoPitch` (rad)
-//! - `left_TorsoRoll` (rad)
-//! - `right_px` (m)
-//! - `right_py` (m)
-//! - `right_pz` (m)
-//! - `right_r11` (1)
-//! - `right_r12` (1)
-//! - `right_r13` (1)
-//! - `right_r21` (1)
-//! - `right_r22` (1)
-//! - `right_r23` (1)
-//! - `right_r31` (1)
-//! - `right_r32` (1)
-//! - `right_r33` (1)
+//! `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
+//! `left_r21` (1), `left_r22` (1), `left_r23` (1), `left_r31` (1), `left_r32` (1), `left_r33` (1),
+//! `left_TorsoPitch` (rad), `left_TorsoRoll` (rad), `right_px` (m), `right_py` (m), `right_pz` (m),
+//! `right_r11` (1), `right_r12` (1), `right_r13` (1), `right_r21` (1), `right_r22` (1),
+//! `right_r23` (1), `right_r31` (1), `right_r32` (1), `right_r33` (1).
 //!
 //! Joints, in order; angles lie in (-pi, pi]:
 //! - `TorsoYaw` (rad)
@@ -49,10 +28,8 @@
 //!
 //! A target has 270 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
 //!
-//! Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
-//! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
-//! scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
-//! answer is polished by 32 Newton steps at most.
+//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
 //! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
@@ -164,22 +141,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
     let mut list = [Solution::EMPTY; CAPACITY];
     let count = solve(target, &mut list)?;
     for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = [
-            [q[0].cos() + 0.0, q[0].sin() + 0.0],
-            [q[1].cos() + 0.0, q[1].sin() + 0.0],
-            [q[2].cos() + 0.0, q[2].sin() + 0.0],
-            [q[3].cos() + 0.0, q[3].sin() + 0.0],
-            [q[4].cos() + 0.0, q[4].sin() + 0.0],
-            [q[5].cos() + 0.0, q[5].sin() + 0.0],
-            [q[6].cos() + 0.0, q[6].sin() + 0.0],
-            [q[7].cos() + 0.0, q[7].sin() + 0.0],
-            [q[8].cos() + 0.0, q[8].sin() + 0.0],
-            [q[9].cos() + 0.0, q[9].sin() + 0.0],
-            [q[10].cos() + 0.0, q[10].sin() + 0.0],
-            [q[11].cos() + 0.0, q[11].sin() + 0.0],
-            [q[12].cos() + 0.0, q[12].sin() + 0.0],
-            [q[13].cos() + 0.0, q[13].sin() + 0.0],
-        ];
+        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
         *pairs = Pairs { joints, residual, branch, free };
     }
     Ok(count)
@@ -301,7 +263,6 @@ fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]
     None
 }
 
-
 /// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
 /// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
 /// its weight, which is not negative.
@@ -378,6 +339,9 @@ const APART: f64 = 0.7;
 const SPLIT: f64 = 0.001;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 const LEVER: f64 = 0.1;
+/// Points around a candidate are so much farther where no nearer one leads to an answer.
+const FARTHER: f64 = 16.0;
+const FARTHEST: f64 = 256.0;
 /// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
 /// is added to it in these.
 const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
@@ -451,34 +415,11 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Parameters of the equations.
 struct Parameters {
-    left_px: f64,
-    left_py: f64,
-    left_pz: f64,
-    left_r11: f64,
-    left_r12: f64,
-    left_r13: f64,
-    left_r21: f64,
-    left_r22: f64,
-    left_r23: f64,
-    left_r31: f64,
-    left_r32: f64,
-    left_r33: f64,
-    left_c2: f64,
-    left_s2: f64,
-    left_c3: f64,
-    left_s3: f64,
-    right_px: f64,
-    right_py: f64,
-    right_pz: f64,
-    right_r11: f64,
-    right_r12: f64,
-    right_r13: f64,
-    right_r21: f64,
-    right_r22: f64,
-    right_r23: f64,
-    right_r31: f64,
-    right_r32: f64,
-    right_r33: f64,
+    left_px: f64, left_py: f64, left_pz: f64, left_r11: f64, left_r12: f64, left_r13: f64,
+    left_r21: f64, left_r22: f64, left_r23: f64, left_r31: f64, left_r32: f64, left_r33: f64,
+    left_c2: f64, left_s2: f64, left_c3: f64, left_s3: f64, right_px: f64, right_py: f64,
+    right_pz: f64, right_r11: f64, right_r12: f64, right_r13: f64, right_r21: f64, right_r22: f64,
+    right_r23: f64, right_r31: f64, right_r32: f64, right_r33: f64,
     /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
     magnitude: f64,
 }
@@ -526,46 +467,25 @@ struct Known {
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
     free: [bool; JOINTS],
-    left_c2_: f64,
-    left_s2_: f64,
-    left_c3_: f64,
-    left_s3_: f64,
-    left_c1: f64,
-    left_s1: f64,
-    left_c4: f64,
-    left_s4: f64,
-    left_c7: f64,
-    left_s7: f64,
-    left_c9: f64,
-    left_s9: f64,
-    left_c8: f64,
-    left_s8: f64,
-    left_c5: f64,
-    left_s5: f64,
-    left_c6: f64,
-    left_s6: f64,
-    right_c7: f64,
-    right_s7: f64,
-    right_c9: f64,
-    right_s9: f64,
-    right_c8: f64,
-    right_s8: f64,
-    right_c5: f64,
+    left_c2_: f64, left_s2_: f64, left_c3_: f64, left_s3_: f64, left_c1: f64, left_s1: f64,
+    left_c4: f64, left_s4: f64, left_c7: f64, left_s7: f64, left_c9: f64, left_s9: f64, left_c8: f64,
+    left_s8: f64, left_c5: f64, left_s5: f64, left_c6: f64, left_s6: f64, right_c7: f64,
+    right_s7: f64, right_c9: f64, right_s9: f64, right_c8: f64, right_s8: f64, right_c5: f64,
     right_s5: f64,
 }
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, left_c2_: 0.0, left_s2_: 0.0, left_c3_: 0.0, left_s3_: 0.0, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c7: 0.0, left_s7: 0.0, left_c9: 0.0, left_s9: 0.0, left_c8: 0.0, left_s8: 0.0, left_c5: 0.0, left_s5: 0.0, left_c6: 0.0, left_s6: 0.0, right_c7: 0.0, right_s7: 0.0, right_c9: 0.0, right_s9: 0.0, right_c8: 0.0, right_s8: 0.0, right_c5: 0.0, right_s5: 0.0 };
 
 /// Where charts put a free joint: cosine and sine.
-const SAMPLES_1: [[f64; 2]; 8] = [
-    [-0.9210609940028851, -0.3894183423086505],
-    [-0.37592812418099103, -0.926648825310733],
-    [0.38941834230865047, -0.9210609940028851],
-    [0.926648825310733, -0.375928124180991],
-    [0.9210609940028851, 0.3894183423086505],
-    [0.37592812418099114, 0.926648825310733],
-    [-0.38941834230865036, 0.9210609940028851],
-    [-0.9266488253107329, 0.3759281241809912],
+const SAMPLES_1: [[f64; 2]; 16] = [
+    [-0.9210609940028851, -0.3894183423086505], [-0.7019254526931687, -0.7122504186460616],
+    [-0.37592812418099103, -0.926648825310733], [0.007300853440810815, -0.9999733484143644],
+    [0.38941834230865047, -0.9210609940028851], [0.7122504186460618, -0.7019254526931686],
+    [0.926648825310733, -0.375928124180991], [0.9999733484143644, 0.007300853440810865],
+    [0.9210609940028851, 0.3894183423086505], [0.7019254526931687, 0.7122504186460616],
+    [0.37592812418099114, 0.926648825310733], [-0.007300853440810693, 0.9999733484143644],
+    [-0.38941834230865036, 0.9210609940028851], [-0.7122504186460615, 0.7019254526931689],
+    [-0.9266488253107329, 0.3759281241809912], [-0.9999733484143644, -0.007300853440810631],
 ];
 
 /// Block 1: TorsoPitch.
@@ -711,18 +631,8 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 3 share.
-struct Shared3 {
-    r175: f64,
-    r184: f64,
-    r192: f64,
-    r200: f64,
-    r207: f64,
-    r299: f64,
-    r300: f64,
-    r301: f64,
-    r302: f64,
-    r303: f64,
-}
+struct Shared3 { r175: f64, r184: f64, r192: f64, r200: f64, r207: f64, r299: f64, r300: f64, r301: f64,
+    r302: f64, r303: f64 }
 
 /// Chart 1 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
@@ -735,11 +645,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         return;
     }
     let roots0 = real_roots(&[
-        0.0 - shared.r192 - shared.r207,
-        0.0 - r306 - r308,
-        0.0 - 4.0 * shared.r184 - 2.0 * shared.r207,
-        r306 - r308,
-        r315,
+        0.0 - shared.r192 - shared.r207, 0.0 - r306 - r308, 0.0 - 4.0 * shared.r184 - 2.0 * shared.r207,
+        r306 - r308, r315,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
         let r321 = 0.5 * shared.r192;
@@ -778,11 +685,8 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         return;
     }
     let roots0 = real_roots(&[
-        shared.r207 + (shared.r184 + shared.r200),
-        0.0 - r306 - r308,
-        2.0 * shared.r207 - 2.0 * shared.r184,
-        r306 - r308,
-        r315,
+        shared.r207 + (shared.r184 + shared.r200), 0.0 - r306 - r308,
+        2.0 * shared.r207 - 2.0 * shared.r184, r306 - r308, r315,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
         let r321 = 0.5 * shared.r184;
@@ -823,10 +727,7 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         return;
     }
     let roots0 = real_roots(&[
-        shared.r207 - shared.r192,
-        r305 - r306,
-        4.0 * shared.r184 + 2.0 * shared.r207,
-        0.0 - r305 - r306,
+        shared.r207 - shared.r192, r305 - r306, 4.0 * shared.r184 + 2.0 * shared.r207, 0.0 - r305 - r306,
         r313,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
@@ -866,11 +767,8 @@ fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         return;
     }
     let roots0 = real_roots(&[
-        shared.r207 + (shared.r184 - shared.r200),
-        r306 - r307,
-        2.0 * shared.r207 - 2.0 * shared.r184,
-        r306 + r307,
-        r314,
+        shared.r207 + (shared.r184 - shared.r200), r306 - r307, 2.0 * shared.r207 - 2.0 * shared.r184,
+        r306 + r307, r314,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
         let r320 = 0.5 * shared.r184;
@@ -919,11 +817,8 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         return;
     }
     let roots0 = real_roots(&[
-        r305 + r306 + r308 + r310,
-        r312 - r313 - r315 + r317,
-        r321 + 4.166666666666667 * shared.r207,
-        r317 + (r313 - r312 - r315),
-        r329,
+        r305 + r306 + r308 + r310, r312 - r313 - r315 + r317, r321 + 4.166666666666667 * shared.r207,
+        r317 + (r313 - r312 - r315), r329,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
         let r338 = 0.24 * shared.r192;
@@ -1049,19 +944,8 @@ fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 4 share.
-struct Shared4 {
-    r98: f64,
-    r110: f64,
-    r120: f64,
-    r132: f64,
-    r137: f64,
-    r138: f64,
-    r139: f64,
-    r141: f64,
-    r142: f64,
-    r144: f64,
-    r145: f64,
-}
+struct Shared4 { r98: f64, r110: f64, r120: f64, r132: f64, r137: f64, r138: f64, r139: f64, r141: f64, r142: f64,
+    r144: f64, r145: f64 }
 
 /// Chart 1 of block 4: generic.
 /// It runs where B*E - A*F is not zero.
@@ -1173,9 +1057,7 @@ fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 5 share.
-struct Shared5 {
-    r41: f64,
-}
+struct Shared5 { r41: f64 }
 
 /// Chart 1 of block 5: generic.
 #[inline(always)]
@@ -1237,19 +1119,8 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 6 share.
-struct Shared6 {
-    r57: f64,
-    r68: f64,
-    r70: f64,
-    r72: f64,
-    r76: f64,
-    r77: f64,
-    r78: f64,
-    r79: f64,
-    r80: f64,
-    r83: f64,
-    r84: f64,
-}
+struct Shared6 { r57: f64, r68: f64, r70: f64, r72: f64, r76: f64, r77: f64, r78: f64, r79: f64, r80: f64,
+    r83: f64, r84: f64 }
 
 /// Chart 1 of block 6: generic.
 /// It runs where B*E - A*F is not zero.
@@ -1375,13 +1246,7 @@ fn again_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 7 share.
-struct Shared7 {
-    r77: f64,
-    r89: f64,
-    r91: f64,
-    r92: f64,
-    r95: f64,
-}
+struct Shared7 { r77: f64, r89: f64, r91: f64, r92: f64, r95: f64 }
 
 /// Chart 1 of block 7: generic.
 /// It runs where A^2 + B^2 is not zero.
@@ -1449,10 +1314,7 @@ fn again_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 8 share.
-struct Shared8 {
-    r44: f64,
-    r47: f64,
-}
+struct Shared8 { r44: f64, r47: f64 }
 
 /// Chart 1 of block 8: generic.
 #[inline(always)]
@@ -1502,10 +1364,7 @@ fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 9 share.
-struct Shared9 {
-    r95: f64,
-    r98: f64,
-}
+struct Shared9 { r95: f64, r98: f64 }
 
 /// Chart 1 of block 9: generic.
 #[inline(always)]
@@ -1540,9 +1399,7 @@ fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 10 share.
-struct Shared10 {
-    r41: f64,
-}
+struct Shared10 { r41: f64 }
 
 /// Chart 1 of block 10: generic.
 #[inline(always)]
@@ -1605,19 +1462,8 @@ fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 11 share.
-struct Shared11 {
-    r57: f64,
-    r68: f64,
-    r70: f64,
-    r72: f64,
-    r76: f64,
-    r77: f64,
-    r78: f64,
-    r80: f64,
-    r81: f64,
-    r84: f64,
-    r85: f64,
-}
+struct Shared11 { r57: f64, r68: f64, r70: f64, r72: f64, r76: f64, r77: f64, r78: f64, r80: f64, r81: f64,
+    r84: f64, r85: f64 }
 
 /// Chart 1 of block 11: generic.
 /// It runs where B*E - A*F is not zero.
@@ -1749,13 +1595,7 @@ fn again_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 12 share.
-struct Shared12 {
-    r77: f64,
-    r89: f64,
-    r91: f64,
-    r92: f64,
-    r95: f64,
-}
+struct Shared12 { r77: f64, r89: f64, r91: f64, r92: f64, r95: f64 }
 
 /// Chart 1 of block 12: generic.
 /// It runs where A^2 + B^2 is not zero.
@@ -1823,10 +1663,7 @@ fn again_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 13 share.
-struct Shared13 {
-    r44: f64,
-    r47: f64,
-}
+struct Shared13 { r44: f64, r47: f64 }
 
 /// Chart 1 of block 13: generic.
 #[inline(always)]
@@ -1876,10 +1713,7 @@ fn block_14(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 14 share.
-struct Shared14 {
-    r95: f64,
-    r98: f64,
-}
+struct Shared14 { r95: f64, r98: f64 }
 
 /// Chart 1 of block 14: generic.
 #[inline(always)]
@@ -1891,34 +1725,11 @@ fn chart_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut An
     let right_c6 = r100 * r105;
     let right_s6 = 0.0 - r99 * r105;
     let at = [
-        known.left_c1,
-        known.left_s1,
-        known.left_c2_,
-        known.left_s2_,
-        known.left_c3_,
-        known.left_s3_,
-        known.left_c4,
-        known.left_s4,
-        known.left_c5,
-        known.left_s5,
-        known.left_c6,
-        known.left_s6,
-        known.left_c7,
-        known.left_s7,
-        known.left_c8,
-        known.left_s8,
-        known.left_c9,
-        known.left_s9,
-        known.right_c5,
-        known.right_s5,
-        right_c6,
-        right_s6,
-        known.right_c7,
-        known.right_s7,
-        known.right_c8,
-        known.right_s8,
-        known.right_c9,
-        known.right_s9,
+        known.left_c1, known.left_s1, known.left_c2_, known.left_s2_, known.left_c3_, known.left_s3_,
+        known.left_c4, known.left_s4, known.left_c5, known.left_s5, known.left_c6, known.left_s6,
+        known.left_c7, known.left_s7, known.left_c8, known.left_s8, known.left_c9, known.left_s9,
+        known.right_c5, known.right_s5, right_c6, right_s6, known.right_c7, known.right_s7,
+        known.right_c8, known.right_s8, known.right_c9, known.right_s9,
     ];
     answers.finish(p, known.branch, known.last, known.close, &at, known.free);
 }
@@ -1940,34 +1751,11 @@ const TIP: usize = 28;
 /// The tip, as the equations compare it.
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
-    let left_c1 = at[0];
-    let left_s1 = at[1];
-    let left_c2_ = at[2];
-    let left_s2_ = at[3];
-    let left_c3_ = at[4];
-    let left_s3_ = at[5];
-    let left_c4 = at[6];
-    let left_s4 = at[7];
-    let left_c5 = at[8];
-    let left_s5 = at[9];
-    let left_c6 = at[10];
-    let left_s6 = at[11];
-    let left_c7 = at[12];
-    let left_s7 = at[13];
-    let left_c8 = at[14];
-    let left_s8 = at[15];
-    let left_c9 = at[16];
-    let left_s9 = at[17];
-    let right_c5 = at[18];
-    let right_s5 = at[19];
-    let right_c6 = at[20];
-    let right_s6 = at[21];
-    let right_c7 = at[22];
-    let right_s7 = at[23];
-    let right_c8 = at[24];
-    let right_s8 = at[25];
-    let right_c9 = at[26];
-    let right_s9 = at[27];
+    let [
+        left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5,
+        left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c5, right_s5,
+        right_c6, right_s6, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9,
+    ] = *at;
     let r4 = left_c1 * left_c2_;
     let r5 = left_s1 * left_c2_;
     let r6 = left_c1 * left_s2_;
@@ -2166,34 +1954,10 @@ const PLACES: usize = 28;
 /// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(), q[6].cos(), q[6].sin(), q[7].cos(), q[7].sin(), q[8].cos(), q[8].sin(), q[9].cos(), q[9].sin(), q[10].cos(), q[10].sin(), q[11].cos(), q[11].sin(), q[12].cos(), q[12].sin(), q[13].cos(), q[13].sin().
 fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
     [
-        q[0].cos(),
-        q[0].sin(),
-        q[1].cos(),
-        q[1].sin(),
-        q[2].cos(),
-        q[2].sin(),
-        q[3].cos(),
-        q[3].sin(),
-        q[4].cos(),
-        q[4].sin(),
-        q[5].cos(),
-        q[5].sin(),
-        q[6].cos(),
-        q[6].sin(),
-        q[7].cos(),
-        q[7].sin(),
-        q[8].cos(),
-        q[8].sin(),
-        q[9].cos(),
-        q[9].sin(),
-        q[10].cos(),
-        q[10].sin(),
-        q[11].cos(),
-        q[11].sin(),
-        q[12].cos(),
-        q[12].sin(),
-        q[13].cos(),
-        q[13].sin(),
+        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(),
+        q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(), q[6].cos(), q[6].sin(), q[7].cos(), q[7].sin(),
+        q[8].cos(), q[8].sin(), q[9].cos(), q[9].sin(), q[10].cos(), q[10].sin(), q[11].cos(),
+        q[11].sin(), q[12].cos(), q[12].sin(), q[13].cos(), q[13].sin(),
     ]
 }
 
@@ -2212,34 +1976,15 @@ const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0
 fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
     let reached = tip(at);
     [
-        reached[0] - p.left_c2,
-        reached[1] - p.left_s2,
-        reached[2] - p.left_c3,
-        reached[3] - p.left_s3,
-        reached[4] - p.left_px,
-        reached[5] - p.left_py,
-        reached[6] - p.left_pz,
-        reached[7] - p.left_r11,
-        reached[8] - p.left_r21,
-        reached[9] - p.left_r31,
-        reached[10] - p.left_r12,
-        reached[11] - p.left_r22,
-        reached[12] - p.left_r32,
-        reached[13] - p.left_r13,
-        reached[14] - p.left_r23,
-        reached[15] - p.left_r33,
-        reached[16] - p.right_px,
-        reached[17] - p.right_py,
-        reached[18] - p.right_pz,
-        reached[19] - p.right_r11,
-        reached[20] - p.right_r21,
-        reached[21] - p.right_r31,
-        reached[22] - p.right_r12,
-        reached[23] - p.right_r22,
-        reached[24] - p.right_r32,
-        reached[25] - p.right_r13,
-        reached[26] - p.right_r23,
-        reached[27] - p.right_r33,
+        reached[0] - p.left_c2, reached[1] - p.left_s2, reached[2] - p.left_c3, reached[3] - p.left_s3,
+        reached[4] - p.left_px, reached[5] - p.left_py, reached[6] - p.left_pz, reached[7] - p.left_r11,
+        reached[8] - p.left_r21, reached[9] - p.left_r31, reached[10] - p.left_r12,
+        reached[11] - p.left_r22, reached[12] - p.left_r32, reached[13] - p.left_r13,
+        reached[14] - p.left_r23, reached[15] - p.left_r33, reached[16] - p.right_px,
+        reached[17] - p.right_py, reached[18] - p.right_pz, reached[19] - p.right_r11,
+        reached[20] - p.right_r21, reached[21] - p.right_r31, reached[22] - p.right_r12,
+        reached[23] - p.right_r22, reached[24] - p.right_r32, reached[25] - p.right_r13,
+        reached[26] - p.right_r23, reached[27] - p.right_r33,
     ]
 }
 
@@ -2255,34 +2000,11 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
-    let left_c1 = at[0];
-    let left_s1 = at[1];
-    let left_c2_ = at[2];
-    let left_s2_ = at[3];
-    let left_c3_ = at[4];
-    let left_s3_ = at[5];
-    let left_c4 = at[6];
-    let left_s4 = at[7];
-    let left_c5 = at[8];
-    let left_s5 = at[9];
-    let left_c6 = at[10];
-    let left_s6 = at[11];
-    let left_c7 = at[12];
-    let left_s7 = at[13];
-    let left_c8 = at[14];
-    let left_s8 = at[15];
-    let left_c9 = at[16];
-    let left_s9 = at[17];
-    let right_c5 = at[18];
-    let right_s5 = at[19];
-    let right_c6 = at[20];
-    let right_s6 = at[21];
-    let right_c7 = at[22];
-    let right_s7 = at[23];
-    let right_c8 = at[24];
-    let right_s8 = at[25];
-    let right_c9 = at[26];
-    let right_s9 = at[27];
+    let [
+        left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5,
+        left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c5, right_s5,
+        right_c6, right_s6, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9,
+    ] = *at;
     let r4 = left_c1 * left_c2_;
     let r5 = left_s1 * left_c2_;
     let r6 = left_c1 * left_s2_;
@@ -2674,18 +2396,27 @@ impl Answers<'_> {
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters.
+    /// matters. Where none leads to an answer, from farther ones.
     fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
         let weights = weights(p, &end.0);
-        for i in 0..JOINTS {
-            for sign in [-1.0, 1.0] {
-                let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                let way = f64::min((missed / weight).sqrt(), APART);
-                let start = moved(&end.0, i, 2.0 * sign * way);
-                let start = (start, measure(p, &start));
-                let start = polish(p, start, &NONE_FREE);
-                self.keep(p, branch, last, start, free);
+        let mut is_found = end.1.accepted;
+        let mut farther = 1.0;
+        while farther <= FARTHEST {
+            for i in 0..JOINTS {
+                for sign in [-1.0, 1.0] {
+                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
+                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
+                    let start = moved(&end.0, i, 2.0 * sign * way);
+                    let start = (start, measure(p, &start));
+                    let start = polish(p, start, &NONE_FREE);
+                    is_found |= start.1.accepted;
+                    self.keep(p, branch, last, start, free);
+                }
             }
+            if is_found {
+                return;
+            }
+            farther *= FARTHER;
         }
     }
 
@@ -2919,22 +2650,7 @@ fn follow(p: &Parameters, q: [f64; JOINTS], free: &[bool; JOINTS]) -> ([f64; JOI
 
 /// `a - b` joint by joint, angles by the shorter way round.
 fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        shorter(a[0] - b[0]),
-        shorter(a[1] - b[1]),
-        shorter(a[2] - b[2]),
-        shorter(a[3] - b[3]),
-        shorter(a[4] - b[4]),
-        shorter(a[5] - b[5]),
-        shorter(a[6] - b[6]),
-        shorter(a[7] - b[7]),
-        shorter(a[8] - b[8]),
-        shorter(a[9] - b[9]),
-        shorter(a[10] - b[10]),
-        shorter(a[11] - b[11]),
-        shorter(a[12] - b[12]),
-        shorter(a[13] - b[13]),
-    ]
+    core::array::from_fn(|i| shorter(a[i] - b[i]))
 }
 
 fn shorter(difference: f64) -> f64 {
@@ -2971,22 +2687,7 @@ fn is_isolated(answer: &Solution) -> bool {
 
 /// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
 fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-tolerance,
-    ]
+    [tolerance; JOINTS]
 }
 
 /// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
@@ -3144,43 +2845,12 @@ fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -
 
 /// The longest way of a joint in a step: an angle, or a share of the length scale.
 fn longest(step: &[f64; JOINTS]) -> f64 {
-    let ways = [
-step[0].abs(),
-step[1].abs(),
-step[2].abs(),
-step[3].abs(),
-step[4].abs(),
-step[5].abs(),
-step[6].abs(),
-step[7].abs(),
-step[8].abs(),
-step[9].abs(),
-step[10].abs(),
-step[11].abs(),
-step[12].abs(),
-step[13].abs(),
-    ];
-    ways.iter().fold(0.0, |longest, &way| f64::max(longest, way))
+    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
 }
 
 /// `q - step`, angles in (-pi, pi].
 fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        wrap(q[0] - step[0]),
-        wrap(q[1] - step[1]),
-        wrap(q[2] - step[2]),
-        wrap(q[3] - step[3]),
-        wrap(q[4] - step[4]),
-        wrap(q[5] - step[5]),
-        wrap(q[6] - step[6]),
-        wrap(q[7] - step[7]),
-        wrap(q[8] - step[8]),
-        wrap(q[9] - step[9]),
-        wrap(q[10] - step[10]),
-        wrap(q[11] - step[11]),
-        wrap(q[12] - step[12]),
-        wrap(q[13] - step[13]),
-    ]
+    core::array::from_fn(|i| wrap(q[i] - step[i]))
 }
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
@@ -3195,44 +2865,13 @@ fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
     }
-    [
-        f64::min(weights[0], 1.0),
-        f64::min(weights[1], 1.0),
-        f64::min(weights[2], 1.0),
-        f64::min(weights[3], 1.0),
-        f64::min(weights[4], 1.0),
-        f64::min(weights[5], 1.0),
-        f64::min(weights[6], 1.0),
-        f64::min(weights[7], 1.0),
-        f64::min(weights[8], 1.0),
-        f64::min(weights[9], 1.0),
-        f64::min(weights[10], 1.0),
-        f64::min(weights[11], 1.0),
-        f64::min(weights[12], 1.0),
-        f64::min(weights[13], 1.0),
-    ]
+    core::array::from_fn(|i| f64::min(weights[i], 1.0))
 }
 
 /// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
 fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let ends = [
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-        wrap(q[5] + way),
-        wrap(q[6] + way),
-        wrap(q[7] + way),
-        wrap(q[8] + way),
-        wrap(q[9] + way),
-        wrap(q[10] + way),
-        wrap(q[11] + way),
-        wrap(q[12] + way),
-        wrap(q[13] + way),
-    ];
     let mut next = *q;
-    next[i] = ends[i];
+    next[i] = wrap(q[i] + way);
     next
 }
 

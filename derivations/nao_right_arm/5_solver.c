@@ -4,12 +4,7 @@
  * Hash of the input: 49704915290775b9
  *
  * Target, in order:
- *   px (m)
- *   py (m)
- *   pz (m)
- *   dx (1)
- *   dy (1)
- *   dz (1)
+ *   `px` (m), `py` (m), `pz` (m), `dx` (1), `dy` (1), `dz` (1)
  * Joints, in order; angles lie in (-pi, pi]:
  *   ShoulderPitch (rad)
  *   ShoulderRoll (rad)
@@ -19,10 +14,8 @@
  *
  * A target has 23 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
- * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 32 Newton steps at most.
+ * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+ * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * NAO_RIGHT_ARM_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -124,7 +117,6 @@ int nao_right_arm_nearest(const nao_right_arm_solution *list, int count, const d
 #include <float.h>
 #include <math.h>
 
-
 #define INPUTS NAO_RIGHT_ARM_INPUTS
 #define JOINTS NAO_RIGHT_ARM_JOINTS
 #define EQUATIONS 6
@@ -156,6 +148,9 @@ int nao_right_arm_nearest(const nao_right_arm_solution *list, int count, const d
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+#define FARTHER 16.0
+#define FARTHEST 256.0
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
@@ -236,12 +231,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double pz;
-    double dx;
-    double dy;
-    double dz;
+    double px, py, pz, dx, dy, dz;
     /* The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale. */
     double magnitude;
 } Parameters;
@@ -284,16 +274,11 @@ static void tip(const double *at, double *reached)
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]), cos(q[4]), sin(q[4]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
-    at[4] = cos(q[2]);
-    at[5] = sin(q[2]);
-    at[6] = cos(q[3]);
-    at[7] = sin(q[3]);
-    at[8] = cos(q[4]);
-    at[9] = sin(q[4]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
+    at[4] = cos(q[2]); at[5] = sin(q[2]);
+    at[6] = cos(q[3]); at[7] = sin(q[3]);
+    at[8] = cos(q[4]); at[9] = sin(q[4]);
 }
 
 #define SIZES 2
@@ -311,18 +296,9 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->pz,
-            reached[3] - p->dx,
-            reached[4] - p->dy,
-            reached[5] - p->dz,
-        },
-        {
-            0.3610777288643948,
-            1.0,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->pz, reached[3] - p->dx,
+            reached[4] - p->dy, reached[5] - p->dz },
+        { 0.3610777288643948, 1.0 },
     };
     return result;
 }
@@ -453,7 +429,6 @@ static double unfold(double size, double cosine, double sine)
     return half_open(copysign(value, sine)) + 0.0;
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -571,30 +546,20 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = wrap(q[2] - step[2]);
-    next[3] = wrap(q[3] - step[3]);
-    next[4] = wrap(q[4] - step[4]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]),
-fabs(step[3]),
-fabs(step[4]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -727,27 +692,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = fmin(weight[2], 1.0);
-    weight[3] = fmin(weight[3], 1.0);
-    weight[4] = fmin(weight[4], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-        wrap(q[4] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -770,22 +723,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = shorter(a[2] - b[2]);
-    difference[3] = shorter(a[3] - b[3]);
-    difference[4] = shorter(a[4] - b[4]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance;
-    limit[3] = tolerance;
-    limit[4] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1095,19 +1044,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1225,21 +1181,14 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
     }
     nao_right_arm_pairs *pairs = &answers->pairs[answers->count];
     double q[JOINTS] = {0.0};
-    pairs->joints[0][0] = at[0] + 0.0;
-    pairs->joints[0][1] = at[1] + 0.0;
-    pairs->free[0] = false;
-    pairs->joints[1][0] = at[2] + 0.0;
-    pairs->joints[1][1] = at[3] + 0.0;
-    pairs->free[1] = false;
-    pairs->joints[2][0] = at[4] + 0.0;
-    pairs->joints[2][1] = at[5] + 0.0;
-    pairs->free[2] = false;
-    pairs->joints[3][0] = at[6] + 0.0;
-    pairs->joints[3][1] = at[7] + 0.0;
-    pairs->free[3] = false;
-    pairs->joints[4][0] = at[8] + 0.0;
-    pairs->joints[4][1] = at[9] + 0.0;
-    pairs->free[4] = false;
+    pairs->joints[0][0] = at[0] + 0.0; pairs->joints[0][1] = at[1] + 0.0;
+    pairs->joints[1][0] = at[2] + 0.0; pairs->joints[1][1] = at[3] + 0.0;
+    pairs->joints[2][0] = at[4] + 0.0; pairs->joints[2][1] = at[5] + 0.0;
+    pairs->joints[3][0] = at[6] + 0.0; pairs->joints[3][1] = at[7] + 0.0;
+    pairs->joints[4][0] = at[8] + 0.0; pairs->joints[4][1] = at[9] + 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        pairs->free[i] = false;
+    }
     const Fit fit = measure_at(p, at, q);
     pairs->residual = fit.residual;
     pairs->branch = branch;
@@ -1379,76 +1328,40 @@ typedef struct {
     /* Whether a candidate stands for two, of which the second differs in signs. */
     bool pair;
     bool free[JOINTS];
-    double ux;
-    double uy;
-    double uz;
-    double vx;
-    double vy;
-    double vz;
-    double cr;
-    double sr;
-    double fr;
-    double c1;
-    double s1;
-    double f1;
-    double c2;
-    double s2;
-    double c3;
-    double s3;
-    double c4;
-    double s4;
+    double ux, uy, uz, vx, vy, vz, cr, sr, fr, c1, s1, f1, c2, s2, c3, s3, c4, s4;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 7 share. */
 typedef struct {
-    double r34;
-    double r36;
+    double r34, r36;
 } Shared7;
 
-/* Chart 1 of block 7: generic.
- */
+/* Chart 1 of block 7: generic. */
 INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r37 = 0.01231 * shared->r36, r38 = 0.01231 * shared->r34;
     const double r43 = 1.0 / sqrt(fmax(r38 * r38 + r37 * r37, 0.0)), c5 = 0.0 - r38 * r43, s5 = 0.0 - r37 * r43;
     const double at[PLACES] = {
-        known->c1,
-        known->s1,
-        known->c2,
-        known->s2,
-        known->c3,
-        known->s3,
-        known->c4,
-        known->s4,
-        c5,
-        s5,
+        known->c1, known->s1, known->c2, known->s2, known->c3, known->s3, known->c4, known->s4, c5, s5,
     };
     finish(p, known->branch, known->last, known->close, at, known->free, answers);
     if (known->pair) {
         const double at[PLACES] = {
-            known->c1,
-            known->s1,
-            known->c2,
-            known->s2,
-            -known->c3,
-            -known->s3,
-            known->c4,
-            -known->s4,
-            -c5,
+            known->c1, known->s1, known->c2, known->s2, -known->c3, -known->s3, known->c4, -known->s4, -c5,
             -s5,
         };
         finish(p, known->branch + 1, known->last, known->close, at, known->free, answers);
@@ -1474,20 +1387,15 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 6 share. */
 typedef struct {
-    double r13;
-    double r14;
+    double r13, r14;
 } Shared6;
 
-/* Chart 1 of block 6: generic.
- */
+/* Chart 1 of block 6: generic. */
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14, r19 = 1.0 / sqrt(fmax(r17, 0.0));
     const double c4 = shared->r13 * r19, s4 = shared->r14 * r19;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.c4 = c4;
     next.s4 = s4;
     block_7(p, &next, answers);
@@ -1513,13 +1421,11 @@ COLD static void again_6(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 5 share. */
 typedef struct {
-    double r7;
-    double r8;
+    double r7, r8;
 } Shared5;
 
 /* Chart 1 of block 5: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8, r11 = r9 + r10;
@@ -1543,20 +1449,18 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 5: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
- * Free: ElbowYaw.
- */
+ * Free: ElbowYaw. */
 static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r11 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
     if (!is_near(r11, 6.100000000000001e-6)) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[2] = true;
         next.c3 = c3;
         next.s3 = s3;
@@ -1577,21 +1481,16 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r27;
-    double r28;
+    double r27, r28;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
- */
+/* Chart 1 of block 4: generic. */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r31 = 0.105 * shared->r27 - 0.015 * shared->r28;
     const double r34 = 0.015 * shared->r27 + 0.105 * shared->r28;
     const double r39 = 1.0 / sqrt(fmax(r34 * r34 + r31 * r31, 0.0)), c2 = 0.0 - r34 * r39, s2 = r31 * r39;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
     block_5(p, &next, answers);
@@ -1619,15 +1518,11 @@ COLD static void again_4(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r10;
-    double r16;
-    double r19;
-    double r20;
+    double r10, r16, r19, r20;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r21 = shared->r10 * shared->r10, r22 = shared->r16 * shared->r16, r23 = r21 + r22;
@@ -1653,8 +1548,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 3: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
- * Free: ShoulderPitch.
- */
+ * Free: ShoulderPitch. */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r23 = shared->r10 * shared->r10 + shared->r16 * shared->r16;
@@ -1663,12 +1557,11 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     const double f1 = 1000000.0;
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
@@ -1699,18 +1592,11 @@ COLD static void again_3(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r26;
-    double r35;
-    double r52;
-    double r53;
-    double r67;
-    double r68;
-    double r69;
+    double r26, r35, r52, r53, r67, r68, r69;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r70 = shared->r26 * shared->r26, r71 = shared->r35 * shared->r35, r72 = r70 + r71;
@@ -1737,8 +1623,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
- * Free: ShoulderPitch.
- */
+ * Free: ShoulderPitch. */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r72 = shared->r26 * shared->r26 + shared->r35 * shared->r35;
@@ -1747,12 +1632,11 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     const double fr = 1000000.0;
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double cr = SAMPLES_1[i0][0], sr = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[0] = true;
         next.cr = cr;
         next.sr = sr;
@@ -1785,16 +1669,13 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     chart_2_2(p, known, shared, answers);
 }
 
-/* Chart 1 of block 1: across x.
- */
+/* Chart 1 of block 1: across x. */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r3 = sqrt(fmax(p->dy * p->dy + p->dz * p->dz, 0.0)), r4 = p->dz / r3, r5 = p->dy / r3, ux = 0.0;
     const double uy = r4, uz = 0.0 - r5, vx = 0.0 - p->dy * r5 - p->dz * r4, vy = p->dx * r5, vz = p->dx * r4;
     Known next = NOTHING_KNOWN;
-    next.branch = 0;
     next.last = 1;
-    next.close = false;
     next.ux = ux;
     next.uy = uy;
     next.uz = uz;
@@ -1810,17 +1691,14 @@ static double claim_1_1(const Parameters *p)
     return fabs(p->dy * p->dy + p->dz * p->dz);
 }
 
-/* Chart 2 of block 1: across y.
- */
+/* Chart 2 of block 1: across y. */
 static void chart_1_2(const Parameters *p, Answers *answers)
 {
     const double r3 = sqrt(fmax(p->dz * p->dz + p->dx * p->dx, 0.0)), r4 = p->dx / r3, r5 = p->dz / r3;
     const double ux = 0.0 - r5, uy = 0.0, uz = r4, vx = p->dy * r4, vy = 0.0 - p->dz * r5 - p->dx * r4;
     const double vz = p->dy * r5;
     Known next = NOTHING_KNOWN;
-    next.branch = 0;
     next.last = 1;
-    next.close = false;
     next.ux = ux;
     next.uy = uy;
     next.uz = uz;
@@ -1836,16 +1714,13 @@ static double claim_1_2(const Parameters *p)
     return fabs(p->dz * p->dz + p->dx * p->dx);
 }
 
-/* Chart 3 of block 1: across z.
- */
+/* Chart 3 of block 1: across z. */
 static void chart_1_3(const Parameters *p, Answers *answers)
 {
     const double r3 = sqrt(fmax(p->dx * p->dx + p->dy * p->dy, 0.0)), r4 = p->dy / r3, r5 = p->dx / r3, ux = r4;
     const double uy = 0.0 - r5, uz = 0.0, vx = p->dz * r5, vy = p->dz * r4, vz = 0.0 - p->dx * r5 - p->dy * r4;
     Known next = NOTHING_KNOWN;
-    next.branch = 0;
     next.last = 1;
-    next.close = false;
     next.ux = ux;
     next.uy = uy;
     next.uz = uz;
@@ -1979,41 +1854,27 @@ int nao_right_arm_solve_pairs(const double *target, nao_right_arm_pairs *out)
     }
     Solution list[NAO_RIGHT_ARM_CAPACITY];
     const int count = nao_right_arm_solve(target, list);
-    for (int i = 0; i < count; i++) {
-        const Solution *answer = &list[i];
-        out[i].residual = answer->residual;
-        out[i].branch = answer->branch;
-        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
-        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
-        out[i].free[0] = answer->free[0];
-        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
-        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
-        out[i].free[1] = answer->free[1];
-        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
-        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
-        out[i].free[2] = answer->free[2];
-        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
-        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
-        out[i].free[3] = answer->free[3];
-        out[i].joints[4][0] = cos(answer->q[4]) + 0.0;
-        out[i].joints[4][1] = sin(answer->q[4]) + 0.0;
-        out[i].free[4] = answer->free[4];
+    for (int k = 0; k < count; k++) {
+        const Solution *answer = &list[k];
+        out[k].residual = answer->residual;
+        out[k].branch = answer->branch;
+        for (size_t i = 0; i < JOINTS; i++) {
+            const double value = answer->q[i];
+            out[k].joints[i][0] = cos(value) + 0.0;
+            out[k].joints[i][1] = sin(value) + 0.0;
+            out[k].free[i] = answer->free[i];
+        }
     }
     return count;
 }
-
 
 void nao_right_arm_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
-    target[3] = reached[3];
-    target[4] = reached[4];
-    target[5] = reached[5];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
+    target[3] = reached[3]; target[4] = reached[4]; target[5] = reached[5];
 }
 
 double nao_right_arm_residual(const double *given, const double *q)

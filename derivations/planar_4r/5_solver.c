@@ -4,10 +4,7 @@
  * Hash of the input: 75841e65d2beefb8
  *
  * Target, in order:
- *   px (m)
- *   py (m)
- *   phi (rad)
- *   Base (rad)
+ *   `px` (m), `py` (m), `phi` (rad), `Base` (rad)
  * Joints, in order; angles lie in (-pi, pi]:
  *   Base (rad)
  *   Shoulder (rad)
@@ -16,10 +13,8 @@
  *
  * A target has 8 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
- * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 32 Newton steps at most.
+ * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+ * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * PLANAR_4R_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -121,7 +116,6 @@ int planar_4r_nearest(const planar_4r_solution *list, int count, const double *r
 #include <float.h>
 #include <math.h>
 
-
 #define INPUTS PLANAR_4R_INPUTS
 #define JOINTS PLANAR_4R_JOINTS
 #define EQUATIONS 6
@@ -153,6 +147,9 @@ int planar_4r_nearest(const planar_4r_solution *list, int count, const double *r
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+#define FARTHER 16.0
+#define FARTHEST 256.0
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
@@ -231,12 +228,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double cphi;
-    double sphi;
-    double c1;
-    double s1;
+    double px, py, cphi, sphi, c1, s1;
     /* The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale. */
     double magnitude;
 } Parameters;
@@ -275,14 +267,10 @@ static void tip(const double *at, double *reached)
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]), cos(q[3]), sin(q[3]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
-    at[4] = cos(q[2]);
-    at[5] = sin(q[2]);
-    at[6] = cos(q[3]);
-    at[7] = sin(q[3]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
+    at[4] = cos(q[2]); at[5] = sin(q[2]);
+    at[6] = cos(q[3]); at[7] = sin(q[3]);
 }
 
 #define SIZES 2
@@ -300,18 +288,9 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->cphi,
-            reached[3] - p->sphi,
-            reached[4] - p->c1,
-            reached[5] - p->s1,
-        },
-        {
-            1.15,
-            1.0,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->cphi, reached[3] - p->sphi,
+            reached[4] - p->c1, reached[5] - p->s1 },
+        { 1.15, 1.0 },
     };
     return result;
 }
@@ -438,7 +417,6 @@ static double angle(double cosine, double sine)
     return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -556,28 +534,20 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = wrap(q[2] - step[2]);
-    next[3] = wrap(q[3] - step[3]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]),
-fabs(step[3]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -710,25 +680,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = fmin(weight[2], 1.0);
-    weight[3] = fmin(weight[3], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-        wrap(q[3] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -751,20 +711,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = shorter(a[2] - b[2]);
-    difference[3] = shorter(a[3] - b[3]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance;
-    limit[3] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1073,19 +1031,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1203,18 +1168,13 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
     }
     planar_4r_pairs *pairs = &answers->pairs[answers->count];
     double q[JOINTS] = {0.0};
-    pairs->joints[0][0] = at[0] + 0.0;
-    pairs->joints[0][1] = at[1] + 0.0;
-    pairs->free[0] = false;
-    pairs->joints[1][0] = at[2] + 0.0;
-    pairs->joints[1][1] = at[3] + 0.0;
-    pairs->free[1] = false;
-    pairs->joints[2][0] = at[4] + 0.0;
-    pairs->joints[2][1] = at[5] + 0.0;
-    pairs->free[2] = false;
-    pairs->joints[3][0] = at[6] + 0.0;
-    pairs->joints[3][1] = at[7] + 0.0;
-    pairs->free[3] = false;
+    pairs->joints[0][0] = at[0] + 0.0; pairs->joints[0][1] = at[1] + 0.0;
+    pairs->joints[1][0] = at[2] + 0.0; pairs->joints[1][1] = at[3] + 0.0;
+    pairs->joints[2][0] = at[4] + 0.0; pairs->joints[2][1] = at[5] + 0.0;
+    pairs->joints[3][0] = at[6] + 0.0; pairs->joints[3][1] = at[7] + 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        pairs->free[i] = false;
+    }
     const Fit fit = measure_at(p, at, q);
     pairs->residual = fit.residual;
     pairs->branch = branch;
@@ -1337,49 +1297,35 @@ typedef struct {
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
     bool free[JOINTS];
-    double c1_;
-    double s1_;
-    double c3;
-    double s3;
-    double c2;
-    double s2;
+    double c1_, s1_, c3, s3, c2, s2;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r16;
-    double r17;
+    double r16, r17;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
- */
+/* Chart 1 of block 4: generic. */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r20 = shared->r16 * shared->r16 + shared->r17 * shared->r17, r22 = 1.0 / sqrt(fmax(r20, 0.0));
     const double c4 = shared->r16 * r22, s4 = shared->r17 * r22;
     const double at[PLACES] = {
-        known->c1_,
-        known->s1_,
-        known->c2,
-        known->s2,
-        known->c3,
-        known->s3,
-        c4,
-        s4,
+        known->c1_, known->s1_, known->c2, known->s2, known->c3, known->s3, c4, s4,
     };
     finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
@@ -1404,17 +1350,11 @@ COLD static void again_4(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r8;
-    double r10;
-    double r11;
-    double r13;
-    double r17;
-    double r18;
+    double r8, r10, r11, r13, r17, r18;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r21 = shared->r8 * shared->r8 + shared->r10 * shared->r10;
@@ -1427,7 +1367,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
-    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
     block_4(p, &next, answers);
@@ -1435,20 +1374,18 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: Shoulder.
- */
+ * Free: Shoulder. */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r21 = shared->r8 * shared->r8 + shared->r10 * shared->r10;
     if (!(is_near(r21, 1.1942500000000003e-6) && is_near(shared->r13, 0.01 * shared->r18) && is_near(shared->r11, 0.01 * shared->r17))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.close = known->close;
         next.free[1] = true;
         next.c2 = c2;
         next.s2 = s2;
@@ -1474,8 +1411,7 @@ typedef struct {
     double r19;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
- */
+/* Chart 1 of block 2: generic. */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r21 = shared->r19 * shared->r19 - 0.04409999999999999;
@@ -1505,15 +1441,12 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     chart_2_1(p, known, shared, answers);
 }
 
-/* Chart 1 of block 1: given.
- */
+/* Chart 1 of block 1: given. */
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double c1_ = p->c1, s1_ = p->s1;
     Known next = NOTHING_KNOWN;
-    next.branch = 0;
     next.last = 1;
-    next.close = false;
     next.c1_ = c1_;
     next.s1_ = s1_;
     block_2(p, &next, answers);
@@ -1588,35 +1521,26 @@ int planar_4r_solve_pairs(const double *target, planar_4r_pairs *out)
     }
     Solution list[PLANAR_4R_CAPACITY];
     const int count = planar_4r_solve(target, list);
-    for (int i = 0; i < count; i++) {
-        const Solution *answer = &list[i];
-        out[i].residual = answer->residual;
-        out[i].branch = answer->branch;
-        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
-        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
-        out[i].free[0] = answer->free[0];
-        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
-        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
-        out[i].free[1] = answer->free[1];
-        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
-        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
-        out[i].free[2] = answer->free[2];
-        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
-        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
-        out[i].free[3] = answer->free[3];
+    for (int k = 0; k < count; k++) {
+        const Solution *answer = &list[k];
+        out[k].residual = answer->residual;
+        out[k].branch = answer->branch;
+        for (size_t i = 0; i < JOINTS; i++) {
+            const double value = answer->q[i];
+            out[k].joints[i][0] = cos(value) + 0.0;
+            out[k].joints[i][1] = sin(value) + 0.0;
+            out[k].free[i] = answer->free[i];
+        }
     }
     return count;
 }
-
 
 void planar_4r_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = angle(reached[2], reached[3]);
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = angle(reached[2], reached[3]);
     target[3] = q[0];
 }
 

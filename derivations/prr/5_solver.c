@@ -4,9 +4,7 @@
  * Hash of the input: f69e78a8384198d3
  *
  * Target, in order:
- *   px (m)
- *   pz (m)
- *   phi (rad)
+ *   `px` (m), `pz` (m), `phi` (rad)
  * Joints, in order; angles lie in (-pi, pi]:
  *   Rail (m)
  *   Shoulder (rad)
@@ -14,10 +12,8 @@
  *
  * A target has 7 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
- * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 32 Newton steps at most.
+ * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+ * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * PRR_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -118,7 +114,6 @@ int prr_nearest(const prr_solution *list, int count, const double *reference, co
 #include <float.h>
 #include <math.h>
 
-
 #define INPUTS PRR_INPUTS
 #define JOINTS PRR_JOINTS
 #define EQUATIONS 4
@@ -150,6 +145,9 @@ int prr_nearest(const prr_solution *list, int count, const double *reference, co
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+#define FARTHER 16.0
+#define FARTHEST 256.0
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
@@ -209,10 +207,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double pz;
-    double cphi;
-    double sphi;
+    double px, pz, cphi, sphi;
 } Parameters;
 
 static Parameters parameters(const double *target)
@@ -242,10 +237,8 @@ static void tip(const double *at, double *reached)
 /* The numbers that the equations read: q[0], cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]). */
 static void place(const double *q, double *at)
 {
-    at[0] = q[0];
-    at[1] = cos(q[1]);
-    at[2] = sin(q[1]);
-    at[3] = cos(q[2]);
+    at[0] = q[0]; at[1] = cos(q[1]);
+    at[2] = sin(q[1]); at[3] = cos(q[2]);
     at[4] = sin(q[2]);
 }
 
@@ -265,16 +258,8 @@ static Equations equations(const Parameters *p, const double *at)
     tip(at, reached);
     const double d1 = at[0], r5 = fabs(d1) + 0.75;
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->pz,
-            reached[2] - p->cphi,
-            reached[3] - p->sphi,
-        },
-        {
-            r5,
-            1.0,
-        },
+        { reached[0] - p->px, reached[1] - p->pz, reached[2] - p->cphi, reached[3] - p->sphi },
+        { r5, 1.0 },
     };
     return result;
 }
@@ -393,7 +378,6 @@ static double angle(double cosine, double sine)
     return unfold(acute(fabs(cosine), fabs(sine)), cosine, sine);
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -496,26 +480,23 @@ static bool newton_step(const Parameters *p, const double *q, double damping, do
     return substituted(columns, step);
 }
 
+/* By joint: whether it turns. */
+static const bool IS_ANGLE[JOINTS] = { false, true, true };
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = q[0] - step[0];
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = wrap(q[2] - step[2]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = IS_ANGLE[i] ? wrap(q[i] - step[i]) : q[i] - step[i];
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]) / 0.75,
-fabs(step[1]),
-fabs(step[2]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 0.75);
     }
     return longest;
 }
@@ -648,23 +629,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
+        weight[i] = IS_ANGLE[i] ? fmin(weight[i], 1.0) : 1.0;
     }
-    weight[0] = 1.0;
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = fmin(weight[2], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        q[0] + way * fmax(0.75, fabs(q[0])),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * fmax(0.75, fabs(q[i]));
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -687,17 +660,17 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = a[0] - b[0];
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = shorter(a[2] - b[2]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = IS_ANGLE[i] ? shorter(a[i] - b[i]) : a[i] - b[i];
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
-    limit[0] = tolerance * fmax(0.75, fabs(q[0]));
-    limit[1] = tolerance;
-    limit[2] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * fmax(0.75, fabs(q[i]));
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -859,19 +832,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -945,13 +925,11 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
     pairs->joints[0][0] = at[0];
     pairs->joints[0][1] = 0.0;
     q[0] = at[0];
-    pairs->free[0] = false;
-    pairs->joints[1][0] = at[1] + 0.0;
-    pairs->joints[1][1] = at[2] + 0.0;
-    pairs->free[1] = false;
-    pairs->joints[2][0] = at[3] + 0.0;
-    pairs->joints[2][1] = at[4] + 0.0;
-    pairs->free[2] = false;
+    pairs->joints[1][0] = at[1] + 0.0; pairs->joints[1][1] = at[2] + 0.0;
+    pairs->joints[2][0] = at[3] + 0.0; pairs->joints[2][1] = at[4] + 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        pairs->free[i] = false;
+    }
     const Fit fit = measure_at(p, at, q);
     pairs->residual = fit.residual;
     pairs->branch = branch;
@@ -1060,21 +1038,17 @@ typedef struct {
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
-    double d1;
-    double c2;
-    double s2;
+    double d1, c2, s2;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, 0.0, 0.0, 0.0 };
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r4;
-    double r5;
+    double r4, r5;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
- */
+/* Chart 1 of block 3: generic. */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5, r10 = 1.0 / sqrt(fmax(r8, 0.0));
@@ -1094,20 +1068,15 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r1;
-    double r4;
+    double r1, r4;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
- */
+/* Chart 1 of block 2: generic. */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r5 = 0.45 * shared->r4, r6 = 0.45 * shared->r1, r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0));
     const double c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11;
     Known next = *known;
-    next.branch = known->branch;
-    next.last = known->last;
-    next.close = known->close;
     next.c2 = c2;
     next.s2 = s2;
     block_3(p, &next, answers);
@@ -1124,12 +1093,10 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
 
 /* What the charts of block 1 share. */
 typedef struct {
-    double r1;
-    double r13;
+    double r1, r13;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
- */
+/* Chart 1 of block 1: generic. */
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const Roots roots0 = square_roots(shared->r13 - shared->r1 * shared->r1, 1.4142135623730951);
@@ -1217,32 +1184,26 @@ int prr_solve_pairs(const double *target, prr_pairs *out)
     }
     Solution list[PRR_CAPACITY];
     const int count = prr_solve(target, list);
-    for (int i = 0; i < count; i++) {
-        const Solution *answer = &list[i];
-        out[i].residual = answer->residual;
-        out[i].branch = answer->branch;
-        out[i].joints[0][0] = answer->q[0];
-        out[i].joints[0][1] = 0.0;
-        out[i].free[0] = answer->free[0];
-        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
-        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
-        out[i].free[1] = answer->free[1];
-        out[i].joints[2][0] = cos(answer->q[2]) + 0.0;
-        out[i].joints[2][1] = sin(answer->q[2]) + 0.0;
-        out[i].free[2] = answer->free[2];
+    for (int k = 0; k < count; k++) {
+        const Solution *answer = &list[k];
+        out[k].residual = answer->residual;
+        out[k].branch = answer->branch;
+        for (size_t i = 0; i < JOINTS; i++) {
+            const double value = answer->q[i];
+            out[k].joints[i][0] = IS_ANGLE[i] ? cos(value) + 0.0 : value;
+            out[k].joints[i][1] = IS_ANGLE[i] ? sin(value) + 0.0 : 0.0;
+            out[k].free[i] = answer->free[i];
+        }
     }
     return count;
 }
-
 
 void prr_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = angle(reached[2], reached[3]);
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = angle(reached[2], reached[3]);
 }
 
 double prr_residual(const double *target, const double *q)

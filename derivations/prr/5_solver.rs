@@ -4,9 +4,7 @@
 //! - Hash of the input: f69e78a8384198d3
 //!
 //! Target, in order:
-//! - `px` (m)
-//! - `pz` (m)
-//! - `phi` (rad)
+//! `px` (m), `pz` (m), `phi` (rad).
 //!
 //! Joints, in order; angles lie in (-pi, pi]:
 //! - `Rail` (m)
@@ -15,10 +13,8 @@
 //!
 //! A target has 7 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
 //!
-//! Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
-//! 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
-//! scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
-//! answer is polished by 32 Newton steps at most.
+//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
 //!
 //! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
 //! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
@@ -137,11 +133,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
     let mut list = [Solution::EMPTY; CAPACITY];
     let count = solve(target, &mut list)?;
     for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = [
-            [q[0], 0.0],
-            [q[1].cos() + 0.0, q[1].sin() + 0.0],
-            [q[2].cos() + 0.0, q[2].sin() + 0.0],
-        ];
+        let joints = core::array::from_fn(|i| if IS_ANGLE[i] { [q[i].cos() + 0.0, q[i].sin() + 0.0] } else { [q[i], 0.0] });
         *pairs = Pairs { joints, residual, branch, free };
     }
     Ok(count)
@@ -236,7 +228,6 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
     Some(place)
 }
 
-
 /// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
 /// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
 /// its weight, which is not negative.
@@ -313,6 +304,9 @@ const APART: f64 = 0.7;
 const SPLIT: f64 = 0.001;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 const LEVER: f64 = 0.1;
+/// Points around a candidate are so much farther where no nearer one leads to an answer.
+const FARTHER: f64 = 16.0;
+const FARTHEST: f64 = 256.0;
 /// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
 /// is added to it in these.
 const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
@@ -324,10 +318,7 @@ const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 
 /// Parameters of the equations.
 struct Parameters {
-    px: f64,
-    pz: f64,
-    cphi: f64,
-    sphi: f64,
+    px: f64, pz: f64, cphi: f64, sphi: f64,
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
@@ -347,9 +338,7 @@ struct Known {
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
-    d1: f64,
-    c2: f64,
-    s2: f64,
+    d1: f64, c2: f64, s2: f64,
 }
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, d1: 0.0, c2: 0.0, s2: 0.0 };
@@ -364,10 +353,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 1 share.
-struct Shared1 {
-    r1: f64,
-    r13: f64,
-}
+struct Shared1 { r1: f64, r13: f64 }
 
 /// Chart 1 of block 1: generic.
 #[inline(always)]
@@ -390,10 +376,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 2 share.
-struct Shared2 {
-    r1: f64,
-    r4: f64,
-}
+struct Shared2 { r1: f64, r4: f64 }
 
 /// Chart 1 of block 2: generic.
 #[inline(always)]
@@ -417,10 +400,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 }
 
 /// What the charts of block 3 share.
-struct Shared3 {
-    r4: f64,
-    r5: f64,
-}
+struct Shared3 { r4: f64, r5: f64 }
 
 /// Chart 1 of block 3: generic.
 #[inline(always)]
@@ -439,11 +419,7 @@ const TIP: usize = 4;
 /// The tip, as the equations compare it.
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
-    let d1 = at[0];
-    let c2 = at[1];
-    let s2 = at[2];
-    let c3 = at[3];
-    let s3 = at[4];
+    let [d1, c2, s2, c3, s3] = *at;
     let r1 = c2 * c3;
     let r2 = s2 * s3;
     let r3 = s2 * c3;
@@ -462,11 +438,7 @@ const PLACES: usize = 5;
 /// The numbers that the equations read: q[0], q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin().
 fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
     [
-        q[0],
-        q[1].cos(),
-        q[1].sin(),
-        q[2].cos(),
-        q[2].sin(),
+        q[0], q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(),
     ]
 }
 
@@ -485,17 +457,14 @@ const SIZE_OF: [usize; EQUATIONS] = [0, 0, 1, 1];
 fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
     let reached = tip(at);
     [
-        reached[0] - p.px,
-        reached[1] - p.pz,
-        reached[2] - p.cphi,
-        reached[3] - p.sphi,
+        reached[0] - p.px, reached[1] - p.pz, reached[2] - p.cphi, reached[3] - p.sphi,
     ]
 }
 
 /// The sizes of equations.
 #[inline(always)]
 fn sizes(_p: &Parameters, at: &[f64; PLACES]) -> [f64; SIZES] {
-    let d1 = at[0];
+    let [d1, _, _, _, _] = *at;
     let r5 = f64::abs(d1) + 0.75;
     [r5, 1.0]
 }
@@ -506,10 +475,7 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
-    let c2 = at[1];
-    let s2 = at[2];
-    let c3 = at[3];
-    let s3 = at[4];
+    let [_, c2, s2, c3, s3] = *at;
     let r1 = c2 * c3;
     let r2 = s2 * s3;
     let r3 = s2 * c3;
@@ -558,18 +524,27 @@ impl Answers<'_> {
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters.
+    /// matters. Where none leads to an answer, from farther ones.
     fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
         let weights = weights(p, &end.0);
-        for i in 0..JOINTS {
-            for sign in [-1.0, 1.0] {
-                let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                let way = f64::min((missed / weight).sqrt(), APART);
-                let start = moved(&end.0, i, 2.0 * sign * way);
-                let start = (start, measure(p, &start));
-                let start = polish(p, start);
-                self.keep(p, branch, last, start, free);
+        let mut is_found = end.1.accepted;
+        let mut farther = 1.0;
+        while farther <= FARTHEST {
+            for i in 0..JOINTS {
+                for sign in [-1.0, 1.0] {
+                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
+                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
+                    let start = moved(&end.0, i, 2.0 * sign * way);
+                    let start = (start, measure(p, &start));
+                    let start = polish(p, start);
+                    is_found |= start.1.accepted;
+                    self.keep(p, branch, last, start, free);
+                }
             }
+            if is_found {
+                return;
+            }
+            farther *= FARTHER;
         }
     }
 
@@ -708,13 +683,12 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
     a.relative <= b.relative
 }
 
+/// By joint: whether it turns.
+const IS_ANGLE: [bool; JOINTS] = [false, true, true];
+
 /// `a - b` joint by joint, angles by the shorter way round.
 fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        a[0] - b[0],
-        shorter(a[1] - b[1]),
-        shorter(a[2] - b[2]),
-    ]
+    core::array::from_fn(|i| if IS_ANGLE[i] { shorter(a[i] - b[i]) } else { a[i] - b[i] })
 }
 
 fn shorter(difference: f64) -> f64 {
@@ -740,11 +714,7 @@ fn is_isolated(answer: &Solution) -> bool {
 
 /// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
 fn spans(q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [
-tolerance * f64::max(0.75, q[0].abs()),
-tolerance,
-tolerance,
-    ]
+    core::array::from_fn(|i| if IS_ANGLE[i] { tolerance } else { tolerance * f64::max(0.75, q[i].abs()) })
 }
 
 /// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
@@ -901,21 +871,12 @@ fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64) -> Option<([f64; JOINTS]
 
 /// The longest way of a joint in a step: an angle, or a share of the length scale.
 fn longest(step: &[f64; JOINTS]) -> f64 {
-    let ways = [
-step[0].abs() / 0.75,
-step[1].abs(),
-step[2].abs(),
-    ];
-    ways.iter().fold(0.0, |longest, &way| f64::max(longest, way))
+    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, if IS_ANGLE[i] { step[i].abs() } else { step[i].abs() / 0.75 }))
 }
 
 /// `q - step`, angles in (-pi, pi].
 fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    [
-        q[0] - step[0],
-        wrap(q[1] - step[1]),
-        wrap(q[2] - step[2]),
-    ]
+    core::array::from_fn(|i| if IS_ANGLE[i] { wrap(q[i] - step[i]) } else { q[i] - step[i] })
 }
 
 /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
@@ -930,22 +891,13 @@ fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
             weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
         }
     }
-    [
-        1.0,
-        f64::min(weights[1], 1.0),
-        f64::min(weights[2], 1.0),
-    ]
+    core::array::from_fn(|i| if IS_ANGLE[i] { f64::min(weights[i], 1.0) } else { 1.0 })
 }
 
 /// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
 fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let ends = [
-        q[0] + way * f64::max(0.75, q[0].abs()),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-    ];
     let mut next = *q;
-    next[i] = ends[i];
+    next[i] = if IS_ANGLE[i] { wrap(q[i] + way) } else { q[i] + way * f64::max(0.75, q[i].abs()) };
     next
 }
 

@@ -81,14 +81,12 @@ typedef struct {
     bool free[RH0_ARM_JOINTS];
 } rh0_arm_solution;
 
-
 /* Writes all solutions for the target (RH0_ARM_INPUTS numbers) to the front of out (RH0_ARM_CAPACITY places), by branch, and
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int rh0_arm_solve(const double *target, rh0_arm_solution *out);
 
 /* Writes the target (RH0_ARM_INPUTS numbers) that joint values q (RH0_ARM_JOINTS numbers) reach. */
 void rh0_arm_forward(const double *q, double *target);
-
 
 static const int INPUTS = RH0_ARM_INPUTS;
 static const int JOINTS = RH0_ARM_JOINTS;
@@ -114,6 +112,9 @@ static const double APART = 0.7;
 static const double SPLIT = 0.001;
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 static const double LEVER = 0.1;
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+static const double FARTHER = 16.0;
+static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
@@ -188,9 +189,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double pz;
+    double px, py, pz;
     /* The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale. */
     double magnitude;
 } Parameters;
@@ -223,12 +222,9 @@ static const int PLACES = 6;
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q[2]), sin(q[2]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
-    at[4] = cos(q[2]);
-    at[5] = sin(q[2]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
+    at[4] = cos(q[2]); at[5] = sin(q[2]);
 }
 
 static const int SIZES = 1;
@@ -246,14 +242,8 @@ static Equations equations(const Parameters *p, const double *at)
     double reached[TIP];
     tip(at, reached);
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->pz,
-        },
-        {
-            0.8205551275463989,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->pz },
+        { 0.8205551275463989 },
     };
     return result;
 }
@@ -367,7 +357,6 @@ static double unfold(double size, double cosine, double sine)
     const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
     return half_open(copysign(value, sine)) + 0.0;
 }
-
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -486,26 +475,20 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
-
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = wrap(q[2] - step[2]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = wrap(q[i] - step[i]);
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, fabs(step[i]));
     }
     return longest;
 }
@@ -638,23 +621,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
+        weight[i] = fmin(weight[i], 1.0);
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = fmin(weight[2], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        wrap(q[2] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = wrap(q[i] + way);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -674,18 +649,18 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = shorter(a[2] - b[2]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = shorter(a[i] - b[i]);
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
     (void)q;
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = tolerance;
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -993,19 +968,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1203,38 +1185,30 @@ typedef struct {
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
     bool free[JOINTS];
-    double c16;
-    double s16;
-    double c14;
-    double s14;
+    double c16, s16, c14, s14;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r4;
-    double r5;
-    double r6;
-    double r10;
-    double r11;
+    double r4, r5, r6, r10, r11;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     if (!is_away(shared->r4 * shared->r4, 47.110400000000006)) {
@@ -1248,14 +1222,13 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: Shoulder.
- */
+ * Free: Shoulder. */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     if (!(is_near(shared->r4 * shared->r4, 2.9444000000000003e-7) && is_near(shared->r6, 0.01 * shared->r11) && is_near(shared->r5, 0.01 * shared->r10))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c15 = SAMPLES_1[i0][0], s15 = SAMPLES_1[i0][1];
         const double at[PLACES] = {known->c14, known->s14, c15, s15, known->c16, known->s16};
         const bool free_joints[JOINTS] = {known->free[0], true, known->free[2]};
@@ -1283,15 +1256,11 @@ static void again_3(const Parameters *p, const Known *known, Answers *answers)
 
 /* What the charts of block 2 share. */
 typedef struct {
-    double r0;
-    double r1;
-    double r2;
-    double r4;
+    double r0, r1, r2, r4;
 } Shared2;
 
 /* Chart 1 of block 2: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r5 = p->pz * p->pz, r6 = shared->r0 * shared->r0, r7 = r5 + r6;
@@ -1316,20 +1285,18 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
- * Free: Clavicle.
- */
+ * Free: Clavicle. */
 static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r10 = p->magnitude * p->magnitude + shared->r4 * shared->r4;
     if (!(is_near(p->pz * p->pz + shared->r0 * shared->r0, 1.0000000000000001e-7 * r10) && is_near(shared->r2, 0.0024))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c14 = SAMPLES_1[i0][0], s14 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
         next.last = 3 * known->last;
-        next.close = known->close;
         next.free[0] = true;
         next.c14 = c14;
         next.s14 = s14;
@@ -1352,8 +1319,7 @@ typedef struct {
     double r9;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
- */
+/* Chart 1 of block 1: generic. */
 static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r11 = shared->r9 * shared->r9 - 0.011151359999999999;
@@ -1420,15 +1386,12 @@ int rh0_arm_solve(const double *target, rh0_arm_solution *out)
     return (int)answers.count;
 }
 
-
 void rh0_arm_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
 }
 
 /* A length in metres times this is one in the unit of the equations. */

@@ -81,14 +81,12 @@ typedef struct {
     bool free[RRP_JOINTS];
 } rrp_solution;
 
-
 /* Writes all solutions for the target (RRP_INPUTS numbers) to the front of out (RRP_CAPACITY places), by branch, and
  * returns their number, 0 when it is out of reach; or one of the negative codes above. */
 int rrp_solve(const double *target, rrp_solution *out);
 
 /* Writes the target (RRP_INPUTS numbers) that joint values q (RRP_JOINTS numbers) reach. */
 void rrp_forward(const double *q, double *target);
-
 
 static const int INPUTS = RRP_INPUTS;
 static const int JOINTS = RRP_JOINTS;
@@ -114,6 +112,9 @@ static const double APART = 0.7;
 static const double SPLIT = 0.001;
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 static const double LEVER = 0.1;
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+static const double FARTHER = 16.0;
+static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
@@ -188,9 +189,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double pz;
+    double px, py, pz;
     /* The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale. */
     double magnitude;
 } Parameters;
@@ -223,10 +222,8 @@ static const int PLACES = 5;
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), q[2]. */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
     at[4] = q[2];
 }
 
@@ -246,14 +243,8 @@ static Equations equations(const Parameters *p, const double *at)
     tip(at, reached);
     const double d3 = at[4], r8 = fabs(d3) + 1.1302692427176386;
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->pz,
-        },
-        {
-            r8,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->pz },
+        { r8 },
     };
     return result;
 }
@@ -367,7 +358,6 @@ static double unfold(double size, double cosine, double sine)
     const double value = cosine < 0.0 ? PI - (size - 4.0 * REST) : size;
     return half_open(copysign(value, sine)) + 0.0;
 }
-
 
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
@@ -486,26 +476,23 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
+/* By joint: whether it turns. */
+static const bool IS_ANGLE[JOINTS] = { true, true, false };
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = q[2] - step[2];
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = IS_ANGLE[i] ? wrap(q[i] - step[i]) : q[i] - step[i];
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]) / 1.1302692427176386,
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 1.1302692427176386);
     }
     return longest;
 }
@@ -638,23 +625,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
         }
+        weight[i] = IS_ANGLE[i] ? fmin(weight[i], 1.0) : 1.0;
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = 1.0;
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        q[2] + way * fmax(1.1302692427176386, fabs(q[2])),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * fmax(1.1302692427176386, fabs(q[i]));
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -674,17 +653,17 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = a[2] - b[2];
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = IS_ANGLE[i] ? shorter(a[i] - b[i]) : a[i] - b[i];
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance * fmax(1.1302692427176386, fabs(q[2]));
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * fmax(1.1302692427176386, fabs(q[i]));
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -992,19 +971,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1202,35 +1188,30 @@ typedef struct {
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
     bool free[JOINTS];
-    double c1;
-    double s1;
-    double d3;
+    double c1, s1, d3;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r2;
-    double r3;
-    double r5;
+    double r2, r3, r5;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r7 = shared->r2 * shared->r2 + 0.0025000000000000005;
@@ -1246,15 +1227,14 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: Pitch.
- */
+ * Free: Pitch. */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r7 = shared->r2 * shared->r2 + 0.0025000000000000005;
     if (!(is_near(r7, 2.0000000000000002e-7) && is_near(shared->r5, 0.01) && is_near(shared->r3, 0.01))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         const double at[PLACES] = {known->c1, known->s1, c2, s2, known->d3};
         const bool free_joints[JOINTS] = {known->free[0], true, known->free[2]};
@@ -1277,8 +1257,7 @@ typedef struct {
     double r14;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
- */
+/* Chart 1 of block 2: generic. */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const Roots roots0 = square_roots(shared->r14 - 0.16000000000000003, 1.4142135623730951);
@@ -1305,8 +1284,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 }
 
 /* Chart 1 of block 1: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->py * p->py, r1 = p->px * p->px, r2 = r0 + r1, r3 = p->magnitude * p->magnitude;
@@ -1373,15 +1351,12 @@ int rrp_solve(const double *target, rrp_solution *out)
     return (int)answers.count;
 }
 
-
 void rrp_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
 }
 
 /* A length in metres times this is one in the unit of the equations. */

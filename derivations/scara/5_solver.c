@@ -4,18 +4,8 @@
  * Hash of the input: 511363eac09717b9
  *
  * Target, in order:
- *   px (m)
- *   py (m)
- *   pz (m)
- *   r11 (1)
- *   r12 (1)
- *   r13 (1)
- *   r21 (1)
- *   r22 (1)
- *   r23 (1)
- *   r31 (1)
- *   r32 (1)
- *   r33 (1)
+ *   `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
+ *   `r31` (1), `r32` (1), `r33` (1)
  * Joints, in order; angles lie in (-pi, pi]:
  *   Shoulder (rad)
  *   Elbow (rad)
@@ -24,10 +14,8 @@
  *
  * A target has 8 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds when it is at most 1e-12 of the sum of its terms' magnitudes. Answers within
- * 1e-7 of one another (rad, or relative to the length scale) are one. A factor is near zero up to 0.001 of its
- * scale, and not zero above 1e-30 of it. A leading coefficient counts above 1e-9 of the largest one. Each
- * answer is polished by 32 Newton steps at most.
+ * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
+ * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
  *
  * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
  * SCARA_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
@@ -133,7 +121,6 @@ int scara_nearest(const scara_solution *list, int count, const double *reference
 #include <float.h>
 #include <math.h>
 
-
 #define INPUTS SCARA_INPUTS
 #define JOINTS SCARA_JOINTS
 #define EQUATIONS 12
@@ -165,6 +152,9 @@ int scara_nearest(const scara_solution *list, int count, const double *reference
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Points around a candidate are so much farther where no nearer one leads to an answer. */
+#define FARTHER 16.0
+#define FARTHEST 256.0
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
@@ -245,18 +235,7 @@ static Roots square_roots(double constant, double scale)
 
 /* Parameters of the equations. */
 typedef struct {
-    double px;
-    double py;
-    double pz;
-    double r11_;
-    double r12_;
-    double r13_;
-    double r21_;
-    double r22_;
-    double r23_;
-    double r31_;
-    double r32_;
-    double r33_;
+    double px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_;
     /* The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale. */
     double magnitude;
 } Parameters;
@@ -300,12 +279,9 @@ static void tip(const double *at, double *reached)
 /* The numbers that the equations read: cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), q[2], cos(q[3]), sin(q[3]). */
 static void place(const double *q, double *at)
 {
-    at[0] = cos(q[0]);
-    at[1] = sin(q[0]);
-    at[2] = cos(q[1]);
-    at[3] = sin(q[1]);
-    at[4] = q[2];
-    at[5] = cos(q[3]);
+    at[0] = cos(q[0]); at[1] = sin(q[0]);
+    at[2] = cos(q[1]); at[3] = sin(q[1]);
+    at[4] = q[2]; at[5] = cos(q[3]);
     at[6] = sin(q[3]);
 }
 
@@ -325,24 +301,10 @@ static Equations equations(const Parameters *p, const double *at)
     tip(at, reached);
     const double d3 = at[4], r14 = fabs(d3) + 0.7803652144736517;
     const Equations result = {
-        {
-            reached[0] - p->px,
-            reached[1] - p->py,
-            reached[2] - p->pz,
-            reached[3] - p->r11_,
-            reached[4] - p->r21_,
-            reached[5] - p->r31_,
-            reached[6] - p->r12_,
-            reached[7] - p->r22_,
-            reached[8] - p->r32_,
-            reached[9] - p->r13_,
-            reached[10] - p->r23_,
-            reached[11] - p->r33_,
-        },
-        {
-            r14,
-            1.0,
-        },
+        { reached[0] - p->px, reached[1] - p->py, reached[2] - p->pz, reached[3] - p->r11_,
+            reached[4] - p->r21_, reached[5] - p->r31_, reached[6] - p->r12_, reached[7] - p->r22_,
+            reached[8] - p->r32_, reached[9] - p->r13_, reached[10] - p->r23_, reached[11] - p->r33_ },
+        { r14, 1.0 },
     };
     return result;
 }
@@ -466,7 +428,6 @@ static double unfold(double size, double cosine, double sine)
     return half_open(copysign(value, sine)) + 0.0;
 }
 
-
 /* The angle moved by whole turns into (-pi, pi]. */
 static double wrap(double angle)
 {
@@ -584,28 +545,23 @@ static double regularity(const Parameters *p, const double *q)
     return least / most;
 }
 
+/* By joint: whether it turns. */
+static const bool IS_ANGLE[JOINTS] = { true, true, false, true };
 
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
-    next[0] = wrap(q[0] - step[0]);
-    next[1] = wrap(q[1] - step[1]);
-    next[2] = q[2] - step[2];
-    next[3] = wrap(q[3] - step[3]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        next[i] = IS_ANGLE[i] ? wrap(q[i] - step[i]) : q[i] - step[i];
+    }
 }
 
 /* The longest way of a joint in a step: an angle, or a share of the length scale. */
 static double longest_way(const double *step)
 {
-    const double ways[JOINTS] = {
-fabs(step[0]),
-fabs(step[1]),
-fabs(step[2]) / 0.7803652144736517,
-fabs(step[3]),
-    };
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, ways[i]);
+        longest = fmax(longest, IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 0.7803652144736517);
     }
     return longest;
 }
@@ -738,25 +694,15 @@ static void weights(const Parameters *p, const double *q, double *weight)
         for (size_t row = 0; row < EQUATIONS; row++) {
             weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
         }
+        weight[i] = IS_ANGLE[i] ? fmin(weight[i], 1.0) : 1.0;
     }
-    weight[0] = fmin(weight[0], 1.0);
-    weight[1] = fmin(weight[1], 1.0);
-    weight[2] = 1.0;
-    weight[3] = fmin(weight[3], 1.0);
 }
 
 /* q with joint i moved: an angle by way, a length by that share of its size. */
 static void move(const double *q, size_t i, double way, double *next)
 {
-    const double ends[JOINTS] = {
-        wrap(q[0] + way),
-        wrap(q[1] + way),
-        q[2] + way * fmax(0.7803652144736517, fabs(q[2])),
-        wrap(q[3] + way),
-    };
-    for (size_t j = 0; j < JOINTS; j++) {
-        next[j] = j == i ? ends[j] : q[j];
-    }
+    copy(q, next);
+    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * fmax(0.7803652144736517, fabs(q[i]));
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -779,19 +725,17 @@ static double shorter(double difference)
 /* a - b joint by joint, angles by the shorter way round. */
 static void differences(const double *a, const double *b, double *difference)
 {
-    difference[0] = shorter(a[0] - b[0]);
-    difference[1] = shorter(a[1] - b[1]);
-    difference[2] = a[2] - b[2];
-    difference[3] = shorter(a[3] - b[3]);
+    for (size_t i = 0; i < JOINTS; i++) {
+        difference[i] = IS_ANGLE[i] ? shorter(a[i] - b[i]) : a[i] - b[i];
+    }
 }
 
 /* How far joints may differ: angles by tolerance, lengths by that share of their size. */
 static void spans(const double *q, double tolerance, double *limit)
 {
-    limit[0] = tolerance;
-    limit[1] = tolerance;
-    limit[2] = tolerance * fmax(0.7803652144736517, fabs(q[2]));
-    limit[3] = tolerance;
+    for (size_t i = 0; i < JOINTS; i++) {
+        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * fmax(0.7803652144736517, fabs(q[i]));
+    }
 }
 
 /* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
@@ -1100,19 +1044,26 @@ static void keep(const Parameters *p, Answers *answers, size_t branch, size_t la
 }
 
 /* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
- * matters. */
+ * matters. Where none leads to an answer, from farther ones. */
 static void around(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, double missed, const bool *free, Answers *answers)
 {
     double weight[JOINTS];
     weights(p, q, weight);
-    for (size_t i = 0; i < 2 * JOINTS; i++) {
-        const double sign = i % 2 == 0 ? -1.0 : 1.0;
-        const double way = fmin(sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
-        double start[JOINTS];
-        move(q, i / 2, 2.0 * sign * way, start);
-        Fit end = measure(p, start);
-        polish(p, start, &end, NONE_FREE);
-        keep(p, answers, branch, last, start, &end, free);
+    bool is_found = fit->accepted;
+    for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
+        for (size_t i = 0; i < 2 * JOINTS; i++) {
+            const double sign = i % 2 == 0 ? -1.0 : 1.0;
+            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            double start[JOINTS];
+            move(q, i / 2, 2.0 * sign * way, start);
+            Fit end = measure(p, start);
+            polish(p, start, &end, NONE_FREE);
+            is_found = is_found || end.accepted;
+            keep(p, answers, branch, last, start, &end, free);
+        }
+        if (is_found) {
+            return;
+        }
     }
 }
 
@@ -1230,19 +1181,15 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
     }
     scara_pairs *pairs = &answers->pairs[answers->count];
     double q[JOINTS] = {0.0};
-    pairs->joints[0][0] = at[0] + 0.0;
-    pairs->joints[0][1] = at[1] + 0.0;
-    pairs->free[0] = false;
-    pairs->joints[1][0] = at[2] + 0.0;
-    pairs->joints[1][1] = at[3] + 0.0;
-    pairs->free[1] = false;
+    pairs->joints[0][0] = at[0] + 0.0; pairs->joints[0][1] = at[1] + 0.0;
+    pairs->joints[1][0] = at[2] + 0.0; pairs->joints[1][1] = at[3] + 0.0;
     pairs->joints[2][0] = at[4];
     pairs->joints[2][1] = 0.0;
     q[2] = at[4];
-    pairs->free[2] = false;
-    pairs->joints[3][0] = at[5] + 0.0;
-    pairs->joints[3][1] = at[6] + 0.0;
-    pairs->free[3] = false;
+    pairs->joints[3][0] = at[5] + 0.0; pairs->joints[3][1] = at[6] + 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        pairs->free[i] = false;
+    }
     const Fit fit = measure_at(p, at, q);
     pairs->residual = fit.residual;
     pairs->branch = branch;
@@ -1327,35 +1274,29 @@ typedef struct {
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
     bool free[JOINTS];
-    double d3;
-    double c2;
-    double s2;
-    double c1;
-    double s1;
+    double d3, c2, s2, c1, s1;
 } Known;
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[8][2] = {
-    {-0.9210609940028851, -0.3894183423086505},
-    {-0.37592812418099103, -0.926648825310733},
-    {0.38941834230865047, -0.9210609940028851},
-    {0.926648825310733, -0.375928124180991},
-    {0.9210609940028851, 0.3894183423086505},
-    {0.37592812418099114, 0.926648825310733},
-    {-0.38941834230865036, 0.9210609940028851},
-    {-0.9266488253107329, 0.3759281241809912},
+static const double SAMPLES_1[16][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
+    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
+    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
+    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
+    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
+    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
+    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
 /* What the charts of block 4 share. */
 typedef struct {
-    double r16;
-    double r17;
+    double r16, r17;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
- */
+/* Chart 1 of block 4: generic. */
 INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r20 = shared->r16 * shared->r16 + shared->r17 * shared->r17, r22 = 1.0 / sqrt(fmax(r20, 0.0));
@@ -1384,15 +1325,11 @@ COLD static void again_4(const Parameters *p, const Known *known, Answers *answe
 
 /* What the charts of block 3 share. */
 typedef struct {
-    double r0;
-    double r2;
-    double r3;
-    double r5;
+    double r0, r2, r3, r5;
 } Shared3;
 
 /* Chart 1 of block 3: generic.
- * It runs where A^2 + B^2 is not zero.
- */
+ * It runs where A^2 + B^2 is not zero. */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r8 = shared->r0 * shared->r0 + shared->r2 * shared->r2;
@@ -1405,7 +1342,6 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;
-    next.close = known->close;
     next.c1 = c1;
     next.s1 = s1;
     block_4(p, &next, answers);
@@ -1413,20 +1349,18 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
- * Free: Shoulder.
- */
+ * Free: Shoulder. */
 static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r8 = shared->r0 * shared->r0 + shared->r2 * shared->r2, r9 = 0.01 * shared->r5;
     if (!(is_near(r8, 2.418125e-7) && is_near(shared->r3, r9) && is_near(p->py, r9))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 8; i0++) {
+    for (size_t i0 = 0; i0 < 16; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
-        next.close = known->close;
         next.free[0] = true;
         next.c1 = c1;
         next.s1 = s1;
@@ -1450,8 +1384,7 @@ typedef struct {
     double r11;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
- */
+/* Chart 1 of block 2: generic. */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r13 = shared->r11 * shared->r11 - 0.031951562499999996;
@@ -1484,15 +1417,12 @@ typedef struct {
     double r0;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
- */
+/* Chart 1 of block 1: generic. */
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double d3 = shared->r0;
     Known next = NOTHING_KNOWN;
-    next.branch = 0;
     next.last = 1;
-    next.close = false;
     next.d3 = d3;
     block_2(p, &next, answers);
 }
@@ -1617,44 +1547,29 @@ int scara_solve_pairs(const double *target, scara_pairs *out)
     }
     Solution list[SCARA_CAPACITY];
     const int count = scara_solve(target, list);
-    for (int i = 0; i < count; i++) {
-        const Solution *answer = &list[i];
-        out[i].residual = answer->residual;
-        out[i].branch = answer->branch;
-        out[i].joints[0][0] = cos(answer->q[0]) + 0.0;
-        out[i].joints[0][1] = sin(answer->q[0]) + 0.0;
-        out[i].free[0] = answer->free[0];
-        out[i].joints[1][0] = cos(answer->q[1]) + 0.0;
-        out[i].joints[1][1] = sin(answer->q[1]) + 0.0;
-        out[i].free[1] = answer->free[1];
-        out[i].joints[2][0] = answer->q[2];
-        out[i].joints[2][1] = 0.0;
-        out[i].free[2] = answer->free[2];
-        out[i].joints[3][0] = cos(answer->q[3]) + 0.0;
-        out[i].joints[3][1] = sin(answer->q[3]) + 0.0;
-        out[i].free[3] = answer->free[3];
+    for (int k = 0; k < count; k++) {
+        const Solution *answer = &list[k];
+        out[k].residual = answer->residual;
+        out[k].branch = answer->branch;
+        for (size_t i = 0; i < JOINTS; i++) {
+            const double value = answer->q[i];
+            out[k].joints[i][0] = IS_ANGLE[i] ? cos(value) + 0.0 : value;
+            out[k].joints[i][1] = IS_ANGLE[i] ? sin(value) + 0.0 : 0.0;
+            out[k].free[i] = answer->free[i];
+        }
     }
     return count;
 }
-
 
 void scara_forward(const double *q, double *target)
 {
     double at[PLACES], reached[TIP];
     place(q, at);
     tip(at, reached);
-    target[0] = reached[0];
-    target[1] = reached[1];
-    target[2] = reached[2];
-    target[3] = reached[3];
-    target[4] = reached[6];
-    target[5] = reached[5];
-    target[6] = reached[4];
-    target[7] = reached[7];
-    target[8] = reached[5];
-    target[9] = reached[5];
-    target[10] = reached[5];
-    target[11] = reached[11];
+    target[0] = reached[0]; target[1] = reached[1]; target[2] = reached[2];
+    target[3] = reached[3]; target[4] = reached[6]; target[5] = reached[5];
+    target[6] = reached[4]; target[7] = reached[7]; target[8] = reached[5];
+    target[9] = reached[5]; target[10] = reached[5]; target[11] = reached[11];
 }
 
 double scara_residual(const double *given, const double *q)

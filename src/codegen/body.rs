@@ -216,10 +216,9 @@ impl Scene<'_> {
     pub fn checks(&self, rows: &[&[Operand]]) -> (Vec<String>, Vec<Vec<String>>) {
         let code = &self.program.checks.code;
         let mut printer = self.printer(Demand::of_code(code, rows.iter().copied().flatten()));
-        let mut lines = Vec::new();
-        for (place, &unknown) in self.places().iter().enumerate().filter(|(_, i)| printer.demand().wants_unknown(**i)) {
-            lines.push(self.language.declare(&self.names.unknowns[unknown], &format!("at[{place}]")));
-        }
+        let name =
+            |unknown: usize| printer.demand().wants_unknown(unknown).then_some(self.names.unknowns[unknown].as_str());
+        let mut lines = self.language.declare_places(&self.places().into_iter().map(name).collect::<Vec<_>>());
         lines.extend(printer.code(code));
         let rows = rows.iter().map(|row| row.iter().map(|&operand| printer.operand(operand)).collect()).collect();
         (lines, rows)

@@ -230,12 +230,12 @@ impl Language for C99 {
     fn go_on(&self, state: &State<'_>) -> Vec<String> {
         let [branch, last] = &state.branch;
         let start = if state.goes_on { "*known" } else { "NOTHING_KNOWN" };
-        let mut lines = vec![
-            format!("Known next = {start};"),
-            format!("next.branch = {branch};"),
-            format!("next.last = {last};"),
-            format!("next.close = {};", state.close),
-        ];
+        let mut lines = vec![format!("Known next = {start};")];
+        for (name, value) in [("branch", branch), ("last", last), ("close", &state.close)] {
+            let is_there =
+                if state.goes_on { *value == self.known(name) } else { ["0", "false"].contains(&value.as_str()) };
+            lines.extend((!is_there).then(|| format!("next.{name} = {value};")));
+        }
         lines.extend(state.pair.iter().map(|pair| format!("next.pair = {pair};")));
         let is_usual = |free: &str| free == "false" || free.starts_with("known->") && !free.contains(' ');
         let free = state.free.iter().enumerate().filter(|(_, free)| !is_usual(free));

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::body::Scene;
 use super::outline::Code;
+use super::printer::reads_places;
 use crate::solver::{Forward, JointValue, Operand, Reached};
 
 /// The function of the tip, and how the target follows from it.
@@ -27,7 +28,7 @@ impl ForwardText {
         let values = rows.pop().unwrap_or_default();
         let inputs: Vec<String> = forward.inputs.iter().map(|input| expression(*input, &operands)).collect();
         ForwardText {
-            reads_at: lines.iter().chain(&values).any(|line| line.contains("at[")),
+            reads_at: lines.iter().chain(&values).any(|line| reads_places(line)),
             reads_values: inputs.iter().any(|input| input.contains("reached[")),
             lines,
             values,

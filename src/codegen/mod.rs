@@ -45,8 +45,10 @@ fn fill(skeleton: &str, outline: &impl Serialize) -> String {
     environment.set_keep_trailing_newline(true);
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
     environment.add_filter("number", printer::number);
+    environment.add_filter("packed", printer::packed_lines);
     for (name, part) in quartic::PARTS {
         environment.add_template(name, part).expect("the skeletons' parts are templates");
     }
-    environment.render_str(skeleton, outline).expect("the outline has every value that the skeleton names")
+    let text = environment.render_str(skeleton, outline).expect("the outline has every value that the skeleton names");
+    text.replace("\n\n\n", "\n\n")
 }

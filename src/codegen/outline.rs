@@ -11,7 +11,7 @@ use super::forward::{self, ForwardText, equations, printed_forward};
 use super::lanes;
 use super::mirror::Mirror;
 use super::names::{Names, remark, word};
-use super::printer::{Language, number};
+use super::printer::{Language, number, reads_places};
 use super::quartic::Quartic;
 use super::samples::Table;
 use super::six_axes;
@@ -31,6 +31,8 @@ pub(super) struct Outline {
     /// Whether the text goes into another file: without head, declarations and what only serves callers.
     engine: bool,
     inputs: Vec<Quantity>,
+    /// The inputs with their units.
+    target: Vec<String>,
     joints: Vec<Quantity>,
     extra: Vec<String>,
     /// Numbers of the arc tangent.
@@ -195,6 +197,7 @@ impl Outline {
             about: AboutText::new(program, language),
             engine: false,
             inputs: program.inputs.iter().map(|i| Quantity::new(language, &i.name, i.unit, false)).collect(),
+            target: program.inputs.iter().map(|i| format!("`{}` ({})", remark(&i.name), unit_text(i.unit))).collect(),
             joints: joints(program, language),
             extra: scene.extra.iter().map(|&unknown| remark(&program.unknowns[unknown])).collect(),
             arc: Arc::new(),
@@ -302,7 +305,12 @@ impl Code {
     /// The code, and what it reads.
     pub fn new(language: &dyn Language, lines: Vec<String>, values: Vec<String>) -> Self {
         let reads = |what: &str| lines.iter().chain(&values).any(|line| line.contains(what));
-        Code { reads_p: reads(&language.field("")), reads_at: reads("at["), lines, values }
+        Code {
+            reads_p: reads(&language.field("")),
+            reads_at: lines.iter().chain(&values).any(|line| reads_places(line)),
+            lines,
+            values,
+        }
     }
 }
 

@@ -48,6 +48,12 @@ pub(super) trait Language {
     }
     /// A new immutable number.
     fn declare(&self, name: &str, value: &str) -> String;
+    /// New numbers, of which each is what stands in its place of `at`; those without a name are not read.
+    fn declare_places(&self, names: &[Option<&str>]) -> Vec<String> {
+        let declared =
+            |(place, name): (usize, &Option<&str>)| name.map(|name| self.declare(name, &format!("at[{place}]")));
+        names.iter().enumerate().filter_map(declared).collect()
+    }
     /// The greatest or least of all numbers, an infinity.
     fn infinity(&self, positive: bool) -> String;
     /// A piece of text in quotation marks.
@@ -148,14 +154,55 @@ impl Expression {
     }
 }
 
-/// `head`, the items and `tail` on one line, or, where that would be long, each item on its own.
+/// `head`, the items and `tail` on one line, or, where that would be long, on lines of their own.
 pub(super) fn spread(head: &str, items: &[String], tail: &str) -> Vec<String> {
     let line = format!("{head}{}{tail}", items.join(", "));
     if line.len() <= LINE {
         return vec![line];
     }
-    let items = items.iter().map(|item| format!("{INDENT}{item},"));
+    let items = packed(items).into_iter().map(|line| format!("{INDENT}{line}"));
     [head.to_owned()].into_iter().chain(items).chain([tail.to_owned()]).collect()
+}
+
+/// Whether code reads a place of `at`, as [`Language::declare_places`] does.
+pub(super) fn reads_places(line: &str) -> bool {
+    line.contains("at[") || line.contains("*at")
+}
+
+/// The items, a comma behind each, on lines that are not long.
+fn packed(items: &[String]) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for item in items {
+        match lines.last_mut().filter(|line| line.len() + item.len() < LINE) {
+            Some(line) => *line += &format!(" {item},"),
+            None => lines.push(format!("{item},")),
+        }
+    }
+    lines
+}
+
+/// The filter of that name: lists, the last comma left out, on lines that begin with `lead` but for the first. Behind each item stands
+/// `suffix`; items that are lists themselves stand in `brackets`.
+pub(super) fn packed_lines(
+    items: Vec<minijinja::Value>,
+    lead: &str,
+    suffix: Option<&str>,
+    brackets: Option<&str>,
+) -> Result<String, minijinja::Error> {
+    let mut texts = Vec::with_capacity(items.len());
+    for item in items {
+        let text = match (item.kind(), brackets) {
+            (minijinja::value::ValueKind::Seq, Some(brackets)) => {
+                let inner: Vec<String> = item.try_iter()?.map(|entry| entry.to_string()).collect();
+                let (open, close) = brackets.split_at(brackets.len() / 2);
+                format!("{open}{}{close}", inner.join(", "))
+            }
+            _ => item.to_string(),
+        };
+        texts.push(text + suffix.unwrap_or_default());
+    }
+    let lines = packed(&texts).join(&format!("\n{lead}"));
+    Ok(lines.strip_suffix(',').unwrap_or(&lines).to_owned())
 }
 
 /// The shortest decimal that reads back as the same double.

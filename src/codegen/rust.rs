@@ -100,6 +100,14 @@ impl Language for Rust {
         format!("let {name} = {value};")
     }
 
+    fn declare_places(&self, names: &[Option<&str>]) -> Vec<String> {
+        if names.iter().all(Option::is_none) {
+            return Vec::new();
+        }
+        let names: Vec<String> = names.iter().map(|name| name.unwrap_or("_").to_owned()).collect();
+        spread("let [", &names, "] = *at;")
+    }
+
     fn infinity(&self, positive: bool) -> String {
         if positive { "f64::INFINITY" } else { "f64::NEG_INFINITY" }.to_owned()
     }

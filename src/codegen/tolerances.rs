@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::printer::number;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, GRAZING, LEVER, MEETING,
-    MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES,
-    SINGULAR, STAGES, STIFF, TINY,
+    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, FARTHER, FARTHEST,
+    GRAZING, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REGULAR, REST,
+    RETURNS, ROUNDING, SERIES, SINGULAR, STAGES, STIFF, TINY,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -52,6 +52,8 @@ pub(super) struct Tolerances {
     apart: String,
     arrived: String,
     lever: String,
+    farther: String,
+    farthest: String,
     returns: usize,
     stiff: String,
     stages: usize,
@@ -92,6 +94,8 @@ impl Tolerances {
             apart: number(APART),
             arrived: number(ARRIVED),
             lever: number(LEVER),
+            farther: number(FARTHER),
+            farthest: number(FARTHEST),
             returns: RETURNS,
             stiff: number(STIFF),
             stages: STAGES,

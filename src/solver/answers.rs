@@ -9,7 +9,7 @@ use super::pairs::{Pairs, UsualPairs};
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ALIKE, ALONE, APART, BLUR, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING};
+use super::{ADRIFT, ALIKE, ALONE, APART, BLUR, FARTHER, FARTHEST, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING};
 
 /// A solution with the largest share of an equation's value in its scale.
 pub(super) struct Answer {
@@ -173,17 +173,27 @@ impl<'a> Answers<'a> {
     }
 
     /// Where a candidate stands at a singular configuration and misses the equations by little, it is a double root that rounding
-    /// made of two: starts again from points to either side of it, as far as the square root of the miss leads. Where it misses by more
-    /// than an answer may, an angle that matters little, as of a point next to its axis, is moved farther.
+    /// made of two: starts again from points to either side of it, as far as the square root of the miss leads, and farther where that
+    /// leads to no answer. Where it misses by more than an answer may, an angle that matters little, as of a point next to its axis, is
+    /// moved farther too.
     fn around(&mut self, path: &Path, q: &Joints, fit: &Fit, missed: f64) {
         let weights = refine::weights(self.program, q, &mut self.frame);
-        for (joint, sign) in (0..self.program.joints.len()).flat_map(|joint| [(joint, -1.0), (joint, 1.0)]) {
-            let mut start = *q;
-            let weight = if fit.accepted { 1.0 } else { weights[joint] };
-            let way = (missed / weight).sqrt().min(APART);
-            start[joint] = self.displaced(q[joint], joint, 2.0 * sign * way);
-            let fit = refine::polished(self.program, &mut start, &NONE_FREE, &mut self.frame);
-            self.keep(path, &start, &fit);
+        let mut is_found = fit.accepted;
+        let mut farther = 1.0;
+        while farther <= FARTHEST {
+            for (joint, sign) in (0..self.program.joints.len()).flat_map(|joint| [(joint, -1.0), (joint, 1.0)]) {
+                let mut start = *q;
+                let weight = if fit.accepted { 1.0 } else { weights[joint] };
+                let way = (farther * (missed / weight).sqrt()).min(APART);
+                start[joint] = self.displaced(q[joint], joint, 2.0 * sign * way);
+                let fit = refine::polished(self.program, &mut start, &NONE_FREE, &mut self.frame);
+                is_found |= fit.accepted;
+                self.keep(path, &start, &fit);
+            }
+            if is_found {
+                return;
+            }
+            farther *= FARTHER;
         }
     }
 

@@ -89,6 +89,11 @@ pub const DOUBLINGS: usize = 8;
 /// Half of the farthest (rad) that an angle is moved in search of the two roots of a double one, where it hardly matters to the
 /// equations.
 pub const APART: f64 = 0.7;
+/// Where no start around a singular candidate leads to an answer, others are so much farther away: along some ways, as next to two double
+/// roots at once, the miss grows a thousand times more slowly than the square of the way.
+pub const FARTHER: f64 = 16.0;
+/// The farthest of them.
+pub const FARTHEST: f64 = 256.0;
 /// An isolated answer that a candidate for a member of a family has led to must hold within this share: all along what is next to a
 /// family the equations are missed by little.
 pub const ALONE: f64 = 1e-13;

@@ -74,6 +74,6 @@ fn every_word_of_a_printed_file_is_a_possible_name() {
 #[test]
 fn names_that_are_words_stay() {
     let text = codegen::rust::emit(&named(&["px".into(), "KneeCosine".into()]));
-    assert!(text.contains("    px: f64,\n    KneeCosine: f64,\n"), "{text}");
+    assert!(text.contains("    px: f64, KneeCosine: f64,\n"), "{text}");
     assert!(text.contains("let KneeCosine_ = p.KneeCosine;"), "unknowns are apart from parameters: {text}");
 }

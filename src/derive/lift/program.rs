@@ -18,8 +18,10 @@ use crate::{Error, ErrorKind, Result};
 
 /// A free angle is put at places round the circle, none of them one that a solution is likely to have by itself.
 const FIRST_SAMPLE: f64 = 0.4;
-/// At so many places: one that is a member of the family is enough.
-const SAMPLES: i32 = 8;
+/// A free length is put at places on both sides of this share of the reach.
+const MIDDLE_SAMPLE: f64 = 0.1;
+/// At so many places: one from which a member of the family is reached is enough, but the family may go round a small part of the circle.
+const SAMPLES: i32 = 16;
 /// At so many where the formulas are those of an ideal chain: the chain that is meant has a few answers there instead of a family, and
 /// each is looked for from the places next to it.
 const MANY_SAMPLES: i32 = 32;
@@ -197,14 +199,12 @@ impl Context<'_> {
     }
 
     fn samples(&self, value: JointValue) -> Vec<f64> {
-        match value {
-            JointValue::Angle { .. } => {
-                let count = if self.slack == Slack::NONE { SAMPLES } else { MANY_SAMPLES };
-                let step = std::f64::consts::TAU / f64::from(count);
-                (0..count).map(|k| FIRST_SAMPLE + f64::from(k - count / 2) * step).collect()
-            }
-            JointValue::Plain(_) => (0..5).map(|k| self.reach * (f64::from(k - 2) / 2.0 + 0.1)).collect(),
-        }
+        let count = if self.slack == Slack::NONE { SAMPLES } else { MANY_SAMPLES };
+        let (middle, whole) = match value {
+            JointValue::Angle { .. } => (FIRST_SAMPLE, std::f64::consts::TAU),
+            JointValue::Plain(_) => (MIDDLE_SAMPLE * self.reach, 2.0 * self.reach),
+        };
+        (0..count).map(|k| middle + f64::from(k - count / 2) * (whole / f64::from(count))).collect()
     }
 }
 
