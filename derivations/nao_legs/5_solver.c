@@ -1549,15 +1549,11 @@ typedef struct {
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[16][2] = {
-    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
-    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
-    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
-    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
-    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
-    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
-    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
-    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
+static const double SAMPLES_1[8][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
+    {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
+    {0.9210609940028851, 0.3894183423086505}, {0.37592812418099114, 0.926648825310733},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
 /* Chart 1 of block 13: generic. */
@@ -1667,7 +1663,7 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
     if (!is_near(r36, 0.0002312)) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
@@ -1740,7 +1736,7 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
         return;
     }
     const double right_f3 = 1000000.0;
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c3 = SAMPLES_1[i0][0], right_s3 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
@@ -1855,7 +1851,7 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
         return;
     }
     const double right_f2 = 1000000.0;
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c2 = SAMPLES_1[i0][0], right_s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
@@ -2057,7 +2053,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     if (!is_near(r13, 1.2e-6)) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
@@ -2125,7 +2121,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         return;
     }
     const double left_f5 = 1000000.0;
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
@@ -2215,7 +2211,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     const double left_f6 = 1000000.0;
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;

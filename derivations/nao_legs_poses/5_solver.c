@@ -1531,15 +1531,11 @@ typedef struct {
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[16][2] = {
-    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
-    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
-    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
-    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
-    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
-    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
-    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
-    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
+static const double SAMPLES_1[8][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
+    {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
+    {0.9210609940028851, 0.3894183423086505}, {0.37592812418099114, 0.926648825310733},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
 /* What the charts of block 11 share. */
@@ -1658,7 +1654,7 @@ static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *sh
     if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
@@ -1760,7 +1756,7 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
     if (!(is_near(shared->r37, shared->r41) && is_near(r44, 1.0000000000000001e-7 * r47))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c6 = SAMPLES_1[i0][0], right_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
@@ -1803,7 +1799,7 @@ static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *sh
     if (!(is_near(shared->r37, shared->r41) && is_near(r44, 1.8000000000000001e-6))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c6 = SAMPLES_1[i0][0], right_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
@@ -1987,7 +1983,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
@@ -2089,7 +2085,7 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
     if (!(is_near(shared->r36, shared->r40) && is_near(r43, 1.0000000000000001e-7 * r46))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
@@ -2132,7 +2128,7 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
     if (!(is_near(shared->r36, shared->r40) && is_near(r43, 1.8000000000000001e-6))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
@@ -2263,7 +2259,7 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
     if (!(is_near(shared->r64, shared->r67) && is_near(r70, 1.0000000000000001e-7 * r73))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 3;
@@ -2308,7 +2304,7 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
     if (!(is_near(shared->r64, shared->r67) && is_near(r70, 1.0000000000000001e-7 * r73))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 6;

@@ -1962,6 +1962,14 @@ static const double SAMPLES_1[16][2] = {
     {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
+/* Where charts put a free joint: cosine and sine. */
+static const double SAMPLES_2[8][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
+    {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
+    {0.9210609940028851, 0.3894183423086505}, {0.37592812418099114, 0.926648825310733},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
+};
+
 /* What the charts of block 14 share. */
 typedef struct {
     double r95, r98;
@@ -2095,8 +2103,8 @@ static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *
     if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared->r92, 0.004729) && is_near(shared->r91, 0.011129))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
-        const double right_c8 = SAMPLES_1[i0][0], right_s8 = SAMPLES_1[i0][1];
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double right_c8 = SAMPLES_2[i0][0], right_s8 = SAMPLES_2[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -2198,8 +2206,8 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
     if (!(is_near(shared->r81, shared->r85) && is_near(r88, 1.0000000000000001e-7 * r91))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
-        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1];
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double right_c9 = SAMPLES_2[i0][0], right_s9 = SAMPLES_2[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
@@ -2241,8 +2249,8 @@ static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *
     if (!(is_near(shared->r81, shared->r85) && is_near(r88, 0.00027380000000000004))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
-        const double right_c9 = SAMPLES_1[i0][0], right_s9 = SAMPLES_1[i0][1];
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double right_c9 = SAMPLES_2[i0][0], right_s9 = SAMPLES_2[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;
@@ -2457,8 +2465,8 @@ static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *sh
     if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared->r92, 0.004729) && is_near(shared->r91, 0.011129))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
-        const double left_c8 = SAMPLES_1[i0][0], left_s8 = SAMPLES_1[i0][1];
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double left_c8 = SAMPLES_2[i0][0], left_s8 = SAMPLES_2[i0][1];
         Known next = *known;
         next.branch = 2 * known->branch + 1;
         next.last = 2 * known->last;
@@ -2559,8 +2567,8 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
     if (!(is_near(shared->r80, shared->r84) && is_near(r87, 1.0000000000000001e-7 * r90))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
-        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1];
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double left_c9 = SAMPLES_2[i0][0], left_s9 = SAMPLES_2[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 3;
         next.last = 7 * known->last;
@@ -2602,8 +2610,8 @@ static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *sh
     if (!(is_near(shared->r80, shared->r84) && is_near(r87, 0.00027380000000000004))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
-        const double left_c9 = SAMPLES_1[i0][0], left_s9 = SAMPLES_1[i0][1];
+    for (size_t i0 = 0; i0 < 8; i0++) {
+        const double left_c9 = SAMPLES_2[i0][0], left_s9 = SAMPLES_2[i0][1];
         Known next = *known;
         next.branch = 7 * known->branch + 6;
         next.last = 7 * known->last;

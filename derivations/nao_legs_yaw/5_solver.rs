@@ -488,6 +488,14 @@ const SAMPLES_1: [[f64; 2]; 16] = [
     [-0.9266488253107329, 0.3759281241809912], [-0.9999733484143644, -0.007300853440810631],
 ];
 
+/// Where charts put a free joint: cosine and sine.
+const SAMPLES_2: [[f64; 2]; 8] = [
+    [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
+    [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
+    [0.9210609940028851, 0.3894183423086505], [0.37592812418099114, 0.926648825310733],
+    [-0.38941834230865036, 0.9210609940028851], [-0.9266488253107329, 0.3759281241809912],
+];
+
 /// Block 1: TorsoPitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     chart_1_1(p, answers);
@@ -1164,7 +1172,7 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
     if !(is_near(shared.r80, shared.r84) && is_near(r87, 1.0000000000000001e-7 * r90)) {
         return;
     }
-    for [left_c9, left_s9] in SAMPLES_1 {
+    for [left_c9, left_s9] in SAMPLES_2 {
         let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
     }
@@ -1197,7 +1205,7 @@ fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
     if !(is_near(shared.r80, shared.r84) && is_near(r87, 0.00027380000000000004)) {
         return;
     }
-    for [left_c9, left_s9] in SAMPLES_1 {
+    for [left_c9, left_s9] in SAMPLES_2 {
         let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
     }
@@ -1276,7 +1284,7 @@ fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
     if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared.r92, 0.004729) && is_near(shared.r91, 0.011129)) {
         return;
     }
-    for [left_c8, left_s8] in SAMPLES_1 {
+    for [left_c8, left_s8] in SAMPLES_2 {
         let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], true, known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c8, left_s8, ..*known };
         again_8(p, &next, answers);
     }
@@ -1507,7 +1515,7 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
     if !(is_near(shared.r81, shared.r85) && is_near(r88, 1.0000000000000001e-7 * r91)) {
         return;
     }
-    for [right_c9, right_s9] in SAMPLES_1 {
+    for [right_c9, right_s9] in SAMPLES_2 {
         let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
     }
@@ -1540,7 +1548,7 @@ fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
     if !(is_near(shared.r81, shared.r85) && is_near(r88, 0.00027380000000000004)) {
         return;
     }
-    for [right_c9, right_s9] in SAMPLES_1 {
+    for [right_c9, right_s9] in SAMPLES_2 {
         let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
     }
@@ -1625,7 +1633,7 @@ fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
     if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared.r92, 0.004729) && is_near(shared.r91, 0.011129)) {
         return;
     }
-    for [right_c8, right_s8] in SAMPLES_1 {
+    for [right_c8, right_s8] in SAMPLES_2 {
         let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], true, known.free[13]], right_c8, right_s8, ..*known };
         again_13(p, &next, answers);
     }

@@ -1211,15 +1211,11 @@ typedef struct {
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[16][2] = {
-    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
-    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
-    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
-    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
-    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
-    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
-    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
-    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
+static const double SAMPLES_1[8][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
+    {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
+    {0.9210609940028851, 0.3894183423086505}, {0.37592812418099114, 0.926648825310733},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
 /* What the charts of block 4 share. */
@@ -1253,7 +1249,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     if (!(is_near(r19, 8.745627862900002e-7) && is_near(shared->r11, 0.01 * shared->r16) && is_near(shared->r10, 0.01 * shared->r15))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         const double at[PLACES] = {
             known->c1, known->s1, c2, s2, known->c3_, known->s3_, known->c4, known->s4,
@@ -1320,7 +1316,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     if (!(is_near(shared->r1 * shared->r1 + p->px * p->px, 1.0000000000000001e-7 * r12) && is_near(shared->r4, 0.0173877))) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
@@ -1389,7 +1385,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     const double f4 = 1000000.0;
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;

@@ -1346,15 +1346,11 @@ typedef struct {
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* Where charts put a free joint: cosine and sine. */
-static const double SAMPLES_1[16][2] = {
-    {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
-    {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
-    {0.38941834230865047, -0.9210609940028851}, {0.7122504186460618, -0.7019254526931686},
-    {0.926648825310733, -0.375928124180991}, {0.9999733484143644, 0.007300853440810865},
-    {0.9210609940028851, 0.3894183423086505}, {0.7019254526931687, 0.7122504186460616},
-    {0.37592812418099114, 0.926648825310733}, {-0.007300853440810693, 0.9999733484143644},
-    {-0.38941834230865036, 0.9210609940028851}, {-0.7122504186460615, 0.7019254526931689},
-    {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
+static const double SAMPLES_1[8][2] = {
+    {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
+    {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
+    {0.9210609940028851, 0.3894183423086505}, {0.37592812418099114, 0.926648825310733},
+    {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
 /* What the charts of block 6 share. */
@@ -1466,7 +1462,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     if (!is_near(r11, 6.100000000000001e-6)) {
         return;
     }
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
@@ -1560,7 +1556,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     const double f2 = 1000000.0;
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
         next.branch = 3 * known->branch + 2;
@@ -1631,7 +1627,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         return;
     }
     const double f1 = 1000000.0;
-    for (size_t i0 = 0; i0 < 16; i0++) {
+    for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
         next.branch = 2;

@@ -47,7 +47,9 @@ fn check(program: &Program, count: usize) -> Option<()> {
     write("5_solver.rs", &text);
     rustc(folder.path(), &["--crate-type=lib", "--crate-name=printed", "5_solver.rs"])?;
     // The driver calls the function of each width.
-    write("5_solver.rs", &text.replace("\nfn solve_by", "\n#[allow(missing_docs)]\npub fn solve_by"));
+    let open =
+        |text: String, item: &str| text.replace(&format!("\n{item}"), &format!("\n#[allow(missing_docs)]\npub {item}"));
+    write("5_solver.rs", &["fn solve_by", "trait Answer"].into_iter().fold(text, open));
     write("root.rs", "#![no_std]\n#[path = \"5_solver.rs\"]\npub mod solver;\n");
     write("module.rs", &format!("#[path = \"5_solver.rs\"]\nmod solver;\n{DRIVER}"));
     write("crate.rs", &format!("use no_std_root::solver;\n{DRIVER}"));
@@ -90,18 +92,40 @@ fn batches_are_for_solvers_by_square_roots() {
     }
 }
 
-/// Reads targets; compares all, in one batch by each width, then the first few of them with little room.
+/// Reads targets; compares all, in one batch by each width, then the first few of them with little room: solutions, then cosines and sines.
 const DRIVER: &str = r#"
-use solver::{Error, INPUTS, Solution};
+use solver::{Answer, Error, INPUTS, JOINTS, Pairs, Solution};
 use std::io::Read;
 
 type Count = Result<usize, Error>;
-type Batch = fn(&[[f64; INPUTS]], &mut [Solution], &mut [Count]) -> usize;
+type Batch<A> = fn(&[[f64; INPUTS]], &mut [A], &mut [Count]) -> usize;
 
-fn batches() -> Vec<Batch> {
+/// What must be the same to the last bit.
+#[derive(Debug, PartialEq)]
+struct Bits(Vec<u64>, usize, bool, [bool; JOINTS]);
+
+trait Told: Answer {
+    fn bits(&self) -> Bits;
+}
+
+impl Told for Solution {
+    fn bits(&self) -> Bits {
+        let numbers = self.q.iter().chain([&self.residual]).map(|x| x.to_bits()).collect();
+        Bits(numbers, self.branch, self.chosen, self.free)
+    }
+}
+
+impl Told for Pairs {
+    fn bits(&self) -> Bits {
+        let numbers = self.joints.iter().flatten().chain([&self.residual]).map(|x| x.to_bits()).collect();
+        Bits(numbers, self.branch, false, self.free)
+    }
+}
+
+fn batches<A: Answer>(first: Batch<A>) -> Vec<Batch<A>> {
     #[allow(unused_mut)]
-    let mut batches: Vec<Batch> =
-        vec![solver::solve_batch, solver::solve_by::<2>, solver::solve_by::<3>, solver::solve_by::<4>, solver::solve_by::<8>];
+    let mut batches: Vec<Batch<A>> =
+        vec![first, solver::solve_by::<2, A>, solver::solve_by::<3, A>, solver::solve_by::<4, A>, solver::solve_by::<8, A>];
     #[cfg(all(target_arch = "x86_64", with_std))]
     {
         if std::is_x86_feature_detected!("avx2") {
@@ -114,14 +138,9 @@ fn batches() -> Vec<Batch> {
     batches
 }
 
-fn same(a: &Solution, b: &Solution) -> bool {
-    let bits = |answer: &Solution| (answer.q.map(f64::to_bits), answer.residual.to_bits());
-    bits(a) == bits(b) && (a.branch, a.chosen, a.free) == (b.branch, b.chosen, b.free)
-}
-
 /// How many targets are solved, which must be all that there is room for, with the answers of `singles`.
-fn check(batch: Batch, targets: &[[f64; INPUTS]], singles: &[(Count, Vec<Solution>)], room: usize) -> usize {
-    let mut out = vec![Solution::EMPTY; room];
+fn check<A: Told>(batch: Batch<A>, targets: &[[f64; INPUTS]], singles: &[(Count, Vec<A>)], room: usize) -> usize {
+    let mut out = vec![A::NONE; room];
     let mut counts = vec![Err(Error::NotFinite); targets.len()];
     let done = batch(targets, &mut out, &mut counts);
     let mut filled = 0;
@@ -132,7 +151,7 @@ fn check(batch: Batch, targets: &[[f64; INPUTS]], singles: &[(Count, Vec<Solutio
         }
         assert_eq!(counts[i], *count, "{:?}", targets[i]);
         for (k, answer) in answers.iter().enumerate() {
-            assert!(same(&out[filled + k], answer), "{:?}: {:?} instead of {answer:?}", targets[i], out[filled + k]);
+            assert_eq!(out[filled + k].bits(), answer.bits(), "{:?}", targets[i]);
         }
         filled += answers.len();
     }
@@ -140,27 +159,34 @@ fn check(batch: Batch, targets: &[[f64; INPUTS]], singles: &[(Count, Vec<Solutio
     done
 }
 
+/// How many answers there are.
+fn check_all<A: Told>(first: Batch<A>, targets: &[[f64; INPUTS]]) -> usize {
+    let single = |target: &[f64; INPUTS]| {
+        let mut out = [A::NONE; solver::CAPACITY];
+        let count = A::solve(target, &mut out);
+        (count, out[..count.unwrap_or(0)].to_vec())
+    };
+    let singles: Vec<(Count, Vec<A>)> = targets.iter().map(single).collect();
+    let answers: usize = singles.iter().map(|(_, answers)| answers.len()).sum();
+    for batch in batches(first) {
+        check(batch, targets, &singles, answers);
+        let (some, singles) = (&targets[100..], &singles[100..]);
+        for count in 0..20 {
+            check(batch, &some[..count], singles, 200);
+            check(batch, &some[..20], singles, count);
+            assert_eq!(batch(&some[..20], &mut vec![A::NONE; 1000], &mut vec![Ok(0); count]), count);
+        }
+    }
+    answers
+}
+
 fn main() {
     let mut text = String::new();
     std::io::stdin().read_to_string(&mut text).unwrap();
     let numbers: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();
     let targets: Vec<[f64; INPUTS]> = numbers.chunks(INPUTS).map(|target| target.try_into().unwrap()).collect();
-    let single = |target: &[f64; INPUTS]| {
-        let mut out = [Solution::EMPTY; solver::CAPACITY];
-        let count = solver::solve(target, &mut out);
-        (count, out[..count.unwrap_or(0)].to_vec())
-    };
-    let singles: Vec<(Count, Vec<Solution>)> = targets.iter().map(single).collect();
-    let answers: usize = singles.iter().map(|(_, answers)| answers.len()).sum();
-    for batch in batches() {
-        check(batch, &targets, &singles, answers);
-        let (some, singles) = (&targets[100..], &singles[100..]);
-        for count in 0..20 {
-            check(batch, &some[..count], singles, 200);
-            check(batch, &some[..20], singles, count);
-            assert_eq!(batch(&some[..20], &mut vec![Solution::EMPTY; 1000], &mut vec![Ok(0); count]), count);
-        }
-    }
+    let answers = check_all::<Solution>(solver::solve_batch, &targets);
+    assert_eq!(check_all::<Pairs>(solver::solve_pairs_batch, &targets), answers);
     println!("{answers}");
 }
 "#;

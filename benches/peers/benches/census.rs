@@ -6,17 +6,17 @@
 use std::hint::black_box;
 use std::process::Command;
 
-use groebot::kinematics::Chain;
+use groebot::kinematics::{Chain, JointKind};
 use groebot::robots;
 use groebot::spatial::Pose;
-use groebot_peers::Joints;
 use groebot_peers::by_batch;
 use groebot_peers::by_ik_geo::IkGeo;
 use groebot_peers::by_opw::Opw;
-use groebot_peers::by_print;
+use groebot_peers::by_print::{self, Target};
 use groebot_peers::census::Census;
 use groebot_peers::inputs::{COUNT, many_poses, singular_poses};
 use groebot_peers::rounds::{Contender, medians};
+use groebot_peers::{Joints, Pairs};
 
 /// Ordinary poses, and singular ones.
 const ORDINARY: usize = 100_000;
@@ -70,8 +70,8 @@ fn contest(name: &str) {
     let q: Vec<Joints> = q.iter().map(|q| std::array::from_fn(|i| q[i])).collect();
     let singular = singular_poses(&chain, SINGULAR);
     let (ik_geo, opw) = (IkGeo::new(&chain), Opw::new(&chain));
-    let mut solvers = vec![ours(name, &poses, &q)];
-    solvers.extend(ours_by_batch(name, &poses, &q));
+    let mut solvers = ours(name, &chain, &poses, &q);
+    solvers.extend(ours_by_batch(name, &chain, &poses, &q));
     solvers.extend(ik_geo.as_ref().map(|peer| by_ik_geo(peer, &poses, &q)));
     solvers.extend(opw.as_ref().map(|peer| by_opw(peer, &poses, &q)));
     let measure = |inputs: usize, rounds: usize| {
@@ -106,30 +106,60 @@ fn pass_of<'a>(solver: &'a Solver<'_>) -> &'a dyn Fn(usize) {
     &solver.pass
 }
 
-fn ours<'a>(name: &str, poses: &[Pose], q: &'a [Joints]) -> Solver<'a> {
+/// One target at a time, and the same by cosines and sines.
+fn ours<'a>(name: &str, chain: &'a Chain, poses: &[Pose], q: &'a [Joints]) -> Vec<Solver<'a>> {
     let printed = by_print::solver(name).expect("a printed solver");
-    let targets: Vec<_> = poses.iter().map(by_print::target).collect();
-    Solver {
-        name: "groebot-printed",
-        pass: Box::new(move |count| {
-            black_box((printed.pass)(black_box(&targets[..count])));
-        }),
-        forward: Box::new(move || (printed.forward)(&q[..COUNT])),
-        solutions: Box::new(move |pose| (printed.solutions)(&by_print::target(pose))),
-    }
+    let solver = |name, pass, solutions| ours_with(name, poses, pass, solutions, printed.forward, q);
+    vec![
+        solver("groebot-printed", printed.pass, Box::new(move |target: &Target| (printed.solutions)(target))),
+        solver("groebot-pairs", printed.pass_by_pairs, Box::new(move |target| angles(chain, (printed.pairs)(target)))),
+    ]
 }
 
-fn ours_by_batch<'a>(name: &str, poses: &[Pose], q: &'a [Joints]) -> Option<Solver<'a>> {
-    let (printed, batches) = (by_print::solver(name)?, by_batch::solver(name)?);
+/// All targets as one batch, and the same by cosines and sines.
+fn ours_by_batch<'a>(name: &str, chain: &'a Chain, poses: &[Pose], q: &'a [Joints]) -> Vec<Solver<'a>> {
+    let printed = by_print::solver(name).expect("a printed solver");
+    let Some(batches) = by_batch::solver(name) else { return Vec::new() };
+    let solver = |name, pass, solutions| ours_with(name, poses, pass, solutions, printed.forward, q);
+    vec![
+        solver("groebot-batch", batches.pass, Box::new(move |target: &Target| (batches.solutions)(target))),
+        solver(
+            "groebot-batch-pairs",
+            batches.pass_by_pairs,
+            Box::new(move |target| angles(chain, (batches.pairs)(target))),
+        ),
+    ]
+}
+
+/// Joint values from cosines and sines.
+fn angles(chain: &Chain, list: Vec<Pairs>) -> Vec<Joints> {
+    let turns = |joint: usize| chain.joints()[joint].kind == JointKind::Revolute;
+    let joints = |pairs: Pairs| {
+        std::array::from_fn(|joint| {
+            let [cosine, sine] = pairs[joint];
+            if turns(joint) { sine.atan2(cosine) } else { cosine }
+        })
+    };
+    list.into_iter().map(joints).collect()
+}
+
+fn ours_with<'a>(
+    name: &'static str,
+    poses: &[Pose],
+    pass: fn(&[Target]) -> usize,
+    solutions: Box<dyn Fn(&Target) -> Vec<Joints> + 'a>,
+    forward: fn(&[Joints]),
+    q: &'a [Joints],
+) -> Solver<'a> {
     let targets: Vec<_> = poses.iter().map(by_print::target).collect();
-    Some(Solver {
-        name: "groebot-batch",
+    Solver {
+        name,
         pass: Box::new(move |count| {
-            black_box((batches.pass)(black_box(&targets[..count])));
+            black_box(pass(black_box(&targets[..count])));
         }),
-        forward: Box::new(move || (printed.forward)(&q[..COUNT])),
-        solutions: Box::new(move |pose| (batches.solutions)(&by_print::target(pose))),
-    })
+        forward: Box::new(move || forward(&q[..COUNT])),
+        solutions: Box::new(move |pose| solutions(&by_print::target(pose))),
+    }
 }
 
 fn by_ik_geo<'a>(peer: &'a IkGeo, poses: &[Pose], q: &'a [Joints]) -> Solver<'a> {

@@ -34,6 +34,10 @@ fn contest(robot: &Robot) -> Result<()> {
         contenders.push(Contender::new("groebot-batch", move || {
             black_box((batches.pass)(black_box(&targets)));
         }));
+        let targets: Vec<_> = poses.iter().map(by_print::target).collect();
+        contenders.push(Contender::new("groebot-batch-pairs", move || {
+            black_box((batches.pass_by_pairs)(black_box(&targets)));
+        }));
     }
     if let Ok(ours) = ScrewSolver::new(&chain) {
         let targets: Vec<_> = poses.iter().map(|pose| Target::Pose(*pose)).collect();

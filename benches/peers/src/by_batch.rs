@@ -1,7 +1,7 @@
 //! groebot's printed solvers of batches: what `groebot codegen --lang rust --batch` prints.
 
-use crate::Joints;
 use crate::by_print::Target;
+use crate::{Joints, Pairs};
 
 /// Targets that a pass solves together.
 const TARGETS: usize = 256;
@@ -13,12 +13,32 @@ const ANSWERS: usize = 8 * TARGETS;
 pub struct Batches {
     /// Solves all targets and returns the number of all answers.
     pub pass: fn(&[Target]) -> usize,
+    /// The same by cosines and sines, without angles.
+    pub pass_by_pairs: fn(&[Target]) -> usize,
     /// All answers of one target.
     pub solutions: fn(&Target) -> Vec<Joints>,
+    /// As `solutions`, by cosines and sines.
+    pub pairs: fn(&Target) -> Vec<Pairs>,
 }
 
 mod printed {
     include!(concat!(env!("OUT_DIR"), "/batches.rs"));
+}
+
+/// Solves all targets by a function of a printed solver.
+macro_rules! pass {
+    ($name:ident, $answer:ident, $solve:ident, $targets:ident) => {{
+        let mut out = [printed::$name::$answer::EMPTY; ANSWERS];
+        let mut counts = [Ok(0); TARGETS];
+        let (mut count, mut rest) = (0, $targets);
+        while !rest.is_empty() {
+            let done = printed::$name::$solve(std::hint::black_box(rest), &mut out, &mut counts);
+            std::hint::black_box(&out);
+            count += counts[..done].iter().map(|count| count.unwrap_or(0)).sum::<usize>();
+            rest = &rest[done..];
+        }
+        count
+    }};
 }
 
 /// Declares the choice among the printed solvers by name.
@@ -29,25 +49,21 @@ macro_rules! batches {
             match name {
                 $(
                     stringify!($name) => Some(Batches {
-                        pass: |targets| {
-                            use printed::$name::{Solution, solve_batch};
-                            let mut out = [Solution::EMPTY; ANSWERS];
-                            let mut counts = [Ok(0); TARGETS];
-                            let (mut count, mut rest) = (0, targets);
-                            while !rest.is_empty() {
-                                let done = solve_batch(std::hint::black_box(rest), &mut out, &mut counts);
-                                std::hint::black_box(&out);
-                                count += counts[..done].iter().map(|count| count.unwrap_or(0)).sum::<usize>();
-                                rest = &rest[done..];
-                            }
-                            count
-                        },
+                        pass: |targets| pass!($name, Solution, solve_batch, targets),
+                        pass_by_pairs: |targets| pass!($name, Pairs, solve_pairs_batch, targets),
                         solutions: |target| {
                             use printed::$name::{CAPACITY, Solution, solve_batch};
                             let mut out = [Solution::EMPTY; CAPACITY];
                             let mut counts = [Ok(0)];
                             assert_eq!(solve_batch(&[*target], &mut out, &mut counts), 1);
                             out[..counts[0].unwrap_or(0)].iter().map(|answer| answer.q).collect()
+                        },
+                        pairs: |target| {
+                            use printed::$name::{CAPACITY, Pairs, solve_pairs_batch};
+                            let mut out = [Pairs::EMPTY; CAPACITY];
+                            let mut counts = [Ok(0)];
+                            assert_eq!(solve_pairs_batch(&[*target], &mut out, &mut counts), 1);
+                            out[..counts[0].unwrap_or(0)].iter().map(|answer| answer.joints).collect()
                         },
                     }),
                 )*

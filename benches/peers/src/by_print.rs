@@ -2,7 +2,7 @@
 
 use groebot::spatial::Pose;
 
-use crate::Joints;
+use crate::{Joints, Pairs};
 
 /// The twelve numbers of a target: a position, and a rotation by rows.
 pub type Target = [f64; 12];
@@ -14,8 +14,25 @@ pub struct Printed {
     pub pass: fn(&[Target]) -> usize,
     /// All answers of one target.
     pub solutions: fn(&Target) -> Vec<Joints>,
+    /// As `pass`, by cosines and sines.
+    pub pass_by_pairs: fn(&[Target]) -> usize,
+    /// As `solutions`, by cosines and sines.
+    pub pairs: fn(&Target) -> Vec<Pairs>,
     /// Forward kinematics of all joint vectors.
     pub forward: fn(&[Joints]),
+}
+
+/// Solves all targets by a function of a printed solver.
+macro_rules! pass {
+    ($name:ident, $answer:ident, $solve:ident, $targets:ident) => {{
+        let mut out = [$name::$answer::EMPTY; $name::CAPACITY];
+        let mut count = 0;
+        for target in $targets {
+            count += $name::$solve(std::hint::black_box(target), &mut out).unwrap_or(0);
+            std::hint::black_box(&out);
+        }
+        count
+    }};
 }
 
 /// Declares the printed solvers and the choice among them by name.
@@ -32,14 +49,12 @@ macro_rules! printed {
             match name {
                 $(
                     stringify!($name) => Some(Printed {
-                        pass: |targets| {
-                            let mut out = [$name::Solution::EMPTY; $name::CAPACITY];
-                            let mut count = 0;
-                            for target in targets {
-                                count += $name::solve(std::hint::black_box(target), &mut out).unwrap_or(0);
-                                std::hint::black_box(&out);
-                            }
-                            count
+                        pass: |targets| pass!($name, Solution, solve, targets),
+                        pass_by_pairs: |targets| pass!($name, Pairs, solve_pairs, targets),
+                        pairs: |target| {
+                            let mut out = [$name::Pairs::EMPTY; $name::CAPACITY];
+                            let count = $name::solve_pairs(target, &mut out).unwrap_or(0);
+                            out[..count].iter().map(|answer| answer.joints).collect()
                         },
                         solutions: |target| {
                             let mut out = [$name::Solution::EMPTY; $name::CAPACITY];

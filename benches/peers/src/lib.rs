@@ -14,3 +14,6 @@ pub mod rounds;
 
 /// Joint values in the order and with the signs of our chain \[rad\].
 pub type Joints = [f64; 6];
+
+/// By joint: an angle's cosine and sine; a length and zero.
+pub type Pairs = [[f64; 2]; 6];

@@ -12,6 +12,7 @@ use super::eliminate::{self, Elimination};
 use super::half_angle::{self, HalfAngles};
 use super::layout::Layout;
 use super::program::{Context, given, reach};
+use super::samples::Samples;
 use super::shape::{Shape, Symbolic, eliminated};
 use super::slack::Slack;
 use super::template::{Form, Template};
@@ -265,10 +266,11 @@ impl<'a> Common<'a> {
         let reach = reach(self.sides[0].chain).max(reach(self.sides[1].chain));
         let mut known = mechanism.given().to_vec();
         let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
+        let (slack, samples) = (Slack::NONE, Samples::of(&steps, Slack::NONE));
         for step in &steps {
             let (free, partner) = (step.joint, Some((partner, &other)));
             let context =
-                Context { mechanism, known: &known, step, free, reach, slack: Slack::NONE, spreads: &[], partner };
+                Context { mechanism, known: &known, step, free, reach, slack, samples, spreads: &[], partner };
             blocks.push(context.block(&mut layout, &templates, half_angles.as_ref())?);
             known.push(step.joint);
         }

@@ -14,6 +14,7 @@ mod half_angle;
 mod layout;
 mod program;
 mod ray;
+mod samples;
 mod shape;
 mod slack;
 mod squares;

@@ -6,6 +6,7 @@ use super::frame::framed;
 use super::half_angle::HalfAngles;
 use super::layout::Layout;
 use super::ray;
+use super::samples::Samples;
 use super::slack::Slack;
 use super::symbols::Symbols;
 use super::template::{Form, Template};
@@ -15,16 +16,6 @@ use crate::derive::closure::Mechanism;
 use crate::kinematics::{Chain, LengthUnit};
 use crate::solver::{Block, Chart, Checks, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
 use crate::{Error, ErrorKind, Result};
-
-/// A free angle is put at places round the circle, none of them one that a solution is likely to have by itself.
-const FIRST_SAMPLE: f64 = 0.4;
-/// A free length is put at places on both sides of this share of the reach.
-const MIDDLE_SAMPLE: f64 = 0.1;
-/// At so many places: one from which a member of the family is reached is enough, but the family may go round a small part of the circle.
-const SAMPLES: i32 = 16;
-/// At so many where the formulas are those of an ideal chain: the chain that is meant has a few answers there instead of a family, and
-/// each is looked for from the places next to it.
-const MANY_SAMPLES: i32 = 32;
 
 /// Two linear equations are nearly dependent when their determinant is below this share of its size.
 const DEPENDENT: f64 = 1e-6;
@@ -40,10 +31,11 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
     let mut known = mechanism.given().to_vec();
     let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
     blocks.extend(layout.across.map(ray::across));
-    let mut spreads = Vec::new();
+    let (samples, mut spreads) = (Samples::of(&parts.steps, slack), Vec::new());
     for (index, step) in parts.steps.iter().enumerate() {
         let free = free(mechanism, &parts.steps[index..]);
-        let context = Context { mechanism, known: &known, step, free, reach, slack, spreads: &spreads, partner: None };
+        let context =
+            Context { mechanism, known: &known, step, free, reach, slack, samples, spreads: &spreads, partner: None };
         let mut block = context.block(&mut layout, templates, parts.half_angles.as_ref())?;
         let has_roots = parts.steps[index + 1..].iter().any(|later| later.shape.form.degree() > 1);
         if has_roots && block.charts.iter().any(|chart| !chart.free.is_empty()) {
@@ -140,6 +132,7 @@ pub(super) struct Context<'a> {
     pub free: usize,
     pub reach: f64,
     pub slack: Slack,
+    pub samples: Samples,
     /// The unknowns that tell whether joints are free.
     pub spreads: &'a [usize],
     /// The mechanism that all relations but the first belong to, where it is another, and where its target stands.
@@ -169,7 +162,7 @@ impl Context<'_> {
             value: layout.joints[joint],
             auxiliary,
             symbols,
-            samples: self.samples(layout.joints[joint]),
+            samples: self.samples.places(layout.joints[joint], self.reach),
             slack: self.slack,
             spreads: self.spreads.to_vec(),
         };
@@ -196,15 +189,6 @@ impl Context<'_> {
             list.extend(charts(single, &place(symbols), &assembler, std::slice::from_ref(&guard))?);
         }
         Ok(Block::numbered(&screw.name, code, list))
-    }
-
-    fn samples(&self, value: JointValue) -> Vec<f64> {
-        let count = if self.slack == Slack::NONE { SAMPLES } else { MANY_SAMPLES };
-        let (middle, whole) = match value {
-            JointValue::Angle { .. } => (FIRST_SAMPLE, std::f64::consts::TAU),
-            JointValue::Plain(_) => (MIDDLE_SAMPLE * self.reach, 2.0 * self.reach),
-        };
-        (0..count).map(|k| middle + f64::from(k - count / 2) * (whole / f64::from(count))).collect()
     }
 }
 

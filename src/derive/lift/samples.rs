@@ -1,0 +1,46 @@
+//! The places at which charts put a free joint. Main type: [`Samples`].
+
+use super::Lifted;
+use super::slack::Slack;
+use crate::solver::JointValue;
+
+/// A free angle is put at places round the circle, none of them one that a solution is likely to have by itself.
+const FIRST: f64 = 0.4;
+/// A free length is put at places on both sides of this share of the reach.
+const MIDDLE: f64 = 0.1;
+
+/// How many places there are for an angle, and for a length.
+#[derive(Clone, Copy)]
+pub(super) struct Samples {
+    angles: i32,
+    lengths: i32,
+}
+
+/// One from which a member of the family is reached is enough.
+const FEW: Samples = Samples { angles: 8, lengths: 5 };
+/// Where roots of polynomials of higher degree than two are known to fewer digits, so that nearer places are needed: next to a double root a
+/// family may go round a small part of the circle.
+const MORE: Samples = Samples { angles: 16, lengths: 16 };
+/// Where the formulas are those of an ideal chain: the chain that is meant has a few answers there instead of a family, and each is looked for
+/// from the places next to it.
+const MANY: Samples = Samples { angles: 32, lengths: 5 };
+
+impl Samples {
+    /// Those of a program of these steps, whose formulas are off by `slack`.
+    pub fn of(steps: &[Lifted], slack: Slack) -> Self {
+        match slack {
+            Slack::NONE if steps.iter().all(|step| step.shape.form.degree() <= 2) => FEW,
+            Slack::NONE => MORE,
+            _ => MANY,
+        }
+    }
+
+    /// The places of a joint \[rad, or the unit of `reach`\].
+    pub fn places(self, joint: JointValue, reach: f64) -> Vec<f64> {
+        let (count, middle, step) = match joint {
+            JointValue::Angle { .. } => (self.angles, FIRST, std::f64::consts::TAU / f64::from(self.angles)),
+            JointValue::Plain(_) => (self.lengths, MIDDLE * reach, 2.0 * reach / f64::from(self.lengths - 1)),
+        };
+        (0..count).map(|k| middle + f64::from(k - count / 2) * step).collect()
+    }
+}
