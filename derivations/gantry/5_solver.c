@@ -1128,6 +1128,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = IS_ANGLE[i] ? wrap(candidate[i] + way[i]) : candidate[i] + way[i];
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1363,8 +1372,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
 {
     const double r0 = p->r22_ * known->c4, r1 = p->r12_ * known->s4, r2 = p->r21_ * known->c4;
     const double r3 = p->r11_ * known->s4;
-    const Shared6 own = { r0, r1, r2, r3 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r0, r1, r2, r3 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1388,8 +1396,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->r13_ * known->c4 + p->r23_ * known->s4;
-    const Shared5 own = { r2 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r2 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -1467,8 +1474,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->pz - 0.12 * p->r33_ - 0.9;
-    const Shared3 own = { r2 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r2 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
@@ -1490,8 +1496,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r1 = p->py - 0.12 * p->r23_;
-    const Shared2 own = { r1 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r1 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
@@ -1514,8 +1519,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 static void block_1(const Parameters *p, Answers *answers)
 {
     const double r1 = p->px - 0.12 * p->r13_;
-    const Shared1 own = { r1 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r1 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

@@ -1170,6 +1170,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1412,8 +1421,7 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double r41 = known->s4 * (p->r31_ * known->c2 + known->s2 * r27);
     const double r44 = known->c5 * (known->c3_ * r34 - known->s3_ * r32), r46 = r21 - known->s5 * (r16 + r18);
     const double r47 = r44 - known->s5 * (r39 + r41);
-    const Shared7 own = { r46, r47 };
-    const Shared7 *const shared = &own;
+    const Shared7 own = { r46, r47 }, *const shared = &own;
     chart_7_1(p, known, shared, answers);
 }
 
@@ -1442,8 +1450,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r22 = known->c5 * (known->c4 * r15 + known->s4 * r17);
     const double r24 = known->s5 * (known->c3_ * r11 - known->s3_ * r9), r25 = known->c4 * r17 - known->s4 * r15;
     const double r26 = r22 + r24;
-    const Shared6 own = { r25, r26 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r25, r26 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1510,8 +1517,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r16 = known->c4 * (known->c3_ * r9 + known->s3_ * r11);
     const double r18 = known->s4 * (p->r33_ * known->c2 + known->s2 * r4);
     const double r19 = known->s3_ * r9 - known->c3_ * r11, r20 = r16 + r18;
-    const Shared5 own = { r19, r20 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r19, r20 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
 }
@@ -1577,8 +1583,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r12 = p->pz - 0.126 * p->r33_ - 0.36;
     const double r13 = known->c1 * (p->px - 0.126 * p->r13_) + known->s1 * (p->py - 0.126 * p->r23_);
     const double r17 = fabs(p->magnitude + 2.846), r18 = fabs(2.0 * p->magnitude + 4.972);
-    const Shared4 own = { r8, r9, r12, r13, r17, r18 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r8, r9, r12, r13, r17, r18 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1648,8 +1653,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
 {
     const double r2 = 0.126 * p->r23_ - p->py, r4 = p->px - 0.126 * p->r13_, r5 = 0.4 * (known->s3_ * known->s4);
     const double r6 = 0.0 - r5, r8 = fabs(p->magnitude + 2.486);
-    const Shared3 own = { r2, r4, r5, r6, r8 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r2, r4, r5, r6, r8 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1684,8 +1688,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r16 = r14 + 2.0 * (p->pz * (p->pz - 0.126 * p->r33_));
     const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
     const double r24 = 0.190924 - (r19 - 0.72 * p->pz + 0.09072 * p->r33_);
-    const Shared2 own = { r24 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r24 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 

@@ -1119,6 +1119,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1307,8 +1316,7 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const double r29 = known->s3 * (known->c2 * r21 - p->r31_ * known->s2);
     const double r31 = known->c4 * (p->r21_ * known->c1 - p->r11_ * known->s1);
     const double r34 = r14 + known->s4 * (r11 + r12), r35 = r31 + known->s4 * (r28 + r29);
-    const Shared6 own = { r34, r35 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r34, r35 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1335,8 +1343,7 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r10 = known->c3 * r9, r11 = p->r33_ * known->c2 + known->s2 * r4, r12 = known->s3 * r11;
     const double r17 = known->c4 * (known->c3 * r11 + known->s3 * r9);
     const double r18 = known->s4 * (p->r23_ * known->c1 - p->r13_ * known->s1), r19 = r18 - r17;
-    const Shared5 own = { r10, r12, r19 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r10, r12, r19 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -1402,8 +1409,7 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r11 = known->c3 * (p->r33_ * known->c2 + known->s2 * r4);
     const double r12 = known->s3 * (known->c2 * r4 - p->r33_ * known->s2);
     const double r13 = p->r13_ * known->s1 - p->r23_ * known->c1, r14 = r11 + r12;
-    const Shared4 own = { r13, r14 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r13, r14 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1469,8 +1475,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r15 = p->pz - 0.16 * p->r33_ - 0.29;
     const double r16 = known->c1 * (p->px - 0.16 * p->r13_) + known->s1 * (p->py - 0.16 * p->r23_);
     const double r20 = fabs(p->magnitude + 1.994), r21 = fabs(2.0 * p->magnitude + 3.408);
-    const Shared3 own = { r9, r12, r15, r16, r20, r21 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r9, r12, r15, r16, r20, r21 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1506,8 +1511,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r16 = r14 + 2.0 * (p->pz * (p->pz - 0.16 * p->r33_));
     const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
     const double r24 = 0.059304 - (r19 - 0.58 * p->pz + 0.0928 * p->r33_);
-    const Shared2 own = { r24 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r24 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
@@ -1574,8 +1578,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 static void block_1(const Parameters *p, Answers *answers)
 {
     const double r1 = 0.16 * p->r23_ - p->py, r3 = p->px - 0.16 * p->r13_, r5 = fabs(p->magnitude + 1.704);
-    const Shared1 own = { r1, r3, r5 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r1, r3, r5 }, *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }

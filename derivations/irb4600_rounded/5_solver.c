@@ -1262,6 +1262,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1474,8 +1483,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r29 = known->s3 * (known->c2 * r21 - p->r32_ * known->s2);
     const double r31 = known->c4 * (p->r22_ * known->c1 - p->r12_ * known->s1);
     const double r34 = r14 + known->s4 * (r11 + r12), r35 = r31 + known->s4 * (r28 + r29);
-    const Shared6 own = { r34, r35 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r34, r35 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1503,8 +1511,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r17 = known->c4 * (known->c3 * r11 + known->s3 * r9);
     const double r18 = known->s4 * (p->r23_ * known->c1 - p->r13_ * known->s1);
     const double r19 = known->c3 * r9 - known->s3 * r11, r20 = r18 - r17;
-    const Shared5 own = { r19, r20 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r19, r20 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -1571,8 +1578,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r11 = known->c3 * (p->r33_ * known->c2 + known->s2 * r4);
     const double r12 = known->s3 * (known->c2 * r4 - p->r33_ * known->s2);
     const double r13 = p->r13_ * known->s1 - p->r23_ * known->c1, r14 = r11 + r12;
-    const Shared4 own = { r13, r14 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r13, r14 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1641,8 +1647,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r15 = p->pz - 0.13500000019600084 * p->r33_ - 0.495, r17 = r2 + r5 - 0.175;
     const double r21 = fabs(p->magnitude + 6.040016499768999);
     const double r22 = fabs(2.0 * p->magnitude + 11.265032999537999);
-    const Shared3 own = { r9, r12, r15, r17, r21, r22 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r9, r12, r15, r17, r21, r22 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1682,8 +1687,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r21 = r18 - p->px * p->px - p->py * p->py - p->pz * p->pz;
     const double r25 = r21 - 0.35 * (known->c1 * r1) - 0.35 * (known->s1 * r4);
     const double r29 = r25 - 0.99 * p->pz + 0.13365000019404083 * p->r33_, r30 = 1.4683658394756909 - r29;
-    const Shared2 own = { r30 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r30 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
@@ -1751,8 +1755,7 @@ static void block_1(const Parameters *p, Answers *answers)
 {
     const double r1 = 0.13500000019600084 * p->r23_ - p->py, r3 = p->px - 0.13500000019600084 * p->r13_;
     const double r5 = fabs(p->magnitude + 5.545016499768999);
-    const Shared1 own = { r1, r3, r5 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r1, r3, r5 }, *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }

@@ -2470,6 +2470,12 @@ impl Answers<'_> {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
             self.around(p, branch, last, &end, missed, free);
+            // Such a candidate stands between two answers: starts from the other side too.
+            let way = differences(&q, &end.0);
+            let start = core::array::from_fn(|i| wrap(q[i] + way[i]));
+            let start = (start, measure(p, &start));
+            let start = polish(p, start, &NONE_FREE);
+            self.keep(p, branch, last, start, free);
         }
         self.keep(p, branch, last, end, free);
     }

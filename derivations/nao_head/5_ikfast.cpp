@@ -1041,6 +1041,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1211,8 +1220,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->dx * known->c1 + p->dy * known->s1;
-    const Shared2 own = { r2 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r2 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 

@@ -1070,6 +1070,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1266,8 +1275,7 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r9 = 0.1137 * known->c4 + 0.105, r10 = p->py - 0.098;
     const double r11 = known->s1 * (p->pz - 0.1) - p->px * known->c1, r15 = fabs(p->magnitude + 0.098);
     const double r16 = fabs(2.0 * p->magnitude + 0.1);
-    const Shared4 own = { r7, r9, r10, r11, r15, r16 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r7, r9, r10, r11, r15, r16 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1333,8 +1341,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r1 = 0.1 - p->pz, r4 = 0.1137 * (known->s3_ * known->s4) - 0.01231 * known->c3_;
     const double r6 = fabs(p->magnitude + 0.1);
-    const Shared3 own = { r1, r4, r6 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r1, r4, r6 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1403,8 +1410,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r3 = 0.003411 * known->c3_, r6 = 0.0003693 * known->s3_ - p->px * p->px - p->py * p->py;
     const double r11 = r6 - p->pz * p->pz + 0.196 * p->py + 0.2 * p->pz, r12 = r11 + 0.0047252261;
-    const Shared2 own = { r3, r12 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r3, r12 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }

@@ -1328,6 +1328,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1614,8 +1623,7 @@ INLINE static void block_12(const Parameters *p, const Known *known, Answers *an
     const double r35 = known->right_c4 * r30 + known->right_s4 * r28;
     const double r38 = known->right_c2 * r13 + known->right_s2 * r17;
     const double r39 = known->right_c5 * r35 + known->right_s5 * r34;
-    const Shared12 own = { r38, r39 };
-    const Shared12 *const shared = &own;
+    const Shared12 own = { r38, r39 }, *const shared = &own;
     chart_12_1(p, known, shared, answers);
 }
 
@@ -1688,8 +1696,7 @@ INLINE static void block_11(const Parameters *p, const Known *known, Answers *an
     const double r28 = known->right_c3 * r22 + known->right_s3 * r20;
     const double r32 = known->right_s4 * r28 - known->right_c4 * r26;
     const double r33 = known->right_c4 * r28 + known->right_s4 * r26;
-    const Shared11 own = { r32, r33 };
-    const Shared11 *const shared = &own;
+    const Shared11 own = { r32, r33 }, *const shared = &own;
     chart_11_1(p, known, shared, answers);
     chart_11_2(p, known, shared, answers);
 }
@@ -1760,8 +1767,7 @@ INLINE static void block_10(const Parameters *p, const Known *known, Answers *an
     const double r27 = r9 + (r22 + known->left_c1 * (r5 - r9 + 0.085)), r30 = 0.1029 * known->right_s4;
     const double r32 = 0.1029 * known->right_c4 + 0.1, r33 = known->right_s2 * r26 - known->right_c2 * r27;
     const double r38 = fabs(3.0 * p->magnitude + 2.29797), r39 = fabs(8.0 * p->magnitude + 6.61292);
-    const Shared10 own = { r19, r30, r32, r33, r38, r39 };
-    const Shared10 *const shared = &own;
+    const Shared10 own = { r19, r30, r32, r33, r38, r39 }, *const shared = &own;
     chart_10_1(p, known, shared, answers);
     chart_10_2(p, known, shared, answers);
 }
@@ -1799,8 +1805,7 @@ INLINE static void block_9(const Parameters *p, const Known *known, Answers *ans
     const double r19 = r17 - p->right_py * p->right_py - p->right_pz * p->right_pz;
     const double r23 = r19 + 0.1 * p->right_py + 0.004519 * p->right_dy;
     const double r27 = r23 + 0.17 * p->right_pz + 0.0076823 * p->right_dz, r28 = 0.0088212739 - r27;
-    const Shared9 own = { r28 };
-    const Shared9 *const shared = &own;
+    const Shared9 own = { r28 }, *const shared = &own;
     chart_9_1(p, known, shared, answers);
 }
 
@@ -1872,8 +1877,7 @@ static void block_8(const Parameters *p, const Known *known, Answers *answers)
     const double r16 = 0.7071067811865475 * r15, r20 = r9 + (known->left_c1 * (r3 - r9 + 0.05) - r16);
     const double r21 = r9 + (r16 + known->left_c1 * (r5 - r9 + 0.085)), r22 = 4.0 * p->magnitude;
     const double r25 = fabs(r22 + 3.16896), r26 = fabs(r22 + 3.27396);
-    const Shared8 own = { r20, r21, r25, r26 };
-    const Shared8 *const shared = &own;
+    const Shared8 own = { r20, r21, r25, r26 }, *const shared = &own;
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, answers);
 }
@@ -1975,8 +1979,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r58 = 0.7071067811865475 * (known->left_s1 * (r29 + 0.035)), r59 = known->left_c1 * r17 - r58;
     const double r61 = 0.07071067811865475 * (known->left_s1 * (p->left_r23 * r38 + r55));
     const double r62 = 0.1 * (known->left_c1 * r50) - r61;
-    const Shared6 own = { r59, r62 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r59, r62 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -2005,8 +2008,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r18 = 0.7071067811865475 * (known->left_s1 * r11);
     const double r19 = r18 - (r9 - known->left_c1 * (r9 + (r4 - r5)));
     const double r21 = r18 + (r9 + known->left_c1 * (r6 - r9));
-    const Shared5 own = { r19, r21 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r19, r21 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -2072,8 +2074,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r7 = p->left_r32 * known->left_c6 - p->left_r33 * known->left_s6;
     const double r9 = p->left_r22 * known->left_c6 + r7 - p->left_r23 * known->left_s6;
     const double r10 = 0.7071067811865475 * r9;
-    const Shared4 own = { r6, r10 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r6, r10 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -2158,8 +2159,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r81 = r77 + 3.0 * (p->magnitude * p->magnitude) + 0.27 * p->magnitude;
     const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
     const double r85 = fabs(r81 + 3.1572666541);
-    const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -2232,8 +2232,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r15 = 0.05 * p->left_r23 - 0.085 * p->left_r33 - p->left_px * p->left_r13;
     const double r17 = r15 - p->left_py * p->left_r23 - p->left_pz * p->left_r33, r18 = r17 - 0.04519;
     const double r19 = 3.0 * p->magnitude, r22 = fabs(r19 + 0.235), r23 = fabs(r19 + 0.75599);
-    const Shared2 own = { r11, r18, r22, r23 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r11, r18, r22, r23 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -2271,8 +2270,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r19 = r17 - p->left_py * p->left_py - p->left_pz * p->left_pz;
     const double r23 = r19 - 0.1 * p->left_py - 0.004519 * p->left_r23;
     const double r27 = r23 + 0.17 * p->left_pz + 0.0076823 * p->left_r33, r28 = 0.0088212739 - r27;
-    const Shared1 own = { r28 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r28 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

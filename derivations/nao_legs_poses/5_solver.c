@@ -1365,6 +1365,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1578,8 +1587,7 @@ INLINE static void block_11(const Parameters *p, const Known *known, Answers *an
     const double r58 = 0.7071067811865475 * (known->left_s1 * (r29 + 0.035)), r59 = known->left_c1 * r17 - r58;
     const double r61 = 0.07071067811865475 * (known->left_s1 * (r55 - p->right_r23 * r38));
     const double r62 = 0.1 * (known->left_c1 * r50) - r61;
-    const Shared11 own = { r59, r62 };
-    const Shared11 *const shared = &own;
+    const Shared11 own = { r59, r62 }, *const shared = &own;
     chart_11_1(p, known, shared, answers);
 }
 
@@ -1607,8 +1615,7 @@ INLINE static void block_10(const Parameters *p, const Known *known, Answers *an
     const double r11 = p->right_r12 * known->right_c6 - p->right_r13 * known->right_s6;
     const double r18 = 0.7071067811865475 * (known->left_s1 * r11);
     const double r19 = r9 + known->left_c1 * (r4 - r5 - r9) + r18, r21 = r9 + known->left_c1 * (r6 - r9) - r18;
-    const Shared10 own = { r19, r21 };
-    const Shared10 *const shared = &own;
+    const Shared10 own = { r19, r21 }, *const shared = &own;
     chart_10_1(p, known, shared, answers);
 }
 
@@ -1690,8 +1697,7 @@ INLINE static void block_9(const Parameters *p, const Known *known, Answers *ans
     const double r81 = r77 + 3.0 * (p->magnitude * p->magnitude) + 0.27 * p->magnitude;
     const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
     const double r85 = fabs(r81 + 3.1572666541);
-    const Shared9 own = { r41, r50, r67, r68, r69, r83, r84, r85 };
-    const Shared9 *const shared = &own;
+    const Shared9 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
     chart_9_1(p, known, shared, answers);
     chart_9_2(p, known, shared, answers);
 }
@@ -1824,8 +1830,7 @@ INLINE static void block_8(const Parameters *p, const Known *known, Answers *ans
     const double r28 = p->right_r13 * known->left_c1 - 0.7071067811865475 * r11, r29 = 3.0 * p->magnitude;
     const double r32 = fabs(r29 + 0.235), r33 = fabs(r29 + 0.75599), r34 = r17 * r28, r35 = r24 * r26;
     const double r36 = 0.0 - r35, r37 = r34 + r35, r40 = 3.0 * r32 + 3.0 * r33, r41 = 0.001 * r40;
-    const Shared8 own = { r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41 };
-    const Shared8 *const shared = &own;
+    const Shared8 own = { r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41 }, *const shared = &own;
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, answers);
     chart_8_3(p, known, shared, answers);
@@ -1866,8 +1871,7 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double r19 = r17 - p->right_py * p->right_py - p->right_pz * p->right_pz;
     const double r23 = r19 + 0.1 * p->right_py + 0.004519 * p->right_r23;
     const double r27 = r23 + 0.17 * p->right_pz + 0.0076823 * p->right_r33, r28 = 0.0088212739 - r27;
-    const Shared7 own = { r28 };
-    const Shared7 *const shared = &own;
+    const Shared7 own = { r28 }, *const shared = &own;
     chart_7_1(p, known, shared, answers);
 }
 
@@ -1907,8 +1911,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r58 = 0.7071067811865475 * (known->left_s1 * (r29 + 0.035)), r59 = known->left_c1 * r17 - r58;
     const double r61 = 0.07071067811865475 * (known->left_s1 * (p->left_r23 * r38 + r55));
     const double r62 = 0.1 * (known->left_c1 * r50) - r61;
-    const Shared6 own = { r59, r62 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r59, r62 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1937,8 +1940,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r18 = 0.7071067811865475 * (known->left_s1 * r11);
     const double r19 = r18 - (r9 - known->left_c1 * (r9 + (r4 - r5)));
     const double r21 = r18 + (r9 + known->left_c1 * (r6 - r9));
-    const Shared5 own = { r19, r21 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r19, r21 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -2019,8 +2021,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r81 = r77 + 3.0 * (p->magnitude * p->magnitude) + 0.27 * p->magnitude;
     const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
     const double r85 = fabs(r81 + 3.1572666541);
-    const Shared4 own = { r41, r50, r67, r68, r69, r83, r84, r85 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -2153,8 +2154,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r28 = p->left_r13 * known->left_c1 - r27, r29 = 3.0 * p->magnitude, r32 = fabs(r29 + 0.235);
     const double r33 = fabs(r29 + 0.75599), r34 = r17 * r28, r35 = r24 * r26, r36 = r34 - r35;
     const double r39 = 3.0 * r32 + 3.0 * r33, r40 = 0.001 * r39;
-    const Shared3 own = { r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
     chart_3_3(p, known, shared, answers);
@@ -2195,8 +2195,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r19 = r17 - p->left_py * p->left_py - p->left_pz * p->left_pz;
     const double r23 = r19 - 0.1 * p->left_py - 0.004519 * p->left_r23;
     const double r27 = r23 + 0.17 * p->left_pz + 0.0076823 * p->left_r33, r28 = 0.0088212739 - r27;
-    const Shared2 own = { r28 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r28 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
@@ -2340,8 +2339,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r58 = 2.82842712474619 * p->magnitude + 1.3060120827159294;
     const double r59 = fabs(2.0 * p->magnitude + 1.39599), r60 = fabs(r58), r61 = r19 * r54, r62 = r32 * r41;
     const double r63 = 0.0 - r62, r64 = r61 + r62, r65 = r59 * r60, r66 = r65 + r65, r67 = 0.001 * r66;
-    const Shared1 own = { r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67 }, *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
     chart_1_3(p, shared, answers);

@@ -1764,6 +1764,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -2022,8 +2031,7 @@ INLINE static void block_14(const Parameters *p, const Known *known, Answers *an
     const double r92 = r90 - known->left_c3_ * r82 - known->left_s3_ * r84;
     const double r94 = 0.7071067811865475 * (known->left_s4 * (r47 + 0.035)), r95 = known->left_c4 * r43 - r94;
     const double r98 = 0.1 * (known->left_c4 * r88) - 0.07071067811865475 * (known->left_s4 * r92);
-    const Shared14 own = { r95, r98 };
-    const Shared14 *const shared = &own;
+    const Shared14 own = { r95, r98 }, *const shared = &own;
     chart_14_1(p, known, shared, answers);
 }
 
@@ -2058,8 +2066,7 @@ INLINE static void block_13(const Parameters *p, const Known *known, Answers *an
     const double r41 = 0.5 * (known->left_c4 * (r22 - r23 - r19 - r21));
     const double r43 = 0.7071067811865475 * (known->left_s4 * r24), r44 = r40 + r41 + r43;
     const double r45 = 0.5 * (known->left_c4 * (r23 + (r19 + r21 - r22))), r47 = r40 + r45 - r43;
-    const Shared13 own = { r44, r47 };
-    const Shared13 *const shared = &own;
+    const Shared13 own = { r44, r47 }, *const shared = &own;
     chart_13_1(p, known, shared, answers);
 }
 
@@ -2140,8 +2147,7 @@ INLINE static void block_12(const Parameters *p, const Known *known, Answers *an
     const double r88 = p->right_py * r32 + (p->right_px * r26 + (r84 + 0.04519 * r3));
     const double r89 = p->right_pz * r38 + r88, r91 = 0.1029 * known->right_c7 + 0.1;
     const double r92 = 0.1029 * known->right_s7, r95 = fabs(15.0 * p->magnitude + 8.72179);
-    const Shared12 own = { r77, r89, r91, r92, r95 };
-    const Shared12 *const shared = &own;
+    const Shared12 own = { r77, r89, r91, r92, r95 }, *const shared = &own;
     chart_12_1(p, known, shared, answers);
     chart_12_2(p, known, shared, answers);
 }
@@ -2287,8 +2293,7 @@ INLINE static void block_11(const Parameters *p, const Known *known, Answers *an
     const double r72 = known->left_c4 * r38 - r71, r73 = 3.0 * p->magnitude, r76 = fabs(r73 + 1.585);
     const double r77 = fabs(r73 + 2.10599), r78 = r57 * r72, r79 = r68 * r70, r80 = 0.0 - r79, r81 = r78 + r79;
     const double r84 = 37.0 * r76 + 37.0 * r77, r85 = 0.001 * r84;
-    const Shared11 own = { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 };
-    const Shared11 *const shared = &own;
+    const Shared11 own = { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 }, *const shared = &own;
     chart_11_1(p, known, shared, answers);
     chart_11_2(p, known, shared, answers);
     chart_11_3(p, known, shared, answers);
@@ -2332,8 +2337,7 @@ INLINE static void block_10(const Parameters *p, const Known *known, Answers *an
     const double r36 = r32 + 0.1 * (known->left_c3_ * r19) + 0.1 * (known->left_s3_ * r21);
     const double r40 = r36 + 0.17 * (known->left_c3_ * r21) - 0.17 * (known->left_s3_ * r19);
     const double r41 = 0.0088212739 - r40;
-    const Shared10 own = { r41 };
-    const Shared10 *const shared = &own;
+    const Shared10 own = { r41 }, *const shared = &own;
     chart_10_1(p, known, shared, answers);
 }
 
@@ -2384,8 +2388,7 @@ INLINE static void block_9(const Parameters *p, const Known *known, Answers *ans
     const double r92 = known->left_s3_ * r84 + (known->left_c3_ * r82 + r90);
     const double r94 = 0.7071067811865475 * (known->left_s4 * (r47 + 0.035)), r95 = known->left_c4 * r43 - r94;
     const double r98 = 0.1 * (known->left_c4 * r88) - 0.07071067811865475 * (known->left_s4 * r92);
-    const Shared9 own = { r95, r98 };
-    const Shared9 *const shared = &own;
+    const Shared9 own = { r95, r98 }, *const shared = &own;
     chart_9_1(p, known, shared, answers);
 }
 
@@ -2420,8 +2423,7 @@ INLINE static void block_8(const Parameters *p, const Known *known, Answers *ans
     const double r41 = 0.5 * (known->left_c4 * (r21 + (r19 + (r22 - r23))));
     const double r43 = 0.7071067811865475 * (known->left_s4 * r24), r44 = r43 - (r40 - r41);
     const double r45 = 0.5 * (known->left_c4 * (r22 + (r19 + r21) - r23)), r47 = r43 + (r40 + r45);
-    const Shared8 own = { r44, r47 };
-    const Shared8 *const shared = &own;
+    const Shared8 own = { r44, r47 }, *const shared = &own;
     chart_8_1(p, known, shared, answers);
 }
 
@@ -2501,8 +2503,7 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double r88 = r84 - 0.04519 * r3 - p->left_px * r26 - p->left_py * r32, r89 = r88 - p->left_pz * r38;
     const double r91 = 0.1029 * known->left_c7 + 0.1, r92 = 0.1029 * known->left_s7;
     const double r95 = fabs(15.0 * p->magnitude + 8.72179);
-    const Shared7 own = { r77, r89, r91, r92, r95 };
-    const Shared7 *const shared = &own;
+    const Shared7 own = { r77, r89, r91, r92, r95 }, *const shared = &own;
     chart_7_1(p, known, shared, answers);
     chart_7_2(p, known, shared, answers);
 }
@@ -2645,8 +2646,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r72 = known->left_c4 * r38 - r71, r73 = 3.0 * p->magnitude, r76 = fabs(r73 + 1.585);
     const double r77 = fabs(r73 + 2.10599), r78 = r57 * r72, r79 = r68 * r70, r80 = r78 - r79;
     const double r83 = 37.0 * r76 + 37.0 * r77, r84 = 0.001 * r83;
-    const Shared6 own = { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
     chart_6_2(p, known, shared, answers);
     chart_6_3(p, known, shared, answers);
@@ -2690,8 +2690,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r36 = r32 - 0.1 * (known->left_c3_ * r19) - 0.1 * (known->left_s3_ * r21);
     const double r40 = r36 + 0.17 * (known->left_c3_ * r21) - 0.17 * (known->left_s3_ * r19);
     const double r41 = 0.0088212739 - r40;
-    const Shared5 own = { r41 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r41 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -2859,8 +2858,7 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r137 = fabs(30.0 * p->magnitude + 18.23985), r138 = fabs(r136), r139 = r98 * r132;
     const double r141 = r110 * r120, r142 = 0.0 - r139 - r141, r143 = r137 * r138, r144 = r143 + r143;
     const double r145 = 0.001 * r144;
-    const Shared4 own = { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
     chart_4_3(p, known, shared, answers);
@@ -3198,8 +3196,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r296 = r252 + r218 * r227 + r213 * r224 + r213 * r230, r299 = fabs(r243 + r216 * r219);
     const double r300 = fabs(r258 + r216 * r222), r301 = fabs(r273 + r218 * r219);
     const double r302 = fabs(r288 + r218 * r222), r303 = fabs(r296 + r218 * r221);
-    const Shared3 own = { r175, r184, r192, r200, r207, r299, r300, r301, r302, r303 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r175, r184, r192, r200, r207, r299, r300, r301, r302, r303 }, *const shared = &own;
     const double claims0[] = { claim_3_1(shared), claim_3_2(shared), claim_3_3(shared), claim_3_4(shared), claim_3_5(shared) };
     switch (greatest(claims0, 5)) {
     case 0:

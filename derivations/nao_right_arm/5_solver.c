@@ -1127,6 +1127,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1376,8 +1385,7 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double r29 = known->s2 * (known->c1 * r20 - known->s1 * r22);
     const double r32 = known->c3 * (known->c1 * r22 + known->s1 * r20), r34 = r12 - r13;
     const double r36 = 0.01231 * (r32 - known->s3 * (known->c2 * r27 - r29));
-    const Shared7 own = { r34, r36 };
-    const Shared7 *const shared = &own;
+    const Shared7 own = { r34, r36 }, *const shared = &own;
     chart_7_1(p, known, shared, answers);
 }
 
@@ -1404,8 +1412,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r10 = known->c3 * (p->dy * known->c2 - known->s2 * r4);
     const double r12 = known->s3 * (p->dz * known->c1 + p->dx * known->s1);
     const double r13 = known->c2 * r4 + p->dy * known->s2, r14 = r10 + r12;
-    const Shared6 own = { r13, r14 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r13, r14 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1469,8 +1476,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
 {
     const double r6 = known->s2 * (p->dx * known->c1 - p->dz * known->s1);
     const double r7 = p->dz * known->c1 + p->dx * known->s1, r8 = p->dy * known->c2 - r6;
-    const Shared5 own = { r7, r8 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r7, r8 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
 }
@@ -1501,8 +1507,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r19 = r16 + 0.01231 * (known->cr * known->uz) - 0.1;
     const double r24 = p->py - 0.1137 * p->dy - 0.01231 * (known->sr * known->vy);
     const double r27 = r24 + 0.01231 * (known->cr * known->uy) + 0.098, r28 = known->s1 * r19 - r12;
-    const Shared4 own = { r27, r28 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r27, r28 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
@@ -1574,8 +1579,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r14 = p->px - 0.1137 * p->dx - 0.01231 * (known->sr * known->vx);
     const double r16 = r14 + 0.01231 * (known->cr * known->ux), r19 = fabs(p->magnitude + 2.73726);
     const double r20 = fabs(p->magnitude + 2.63726);
-    const Shared3 own = { r10, r16, r19, r20 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r10, r16, r19, r20 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1659,8 +1663,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r65 = r61 + 3.0 * (p->magnitude * p->magnitude) + 0.396 * p->magnitude;
     const double r67 = fabs(6.36654 * p->magnitude + 1.1545233044);
     const double r68 = fabs(2.48214 * p->magnitude + 0.32792888), r69 = fabs(r65 + 1.4594794227);
-    const Shared2 own = { r26, r35, r52, r53, r67, r68, r69 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r26, r35, r52, r53, r67, r68, r69 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }

@@ -1159,6 +1159,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1341,8 +1350,7 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const double r56 = r53 - p->r21_ * r39 - p->r22_ * r37 - p->r23_ * r38;
     const double r59 = known->c1 * (p->r13_ * r5 + r16) - 0.7071067811865475 * (known->s1 * r30);
     const double r62 = 0.1 * (known->c1 * r50) - 0.07071067811865475 * (known->s1 * r56);
-    const Shared6 own = { r59, r62 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r59, r62 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1369,8 +1377,7 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r6 = p->r22_ * known->c6 - p->r23_ * known->s6, r9 = 0.5 * (r4 + r6 - r5);
     const double r14 = known->s1 * (p->r12_ * known->c6 - p->r13_ * known->s6), r18 = 0.7071067811865475 * r14;
     const double r19 = r9 + known->c1 * (r4 - r5 - r9) + r18, r21 = r9 + known->c1 * (r6 - r9) - r18;
-    const Shared5 own = { r19, r21 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r19, r21 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -1434,8 +1441,7 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r6 = p->r13_ * known->s6 - p->r12_ * known->c6;
     const double r8 = p->r32_ * known->c6 - p->r33_ * known->s6 - p->r22_ * known->c6;
     const double r10 = 0.7071067811865475 * (p->r23_ * known->s6 + r8);
-    const Shared4 own = { r6, r10 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r6, r10 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1515,8 +1521,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r81 = r77 + 3.0 * (p->magnitude * p->magnitude) + 0.27 * p->magnitude;
     const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
     const double r85 = fabs(r81 + 3.1572666541);
-    const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1589,8 +1594,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r15 = p->px * p->r13_ + (0.05 * p->r23_ + 0.085 * p->r33_);
     const double r18 = p->pz * p->r33_ + (p->py * p->r23_ + r15) + 0.04519, r19 = 3.0 * p->magnitude;
     const double r22 = fabs(r19 + 0.235), r23 = fabs(r19 + 0.75599);
-    const Shared2 own = { r11, r18, r22, r23 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r11, r18, r22, r23 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -1626,8 +1630,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
     const double r25 = r19 + 0.1 * p->py + 0.004519 * p->r23_ + 0.17 * p->pz;
     const double r28 = 0.0088212739 - (r25 + 0.0076823 * p->r33_);
-    const Shared1 own = { r28 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r28 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

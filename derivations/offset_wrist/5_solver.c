@@ -1176,6 +1176,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1400,8 +1409,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r7 = r6 - 0.05, r11 = p->pz - 0.125 * p->r33_ - 0.18;
     const double r16 = known->c2 * r7 - known->s2 * r11 - 0.4, r18 = known->c2 * r11 + known->s2 * r7;
     const double r22 = known->c3 * r18 + known->s3 * r16, r24 = 0.35 - (known->c3 * r16 - known->s3 * r18);
-    const Shared6 own = { r22, r24 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r22, r24 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1466,8 +1474,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r32 = 0.35 * known->c3 + 0.4, r35 = p->r32_ * r9 + (p->pz - p->r31_ * r6) - p->r33_ * r14;
     const double r36 = r35 - 0.18, r38 = known->c1 * r24 + known->s1 * r28 - 0.05;
     const double r42 = fabs(p->magnitude + 19.6), r43 = fabs(2.0 * p->magnitude + 38.89);
-    const Shared5 own = { r30, r32, r36, r38, r42, r43 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r30, r32, r36, r38, r42, r43 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
 }
@@ -1509,8 +1516,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r53 = 0.05 * (known->s1 * r28), r55 = 0.18 * p->pz, r57 = 0.18 * r19, r59 = 0.18 * r20;
     const double r61 = 0.18 * r21, r63 = r50 - r51 - r53 - r55 + r57 - r59 + r61 + 0.085375;
     const double r70 = 0.2825 - (r61 + (r57 + (r63 - r51 - r53 - r55) - r59));
-    const Shared4 own = { r70 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r70 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
@@ -1536,8 +1542,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r8 = known->c1 * (p->r21_ * known->s6 + p->r22_ * known->c6);
     const double r9 = known->s1 * (p->r11_ * known->s6 + p->r12_ * known->c6);
     const double r10 = p->r23_ * known->c1 - p->r13_ * known->s1, r11 = r8 - r9;
-    const Shared3 own = { r10, r11 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r10, r11 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
@@ -1603,8 +1608,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r21_ * known->c1 - p->r11_ * known->s1, r5 = p->r12_ * known->s1 - p->r22_ * known->c1;
-    const Shared2 own = { r4, r5 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r4, r5 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -1642,8 +1646,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 static void block_1(const Parameters *p, Answers *answers)
 {
     const double r1 = 0.125 * p->r23_ - p->py, r3 = p->px - 0.125 * p->r13_, r5 = fabs(p->magnitude + 2.205);
-    const Shared1 own = { r1, r3, r5 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r1, r3, r5 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

@@ -1040,6 +1040,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1227,8 +1236,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = 0.4 * known->s2, r2 = 0.4 * known->c2 + 0.5, r3 = 0.0 - p->px, r4 = fabs(p->magnitude);
-    const Shared2 own = { r0, r2, r3, r4 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r0, r2, r3, r4 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -1260,8 +1268,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 static void block_1(const Parameters *p, Answers *answers)
 {
     const double r3 = 0.41 - (p->px * p->px + p->py * p->py);
-    const Shared1 own = { r3 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r3 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

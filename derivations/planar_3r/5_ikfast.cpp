@@ -1062,6 +1062,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1228,8 +1237,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->sphi * known->c1 - p->cphi * known->s1, r6 = p->cphi * known->c1 + p->sphi * known->s1;
     const double r10 = known->c2 * r6 + known->s2 * r4, r11 = known->c2 * r4 - known->s2 * r6;
-    const Shared3 own = { r10, r11 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r10, r11 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
@@ -1289,8 +1297,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = 0.4 * known->s2, r2 = 0.4 * known->c2 + 0.5, r4 = p->py - 0.15 * p->sphi;
     const double r6 = 0.15 * p->cphi - p->px, r8 = fabs(p->magnitude + 1.95);
-    const Shared2 own = { r0, r2, r4, r6, r8 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r0, r2, r4, r6, r8 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -1323,8 +1330,7 @@ static void block_1(const Parameters *p, Answers *answers)
 {
     const double r10 = 2.0 * (p->px * (p->px - 0.15 * p->cphi)) + 2.0 * (p->py * (p->py - 0.15 * p->sphi));
     const double r13 = 0.3875 - (r10 - p->px * p->px - p->py * p->py);
-    const Shared1 own = { r13 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r13 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

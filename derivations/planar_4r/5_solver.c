@@ -1114,6 +1114,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1333,8 +1342,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r6 = p->cphi * known->c1_ + p->sphi * known->s1_, r10 = known->c2 * r4 - known->s2 * r6;
     const double r12 = known->c2 * r6 + known->s2 * r4, r16 = known->c3 * r12 + known->s3 * r10;
     const double r17 = known->c3 * r10 - known->s3 * r12;
-    const Shared4 own = { r16, r17 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r16, r17 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
@@ -1396,8 +1404,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r10 = 0.3 * known->c3 + 0.35, r11 = known->c1_ * r4 - known->s1_ * r1;
     const double r13 = 0.4 - (known->c1_ * r1 + known->s1_ * r4), r14 = 2.0 * p->magnitude;
     const double r17 = fabs(r14 + 4.4), r18 = fabs(r14 + 4.8);
-    const Shared3 own = { r8, r10, r11, r13, r17, r18 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r8, r10, r11, r13, r17, r18 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1432,8 +1439,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r13 = 2.0 * (p->px * r1) + 2.0 * (p->py * r4) - p->px * p->px;
     const double r16 = r13 - p->py * p->py - 0.8 * (known->c1_ * r1);
     const double r19 = 0.0425 - (r16 - 0.8 * (known->s1_ * r4));
-    const Shared2 own = { r19 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r19 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 

@@ -1049,6 +1049,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = IS_ANGLE[i] ? wrap(candidate[i] + way[i]) : candidate[i] + way[i];
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1214,8 +1223,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r3 = known->c2 * (p->px * known->c1 - p->pz * known->s1);
     const double r7 = r3 + known->s2 * (p->py - 0.66) - 0.2;
-    const Shared3 own = { r7 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r7 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
@@ -1280,8 +1288,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->py - 0.66, r3 = p->pz * known->s1 - p->px * known->c1;
     const double r7 = fabs(3.0 * p->magnitude + 3.3), r8 = fabs(2.0 * p->magnitude);
-    const Shared2 own = { r2, r3, r7, r8 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r2, r3, r7, r8 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }

@@ -868,6 +868,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = IS_ANGLE[i] ? wrap(candidate[i] + way[i]) : candidate[i] + way[i];
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1061,8 +1070,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->cphi * known->c2 + p->sphi * known->s2, r5 = p->sphi * known->c2 - p->cphi * known->s2;
-    const Shared3 own = { r4, r5 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r4, r5 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
@@ -1086,8 +1094,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r1 = p->pz + 0.3 * p->cphi, r4 = 0.3 * p->sphi - (known->d1 - p->px);
-    const Shared2 own = { r1, r4 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r1, r4 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
@@ -1116,8 +1123,7 @@ static void block_1(const Parameters *p, Answers *answers)
 {
     const double r1 = p->px + 0.3 * p->sphi, r10 = 2.0 * (p->px * r1) + 2.0 * (p->pz * (p->pz + 0.3 * p->cphi));
     const double r13 = r10 - p->px * p->px - p->pz * p->pz - 0.1125;
-    const Shared1 own = { r1, r13 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r1, r13 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

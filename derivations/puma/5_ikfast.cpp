@@ -1112,6 +1112,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1300,8 +1309,7 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const double r29 = known->s3 * (p->r21_ * known->c2 + known->s2 * r22);
     const double r31 = known->c4 * (p->r11_ * known->c1 - p->r31_ * known->s1);
     const double r34 = r31 - known->s4 * (r28 - r29);
-    const Shared6 own = { r14, r16, r34 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r14, r16, r34 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1329,8 +1337,7 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r17 = known->c4 * (known->c3 * r11 - known->s3 * r9);
     const double r18 = known->s4 * (p->r13_ * known->c1 - p->r33_ * known->s1);
     const double r19 = known->c3 * r9 + known->s3 * r11, r20 = r17 + r18;
-    const Shared5 own = { r19, r20 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r19, r20 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -1396,8 +1403,7 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r11 = known->c3 * (known->c2 * r5 - p->r23_ * known->s2);
     const double r12 = known->s3 * (p->r23_ * known->c2 + known->s2 * r5);
     const double r13 = p->r33_ * known->s1 - p->r13_ * known->c1, r14 = r11 - r12;
-    const Shared4 own = { r13, r14 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r13, r14 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1462,8 +1468,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r7 = 0.432 * (known->c3 + 1.0), r8 = 0.432 * known->s3, r11 = p->py - 0.15 * p->r23_ - 0.66;
     const double r12 = known->c1 * (p->pz - 0.15 * p->r33_) + known->s1 * (p->px - 0.15 * p->r13_);
     const double r16 = fabs(p->magnitude + 3.858), r17 = fabs(2.0 * p->magnitude + 6.396);
-    const Shared3 own = { r7, r8, r11, r12, r16, r17 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r7, r8, r11, r12, r16, r17 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1498,8 +1503,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r16 = r14 + 2.0 * (p->pz * (p->pz - 0.15 * p->r33_));
     const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
     const double r24 = r19 - 1.32 * p->py + 0.198 * p->r23_ + 0.084852;
-    const Shared2 own = { r24 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r24 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
@@ -1566,8 +1570,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 static void block_1(const Parameters *p, Answers *answers)
 {
     const double r1 = 0.15 * p->r13_ - p->px, r3 = p->pz - 0.15 * p->r33_, r5 = fabs(p->magnitude + 3.198);
-    const Shared1 own = { r1, r3, r5 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r1, r3, r5 }, *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }

@@ -1112,6 +1112,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1300,8 +1309,7 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const double r29 = known->s3 * (p->r31_ * known->c2 - known->s2 * r21);
     const double r32 = known->c4 * (p->r21_ * known->c1 - p->r11_ * known->s1);
     const double r34 = r15 - known->s4 * (r10 + r12), r35 = r32 - known->s4 * (r27 + r29);
-    const Shared6 own = { r34, r35 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r34, r35 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1329,8 +1337,7 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r16 = known->c4 * (known->c3 * r9 + known->s3 * r11);
     const double r18 = known->s4 * (p->r23_ * known->c1 - p->r13_ * known->s1);
     const double r19 = known->c3 * r11 - known->s3 * r9, r20 = r16 + r18;
-    const Shared5 own = { r19, r20 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r19, r20 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -1396,8 +1403,7 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r10 = known->c3 * (known->c2 * r4 + p->r33_ * known->s2);
     const double r12 = known->s3 * (p->r33_ * known->c2 - known->s2 * r4);
     const double r13 = p->r23_ * known->c1 - p->r13_ * known->s1, r14 = r10 + r12;
-    const Shared4 own = { r13, r14 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r13, r14 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1463,8 +1469,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r8 = 0.0203 * known->c3 - 0.4318 * known->s3 + 0.4318;
     const double r9 = p->px * known->c1 + p->py * known->s1, r10 = 0.0 - r9, r14 = fabs(p->magnitude + 2.0679);
     const double r15 = fabs(2.0 * p->magnitude + 4.1358);
-    const Shared3 own = { r4, r8, r9, r10, r14, r15 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r4, r8, r9, r10, r14, r15 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1497,8 +1502,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->pz * p->pz + (p->px * p->px + p->py * p->py), r5 = 0.3958295725 - r4;
-    const Shared2 own = { r5 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r5 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
@@ -1534,8 +1538,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 static void block_1(const Parameters *p, Answers *answers)
 {
     const double r1 = fabs(p->magnitude + 2.0679);
-    const Shared1 own = { r1 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r1 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

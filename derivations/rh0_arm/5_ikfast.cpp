@@ -1051,6 +1051,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1238,8 +1247,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r4 = 0.24 * known->c16 + 0.22, r5 = p->px + 0.2;
     const double r6 = known->c14 * (p->py - 0.3) + p->pz * known->s14, r10 = fabs(p->magnitude + 0.2);
     const double r11 = fabs(2.0 * p->magnitude + 0.9);
-    const Shared3 own = { r4, r5, r6, r10, r11 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r4, r5, r6, r10, r11 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1304,8 +1312,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = p->py - 0.3, r1 = 0.24 * known->s16, r2 = 0.0 - r1, r4 = fabs(p->magnitude + 0.3);
-    const Shared2 own = { r0, r1, r2, r4 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r0, r1, r2, r4 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -1338,8 +1345,7 @@ static void block_1(const Parameters *p, Answers *answers)
 {
     const double r4 = p->pz * p->pz + (p->px * p->px + p->py * p->py);
     const double r9 = r4 + 0.4 * p->px - 0.6 * p->py + 0.024;
-    const Shared1 own = { r9 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r9 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

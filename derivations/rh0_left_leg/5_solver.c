@@ -1165,6 +1165,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1402,8 +1411,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r24 = known->c11 * r19 + p->r31_ * known->s11, r26 = p->r31_ * known->c11 - known->s11 * r19;
     const double r32 = known->c9 * (known->c10 * r26 - known->s10 * r24);
     const double r33 = known->s9 * (known->c10 * r24 + known->s10 * r26), r34 = r15 - r16;
-    const Shared6 own = { r32, r33, r34 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r32, r33, r34 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1431,8 +1439,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r16 = known->c9 * (known->c10 * r9 + known->s10 * r11);
     const double r18 = known->s9 * (known->c10 * r11 - known->s10 * r9);
     const double r19 = p->r12_ * known->c12 + p->r22_ * known->s12, r20 = r16 + r18;
-    const Shared5 own = { r19, r20 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r19, r20 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -1498,8 +1505,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r2 = p->r22_ * known->c12 - p->r12_ * known->s12, r7 = known->c11 * r2 + p->r32_ * known->s11;
     const double r9 = p->r32_ * known->c11 - known->s11 * r2, r13 = known->s10 * r7 - known->c10 * r9;
     const double r14 = known->c10 * r7 + known->s10 * r9;
-    const Shared4 own = { r13, r14 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r13, r14 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1566,8 +1572,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r13 = 0.28 * (known->c10 + 1.0), r17 = p->pz + 0.112 * p->r31_ - 0.0265 * p->r32_;
     const double r18 = known->s12 * r4 - r9, r22 = fabs(p->magnitude + 1.2585);
     const double r23 = fabs(2.0 * p->magnitude + 2.629);
-    const Shared3 own = { r11, r13, r17, r18, r22, r23 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r11, r13, r17, r18, r22, r23 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1603,8 +1608,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r23 = 2.0 * r4 + 2.0 * r9 + 2.0 * r14 - p->px * p->px;
     const double r27 = r23 - p->py * p->py - p->pz * p->pz - 0.224 * p->px;
     const double r31 = r27 - 0.025088 * p->r11_ + 0.005936 * p->r12_, r32 = 0.13100975 - r31;
-    const Shared2 own = { r32 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r32 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
@@ -1674,8 +1678,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r4 = 0.112 - (p->px + 0.112 * p->r11_ - 0.0265 * p->r12_);
     const double r8 = 0.0265 * p->r22_ - (p->py + 0.112 * p->r21_), r11 = fabs(p->magnitude + 1.3705);
     const double r12 = fabs(p->magnitude + 1.2585);
-    const Shared1 own = { r4, r8, r11, r12 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r4, r8, r11, r12 }, *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }

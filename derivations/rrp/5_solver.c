@@ -1095,6 +1095,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = IS_ANGLE[i] ? wrap(candidate[i] + way[i]) : candidate[i] + way[i];
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1332,8 +1341,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = known->d3 + 0.4, r3 = p->pz - 0.6, r5 = p->px * known->c1 + p->py * known->s1 - 0.15;
-    const Shared3 own = { r2, r3, r5 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r2, r3, r5 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1364,8 +1372,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r6 = p->pz * p->pz + (p->px * p->px + p->py * p->py);
     const double r10 = r6 - 0.3 * (p->px * known->c1) - 0.3 * (p->py * known->s1);
     const double r14 = 0.0 - (r10 - 1.2 * p->pz + 0.21);
-    const Shared2 own = { r14 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r14 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 

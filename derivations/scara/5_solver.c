@@ -1127,6 +1127,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = IS_ANGLE[i] ? wrap(candidate[i] + way[i]) : candidate[i] + way[i];
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1308,8 +1317,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r7 = known->s2 * (p->r12_ * known->c1 + p->r22_ * known->s1);
     const double r14 = known->c2 * (p->r21_ * known->c1 - p->r11_ * known->s1);
     const double r15 = known->s2 * (p->r11_ * known->c1 + p->r21_ * known->s1), r16 = r7 - r6, r17 = r15 - r14;
-    const Shared4 own = { r16, r17 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r16, r17 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
@@ -1369,8 +1377,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
 {
     const double r0 = 0.275 * known->s2, r2 = 0.275 * known->c2 + 0.325, r3 = 0.0 - p->px;
     const double r5 = fabs(p->magnitude + 1.974);
-    const Shared3 own = { r0, r2, r3, r5 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r0, r2, r3, r5 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -1403,8 +1410,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
 {
     const double r7 = 2.0 * (known->d3 * (known->d3 - 0.387)) - known->d3 * known->d3;
     const double r10 = r7 - p->px * p->px - p->py * p->py - p->pz * p->pz, r11 = r10 + 0.331019;
-    const Shared2 own = { r11 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r11 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 
@@ -1427,8 +1433,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 static void block_1(const Parameters *p, Answers *answers)
 {
     const double r0 = 0.387 - p->pz;
-    const Shared1 own = { r0 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r0 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

@@ -1668,6 +1668,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1963,8 +1972,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r217 = r193 + (known->c4 * (r185 - r193) + r206) + (known->c4 * (r186 + r195) - r209 - r195);
     const double r219 = 0.3333333333333333 * (r193 + (known->c4 * (r187 - r193) - r212));
     const double r220 = r219 - 0.6666666666666666 * r217;
-    const Shared6 own = { r100, r101, r102, r220 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r100, r101, r102, r220 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -2017,8 +2025,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r107 = known->c4 * (r81 - r87) - known->s4 * (r93 + 0.3333333333333333 * r79);
     const double r108 = r87 + r101, r109 = known->c4 * (r80 + r89) - r103 - r89, r111 = r108 - r109;
     const double r114 = 0.0 - 0.3333333333333333 * (r108 + r109), r115 = 1.3333333333333333 * (r87 + r107);
-    const Shared5 own = { r108, r109, r111, r114, r115 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r108, r109, r111, r114, r115 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -2108,8 +2115,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r101 = 0.6666666666666666 * (r79 - r81) - (0.3333333333333333 * r81 + r93);
     const double r104 = 0.3333333333333333 * (r93 + 0.3333333333333333 * r79);
     const double r105 = 0.3333333333333333 * (r81 - r87) - r100, r106 = 0.6666666666666666 * r101 - r104;
-    const Shared4 own = { r105, r106 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r105, r106 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -2184,8 +2190,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r48 = 0.05 - (r43 + 0.01 * p->r32_ + 0.05 * p->r33_);
     const double r52 = 4.333333333333333 * p->magnitude + 21.4369992441421;
     const double r53 = fabs(5.0 * p->magnitude + 26.730498866213154), r54 = fabs(r52);
-    const Shared3 own = { r19, r23, r32, r48, r53, r54 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r19, r23, r32, r48, r53, r54 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, answers);
 }
@@ -2264,8 +2269,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r62 = 20.0 * (p->magnitude * r53) + 10.0 * (p->magnitude * p->magnitude);
     const double r66 = fabs(2.3333333333333335 * p->magnitude + 8.4), r67 = fabs(r53), r68 = fabs(r59);
     const double r69 = fabs(r62 + 2.0 * p->magnitude + 72.77766666666668);
-    const Shared2 own = { r41, r44, r50, r51, r52, r66, r67, r68, r69 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r41, r44, r50, r51, r52, r66, r67, r68, r69 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -2552,8 +2556,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r74 = 13.333333333333334 * r53 + 22.22222222222222 * r57;
     const double r78 = fabs(r62 + 0.0019437631439575074), r79 = fabs(r66 + 0.011783284742468416);
     const double r80 = fabs(r71 + (fabs(r33) * r74 + 0.5792669978044128));
-    const Shared1 own = { r36, r37, r41, r49, r78, r79, r80 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r36, r37, r41, r49, r78, r79, r80 }, *const shared = &own;
     const double claims0[] = { claim_1_1(shared), claim_1_2(shared), claim_1_3(shared), claim_1_4(shared), claim_1_5(shared) };
     switch (greatest(claims0, 5)) {
     case 0:

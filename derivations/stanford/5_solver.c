@@ -1149,6 +1149,15 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = IS_ANGLE[i] ? wrap(candidate[i] + way[i]) : candidate[i] + way[i];
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1386,8 +1395,7 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r16 = known->c2 * (p->r31_ * known->c1 + p->r11_ * known->s1);
     const double r19 = known->c4 * (p->r11_ * known->c1 - p->r31_ * known->s1);
     const double r22 = r19 - known->s4 * (r16 - p->r21_ * known->s2);
-    const Shared6 own = { r8, r10, r22 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r8, r10, r22 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1414,8 +1422,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r11 = known->c4 * (known->c2 * r5 - p->r23_ * known->s2);
     const double r12 = known->s4 * (p->r13_ * known->c1 - p->r33_ * known->s1);
     const double r13 = p->r23_ * known->c2 + known->s2 * r5, r14 = r11 + r12;
-    const Shared5 own = { r13, r14 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r13, r14 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -1479,8 +1486,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
 {
     const double r5 = known->c2 * (p->r33_ * known->c1 + p->r13_ * known->s1);
     const double r7 = p->r33_ * known->s1 - p->r13_ * known->c1, r8 = r5 - p->r23_ * known->s2;
-    const Shared4 own = { r7, r8 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r7, r8 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1504,8 +1510,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
 {
     const double r10 = known->c1 * (p->pz - 0.2 * p->r33_) + known->s1 * (p->px - 0.2 * p->r13_);
     const double r12 = known->c2 * (p->py - 0.2 * p->r23_ - 0.66) + known->s2 * r10, r13 = r12 - 0.2;
-    const Shared3 own = { r13 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r13 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
@@ -1575,8 +1580,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r6 = known->c1 * (p->pz - 0.2 * p->r33_) + known->s1 * (p->px - 0.2 * p->r13_);
     const double r9 = 0.66 - (p->py - 0.2 * p->r23_), r14 = fabs(2.0 * p->magnitude + 3.84);
     const double r15 = fabs(3.0 * p->magnitude + 9.06);
-    const Shared2 own = { r6, r9, r14, r15 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r6, r9, r14, r15 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -1644,8 +1648,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 static void block_1(const Parameters *p, Answers *answers)
 {
     const double r1 = 0.2 * p->r13_ - p->px, r3 = p->pz - 0.2 * p->r33_, r5 = fabs(p->magnitude + 1.92);
-    const Shared1 own = { r1, r3, r5 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r1, r3, r5 }, *const shared = &own;
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, answers);
 }

@@ -1119,6 +1119,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1308,8 +1317,7 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const double r44 = p->r23_ * r32 + (p->r21_ * r33 + p->r22_ * r31);
     const double r46 = known->c1 * (p->r13_ * r10 + r17) + known->s1 * (p->r23_ * r10 + r22 - 0.146);
     const double r48 = 0.33 * (known->c1 * r41 + known->s1 * r44);
-    const Shared6 own = { r46, r48 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r46, r48 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1335,8 +1343,7 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r8 = known->c1 * (p->r22_ * known->c6 - p->r23_ * known->s6);
     const double r9 = known->s1 * (p->r12_ * known->c6 - p->r13_ * known->s6);
     const double r10 = p->r32_ * known->c6 - p->r33_ * known->s6, r11 = r8 - r9;
-    const Shared5 own = { r10, r11 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r10, r11 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
 }
 
@@ -1399,8 +1406,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r13_ * known->s6 - p->r12_ * known->c6, r5 = p->r23_ * known->s6 - p->r22_ * known->c6;
-    const Shared4 own = { r4, r5 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r4, r5 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, answers);
 }
@@ -1438,8 +1444,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r23 = 0.33 * (known->c4 * known->c5) - 0.33 * (known->s4 * known->s5);
     const double r25 = r23 + 0.3 * known->c5, r26 = 3.0 * p->magnitude, r29 = fabs(r26 + 0.495);
     const double r30 = fabs(r26 + 1.805005);
-    const Shared3 own = { r13, r20, r25, r29, r30 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r13, r20, r25, r29, r30 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
@@ -1508,8 +1513,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r3 = 0.33 * known->s4, r5 = 0.33 * known->c4 + 0.3;
     const double r9 = 0.146 * p->r21_ - 0.092 * p->r31_ - p->px * p->r11_;
     const double r11 = p->pz * p->r31_ - (r9 - p->py * p->r21_), r14 = fabs(3.0 * p->magnitude + 0.238);
-    const Shared2 own = { r3, r5, r11, r14 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r3, r5, r11, r14 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -1544,8 +1548,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
     const double r25 = r19 - 0.292 * p->py - 0.03591746 * p->r23_ + 0.184 * p->pz;
     const double r28 = 0.154296019975 - (r25 + 0.02263292 * p->r33_);
-    const Shared1 own = { r28 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r28 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

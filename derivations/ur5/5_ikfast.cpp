@@ -1120,6 +1120,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1294,8 +1303,7 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const double r10 = p->pz - 0.0823 * p->r33_ - 0.089159, r15 = known->c2 * r6 + known->s2 * r10 + 0.425;
     const double r17 = known->c2 * r10 - known->s2 * r6, r21 = known->c3 * r17 - known->s3 * r15;
     const double r23 = known->c3 * r15 + known->s3 * r17 + 0.39225;
-    const Shared6 own = { r21, r23 };
-    const Shared6 *const shared = &own;
+    const Shared6 own = { r21, r23 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
 
@@ -1361,8 +1369,7 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r30 = known->c1 * (r9 - 0.0823 * p->r13_) + known->s1 * (r16 - 0.0823 * p->r23_);
     const double r31 = 0.0 - r30, r35 = fabs(p->magnitude + 6.148441);
     const double r36 = fabs(2.0 * p->magnitude + 12.118564);
-    const Shared5 own = { r20, r22, r29, r30, r31, r35, r36 };
-    const Shared5 *const shared = &own;
+    const Shared5 own = { r20, r22, r29, r30, r31, r35, r36 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, answers);
 }
@@ -1400,8 +1407,7 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r36 = r32 + 2.0 * (p->pz * r25) - p->px * p->px - p->py * p->py;
     const double r41 = r36 - p->pz * p->pz - 0.178318 * p->pz - 0.0168777987 * r4;
     const double r45 = r41 - 0.0168777987 * r5 + 0.0146755714 * p->r33_, r46 = 0.322717545219 - r45;
-    const Shared4 own = { r46 };
-    const Shared4 *const shared = &own;
+    const Shared4 own = { r46 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
 }
 
@@ -1427,8 +1433,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r8 = known->c1 * (p->r21_ * known->c6 - p->r22_ * known->s6);
     const double r9 = known->s1 * (p->r11_ * known->c6 - p->r12_ * known->s6);
     const double r10 = p->r13_ * known->s1 - p->r23_ * known->c1, r11 = r9 - r8;
-    const Shared3 own = { r10, r11 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r10, r11 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
@@ -1494,8 +1499,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->r12_ * known->s1 - p->r22_ * known->c1, r5 = p->r11_ * known->s1 - p->r21_ * known->c1;
-    const Shared2 own = { r4, r5 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r4, r5 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, answers);
 }
@@ -1534,8 +1538,7 @@ static void block_1(const Parameters *p, Answers *answers)
 {
     const double r1 = p->py - 0.0823 * p->r23_, r3 = 0.0823 * p->r13_ - p->px;
     const double r5 = fabs(p->magnitude + 1.946082);
-    const Shared1 own = { r1, r3, r5 };
-    const Shared1 *const shared = &own;
+    const Shared1 own = { r1, r3, r5 }, *const shared = &own;
     chart_1_1(p, shared, answers);
 }
 

@@ -1064,6 +1064,15 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
         around(p, branch, last, q, &fit, missed, free, answers);
+        /* Such a candidate stands between two answers: starts from the other side too. */
+        double start[JOINTS], way[JOINTS];
+        differences(candidate, q, way);
+        for (size_t i = 0; i < JOINTS; i++) {
+            start[i] = wrap(candidate[i] + way[i]);
+        }
+        Fit end = measure(p, start);
+        polish(p, start, &end, NONE_FREE);
+        keep(p, answers, branch, last, start, &end, free);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }
@@ -1236,8 +1245,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r0 = p->r23_ * known->c1, r1 = p->r13_ * known->s1;
     const double r4 = p->r22_ * known->c1 - p->r12_ * known->s1;
-    const Shared3 own = { r0, r1, r4 };
-    const Shared3 *const shared = &own;
+    const Shared3 own = { r0, r1, r4 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
 
@@ -1261,8 +1269,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->r11_ * known->c1 + p->r21_ * known->s1;
-    const Shared2 own = { r2 };
-    const Shared2 *const shared = &own;
+    const Shared2 own = { r2 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
 }
 

@@ -117,8 +117,20 @@ impl<'a> Answers<'a> {
             self.around(path, &end, &fit, fit.relative);
         } else if (ROUNDING..=NEAR).contains(&missed) && self.way(&q, &end) > LEVER * missed.sqrt() {
             self.around(path, &end, &fit, missed);
+            self.opposite(path, &q, &end);
         }
         self.keep(path, &end, &fit);
+    }
+
+    /// A candidate next to a double root stands between two answers: where one is an `end` of polishing, starts from the other side.
+    fn opposite(&mut self, path: &Path, q: &Joints, end: &Joints) {
+        let mut start = *q;
+        for (index, joint) in self.program.joints.iter().enumerate() {
+            let value = q[index] + difference(self.program, index, q, end);
+            start[index] = if matches!(joint.value, JointValue::Angle { .. }) { refine::wrap(value) } else { value };
+        }
+        let fit = refine::polished(self.program, &mut start, &NONE_FREE, &mut self.frame);
+        self.keep(path, &start, &fit);
     }
 
     /// Keeps a member of a family. It is moved along it only where it misses the equations by more than rounding: where the family

@@ -272,6 +272,31 @@ fn a_rounded_robot_is_solved_at_singular_poses_too() {
     assert_eq!(report.failures().count(), 0, "{}\n{}", report.summary(), told(&report, 6));
 }
 
+/// Next to the folded arm the ideal robot has one double root, the robot as described two answers, 0.03 rad from one another.
+#[test]
+fn both_answers_of_a_rounded_robot_next_to_its_folded_arm_are_found() {
+    let Proved::Chain(derived) = Proved::of(&read("irb4600_rounded"), &Watch::none()).unwrap() else {
+        panic!("it is a chain")
+    };
+    let q = [
+        -2.419657322913249,
+        1.0825525108643583,
+        1.7500260841334363,
+        1.3606631884633862,
+        -1.8578153759044664,
+        -0.612636560626624,
+    ];
+    let elsewhere = [-2.419657094109, 1.054870837519, 1.752177158433, 1.353371642241, -1.852398087691, -0.638629516560];
+    let target = derived.reached(&q).unwrap();
+    let found = derived.program.solve(&target).unwrap();
+    for near in [q, elsewhere] {
+        let is_found = |a: &Solution| a.q.iter().zip(near).all(|(a, b)| (a - b).abs() < 1e-9);
+        assert!(found.iter().any(is_found), "{near:?}: {found:?}");
+        let reached = derived.reached(&near).unwrap();
+        assert!(reached.iter().zip(&target).all(|(a, b)| (a - b).abs() < 1e-11), "{near:?}");
+    }
+}
+
 /// How many targets have so many answers: `4:10 8:990`.
 fn histogram(report: &Report) -> String {
     let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
