@@ -220,11 +220,7 @@ impl Outline {
                 .chain(scene.passed_angles())
                 .collect(),
             last_first: scene.last_first(),
-            last_angles: scene
-                .last_first()
-                .into_iter()
-                .filter(|&joint| is_angle(program.joints[joint].value))
-                .collect(),
+            last_angles: scene.last_first().into_iter().filter(|&i| is_angle(program.joints[i].value)).collect(),
             samples: scene.tables.clone(),
             six_axes,
             blocks: (0..program.blocks.len()).map(|index| BlockText::new(&scene, index)).collect(),

@@ -137,6 +137,8 @@ pub struct Source {
     pub limbs: Option<Limbs>,
     /// What was asked of it, when not all by default.
     pub ends: Ends,
+    /// The links where the chain starts and ends, when the source names them.
+    pub links: Option<[String; 2]>,
 }
 
 impl Source {
@@ -158,13 +160,20 @@ impl Source {
         let chain = input.chain(ends)?;
         let ends = ends.or(&input.ends);
         let InputFile { path, name, text, description, .. } = input;
+        let links = match &description {
+            Description::Tree(tree) => {
+                let way = tree.path(ends.base.as_deref(), ends.tip.as_deref()).map_err(|error| error.in_file(&path))?;
+                Some([way.base, way.tip])
+            }
+            _ => None,
+        };
         let (system, limbs) = match (&chain, description) {
             (Some(chain), _) => (formulated(chain).map_err(|error| error.in_file(&path))?, None),
             (None, Description::System(system)) => (Some(system), None),
             (None, Description::Limbs(limbs)) => (None, Some(*limbs)),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
-        Ok(Source { path, name, text, chain, system, limbs, ends })
+        Ok(Source { path, name, text, chain, system, limbs, ends, links })
     }
 
     /// The names of the files beside the input that it refers to: those of limbs' chains.

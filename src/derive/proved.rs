@@ -125,10 +125,11 @@ fn about(source: &Source, program: &Program) -> About {
     let limits = |name: &str| motors.iter().find(|(motor, _)| *motor == name).and_then(|(_, limits)| *limits);
     let limits: Vec<_> = program.joints.iter().map(|joint| limits(&joint.name)).collect();
     let asked = source.task_file().map_or_else(Vec::new, |(_, text)| text);
+    let [base, tip] = source.links.clone().map_or([None, None], |links| links.map(Some));
     About {
         task: task(source),
-        base: source.ends.base.clone(),
-        tip: source.ends.tip.clone(),
+        base,
+        tip,
         hash: format!("{:016x}", hash(source.text.bytes().chain(asked))),
         limits: if limits.iter().all(Option::is_none) { Vec::new() } else { limits },
     }

@@ -31,9 +31,17 @@ fn a_program_says_what_it_comes_from() {
         assert!(told.limits == limits || limits.iter().all(Option::is_none) && told.limits.is_empty(), "{told:?}");
         assert!(told.hash.len() == 16 && told.hash.bytes().all(|byte| byte.is_ascii_hexdigit()), "{told:?}");
         source.text.push(' ');
-        source.ends.base = Some("torso".into());
+        source.links = Some(["torso".into(), "hand".into()]);
         let other = about(&source);
-        assert!(other.hash != told.hash && other.base.as_deref() == Some("torso"), "{other:?}");
+        let links = (other.base.as_deref(), other.tip.as_deref());
+        assert!(other.hash != told.hash && links == (Some("torso"), Some("hand")), "{other:?}");
+    }
+    // From the root of a URDF to its only leaf, which nobody asked for by name.
+    for text in ["5_solver.c", "5_solver.rs", "5_ikfast.cpp"]
+        .map(|file| fs::read_to_string(folder("irb4600_rounded").join(file)))
+    {
+        let text = text.unwrap();
+        assert!(text.contains("Base link: base_link\n") && text.contains("Tip link: tool0\n"), "{text}");
     }
 }
 

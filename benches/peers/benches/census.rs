@@ -36,6 +36,9 @@ const ROBOTS: [&str; 9] = [
 /// All answers to a pose.
 type Solutions<'a> = dyn Fn(&Pose) -> Vec<Joints> + 'a;
 
+/// The same, to a printed solver's target.
+type ByTarget<'a> = dyn Fn(&Target) -> Vec<Joints> + 'a;
+
 /// A solver: how it goes over all poses, over the first of them, and over joint vectors, and what it answers to one pose.
 struct Solver<'a> {
     name: &'static str,
@@ -147,7 +150,7 @@ fn ours_with<'a>(
     name: &'static str,
     poses: &[Pose],
     pass: fn(&[Target]) -> usize,
-    solutions: Box<dyn Fn(&Target) -> Vec<Joints> + 'a>,
+    solutions: Box<ByTarget<'a>>,
     forward: fn(&[Joints]),
     q: &'a [Joints],
 ) -> Solver<'a> {
