@@ -142,6 +142,8 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -666,6 +668,8 @@ typedef struct {
     Solution *out;
     double relative[GANTRY_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[3][3];
 } Answers;
@@ -1126,6 +1130,7 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         at[0],
         at[1],
@@ -1135,11 +1140,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 2, at[7], at[8]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1208,9 +1215,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1330,9 +1343,9 @@ static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: WristYaw. */
-static void chart_4_2(const Parameters *p, const Known *known, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, size_t before, Answers *answers)
 {
-    if (!is_near(p->r23_ * p->r23_ + p->r13_ * p->r13_, 2.0000000000000002e-7)) {
+    if (!is_near(p->r23_ * p->r23_ + p->r13_ * p->r13_, 2.0000000000000002e-7, NEAR) || (suffice_since(answers, before) && !is_near(p->r23_ * p->r23_ + p->r13_ * p->r13_, 2.0000000000000002e-7, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1350,8 +1363,9 @@ static void chart_4_2(const Parameters *p, const Known *known, Answers *answers)
 /* Block 4: WristYaw. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     chart_4_1(p, known, answers);
-    chart_4_2(p, known, answers);
+    chart_4_2(p, known, before, answers);
 }
 
 /* What the charts of block 3 share. */
@@ -1488,6 +1502,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 3; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -143,6 +143,8 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -706,6 +708,8 @@ typedef struct {
     Solution *out;
     double relative[IIWA14_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[7][3];
 } Answers;
@@ -1168,6 +1172,7 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         joint_angle(answers, 0, at[0], at[1]),
         joint_angle(answers, 1, at[2], at[3]),
@@ -1178,11 +1183,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 6, at[12], at[13]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1251,9 +1258,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1394,10 +1407,10 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Chart 2 of block 5: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: A5. */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
 {
     const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
-    if (!is_near(r23, 0.0001765)) {
+    if (!is_near(r23, 0.0001765, NEAR) || (suffice_since(answers, before) && !is_near(r23, 0.0001765, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1415,6 +1428,7 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: A5. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1, r9 = known->c2 * r4 - p->r33_ * known->s2;
     const double r11 = p->r23_ * known->c1 - p->r13_ * known->s1;
     const double r16 = known->c4 * (known->c3_ * r9 + known->s3_ * r11);
@@ -1422,7 +1436,7 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r19 = known->s3_ * r9 - known->c3_ * r11, r20 = r16 + r18;
     const Shared5 own = { r19, r20 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
+    chart_5_2(p, known, shared, before, answers);
 }
 
 /* Block 5 behind a chart that hardly ever runs. */
@@ -1459,10 +1473,10 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 /* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: A2. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r21 = shared->r8 * shared->r8 + shared->r9 * shared->r9;
-    if (!(is_near(r21, 1.04242e-5) && is_near(shared->r13, 0.01 * shared->r18) && is_near(shared->r12, 0.01 * shared->r17))) {
+    if (!(is_near(r21, 1.04242e-5, NEAR) && is_near(shared->r13, 0.01 * shared->r18, NEAR) && is_near(shared->r12, 0.01 * shared->r17, NEAR)) || (suffice_since(answers, before) && !(is_near(r21, 1.04242e-5, BESIDE) && is_near(shared->r13, 0.01 * shared->r18, BESIDE) && is_near(shared->r12, 0.01 * shared->r17, BESIDE)))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1482,13 +1496,14 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: A2. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r8 = 0.4 * known->c4 + 0.42, r9 = 0.4 * (known->c3_ * known->s4);
     const double r12 = p->pz - 0.126 * p->r33_ - 0.36;
     const double r13 = known->c1 * (p->px - 0.126 * p->r13_) + known->s1 * (p->py - 0.126 * p->r23_);
     const double r17 = fabs(p->magnitude + 2.846), r18 = fabs(2.0 * p->magnitude + 4.972);
     const Shared4 own = { r8, r9, r12, r13, r17, r18 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -1531,10 +1546,10 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Chart 2 of block 3: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: A1. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r11 = shared->r2 * shared->r2 + shared->r4 * shared->r4, r12 = shared->r8 * shared->r8;
-    if (!(is_near(r11, 1.0000000000000001e-7 * (r12 + r12)) && is_near(shared->r6, 0.0196))) {
+    if (!(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), NEAR) && is_near(shared->r6, 0.0196, NEAR)) || (suffice_since(answers, before) && !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), BESIDE) && is_near(shared->r6, 0.0196, BESIDE)))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1554,11 +1569,12 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: A1. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = 0.126 * p->r23_ - p->py, r4 = p->px - 0.126 * p->r13_, r5 = 0.4 * (known->s3_ * known->s4);
     const double r6 = 0.0 - r5, r8 = fabs(p->magnitude + 2.486);
     const Shared3 own = { r2, r4, r5, r6, r8 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 2 share. */
@@ -1679,6 +1695,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 7; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -85,7 +85,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -121,7 +121,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -379,6 +379,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -519,6 +521,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: A1.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r2 = 0.126 * p.r23_ - p.py;
     let r4 = p.px - 0.126 * p.r13_;
     let r5 = 0.4 * (known.s3_ * known.s4);
@@ -526,7 +529,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r8 = f64::abs(p.magnitude + 2.486);
     let shared = &Shared3 { r2, r4, r5, r6, r8 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 3 share.
@@ -560,10 +563,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: A1.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r11 = shared.r2 * shared.r2 + shared.r4 * shared.r4;
     let r12 = shared.r8 * shared.r8;
-    if !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12)) && is_near(shared.r6, 0.0196)) {
+    if !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), NEAR) && is_near(shared.r6, 0.0196, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), BESIDE) && is_near(shared.r6, 0.0196, BESIDE))) {
         return;
     }
     let f1 = 1000000.0;
@@ -576,6 +579,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: A2.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r8 = 0.4 * known.c4 + 0.42;
     let r9 = 0.4 * (known.c3_ * known.s4);
     let r12 = p.pz - 0.126 * p.r33_ - 0.36;
@@ -584,7 +588,7 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r18 = f64::abs(2.0 * p.magnitude + 4.972);
     let shared = &Shared4 { r8, r9, r12, r13, r17, r18 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// Block 4 behind a chart that hardly ever runs.
@@ -618,9 +622,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: A2.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r21 = shared.r8 * shared.r8 + shared.r9 * shared.r9;
-    if !(is_near(r21, 1.04242e-5) && is_near(shared.r13, 0.01 * shared.r18) && is_near(shared.r12, 0.01 * shared.r17)) {
+    if !(is_near(r21, 1.04242e-5, NEAR) && is_near(shared.r13, 0.01 * shared.r18, NEAR) && is_near(shared.r12, 0.01 * shared.r17, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r21, 1.04242e-5, BESIDE) && is_near(shared.r13, 0.01 * shared.r18, BESIDE) && is_near(shared.r12, 0.01 * shared.r17, BESIDE))) {
         return;
     }
     let f2 = 1000000.0;
@@ -633,6 +637,7 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Block 5: A5.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
     let r9 = known.c2 * r4 - p.r33_ * known.s2;
     let r11 = p.r23_ * known.c1 - p.r13_ * known.s1;
@@ -642,7 +647,7 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r20 = r16 + r18;
     let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
+    chart_5_2(p, known, shared, before, answers);
 }
 
 /// Block 5 behind a chart that hardly ever runs.
@@ -678,9 +683,9 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Chart 2 of block 5: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: A5.
-fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
     let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
-    if !is_near(r23, 0.0001765) {
+    if !is_near(r23, 0.0001765, NEAR) || (answers.suffice_since(p, before) && !is_near(r23, 0.0001765, BESIDE)) {
         return;
     }
     for [c5, s5] in SAMPLES_1 {
@@ -982,6 +987,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -990,6 +998,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1670,8 +1685,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1820,6 +1835,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1847,6 +1863,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -181,6 +181,8 @@ int irb120_nearest(const irb120_solution *list, int count, const double *referen
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -745,6 +747,8 @@ typedef struct {
     Solution *out;
     double relative[IRB120_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1255,6 +1259,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1268,11 +1273,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1341,9 +1348,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1480,10 +1493,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Axis4. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
-    if (!is_near(r17, 4.24e-5)) {
+    if (!is_near(r17, 4.24e-5, NEAR) || (suffice_since(answers, before) && !is_near(r17, 4.24e-5, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1501,13 +1514,14 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: Axis4. */
 INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r4 = p->r13_ * known->c1 + p->r23_ * known->s1;
     const double r11 = known->c3 * (p->r33_ * known->c2 + known->s2 * r4);
     const double r12 = known->s3 * (known->c2 * r4 - p->r33_ * known->s2);
     const double r13 = p->r13_ * known->s1 - p->r23_ * known->c1, r14 = r11 + r12;
     const Shared4 own = { r13, r14 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -1544,10 +1558,10 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: Axis2. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r24 = shared->r9 * shared->r9 + shared->r12 * shared->r12;
-    if (!(is_near(r24, 7.711028000000001e-7) && is_near(shared->r16, 0.01 * shared->r21) && is_near(shared->r15, 0.01 * shared->r20))) {
+    if (!(is_near(r24, 7.711028000000001e-7, NEAR) && is_near(shared->r16, 0.01 * shared->r21, NEAR) && is_near(shared->r15, 0.01 * shared->r20, NEAR)) || (suffice_since(answers, before) && !(is_near(r24, 7.711028000000001e-7, BESIDE) && is_near(shared->r16, 0.01 * shared->r21, BESIDE) && is_near(shared->r15, 0.01 * shared->r20, BESIDE)))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1567,13 +1581,14 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Axis2. */
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r9 = 0.07 * known->c3 - 0.302 * known->s3 + 0.27, r12 = 0.302 * known->c3 + 0.07 * known->s3;
     const double r15 = p->pz - 0.16 * p->r33_ - 0.29;
     const double r16 = known->c1 * (p->px - 0.16 * p->r13_) + known->s1 * (p->py - 0.16 * p->r23_);
     const double r20 = fabs(p->magnitude + 1.994), r21 = fabs(2.0 * p->magnitude + 3.408);
     const Shared3 own = { r9, r12, r15, r16, r20, r21 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 2 share. */
@@ -1650,10 +1665,10 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 /* Chart 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Axis1. */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r1 * shared->r1 + shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
-    if (!is_near(r8, 1.0000000000000001e-7 * (r9 + r9))) {
+    if (!is_near(r8, 1.0000000000000001e-7 * (r9 + r9), NEAR) || (suffice_since(answers, before) && !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), BESIDE))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1673,10 +1688,11 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Axis1. */
 static void block_1(const Parameters *p, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r1 = 0.16 * p->r23_ - p->py, r3 = p->px - 0.16 * p->r13_, r5 = fabs(p->magnitude + 1.704);
     const Shared1 own = { r1, r3, r5 }, *const shared = &own;
     chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
+    chart_1_2(p, shared, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -1746,6 +1762,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 6; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -84,7 +84,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -120,7 +120,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -378,6 +378,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -473,12 +475,13 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Axis1.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r1 = 0.16 * p.r23_ - p.py;
     let r3 = p.px - 0.16 * p.r13_;
     let r5 = f64::abs(p.magnitude + 1.704);
     let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
+    chart_1_2(p, shared, before, answers);
 }
 
 /// What the charts of block 1 share.
@@ -510,10 +513,10 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 2 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Axis1.
-fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
     let r9 = shared.r5 * shared.r5;
-    if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9)) {
+    if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), NEAR) || (answers.suffice_since(p, before) && !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), BESIDE)) {
         return;
     }
     let f1 = 1000000.0;
@@ -562,6 +565,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: Axis2.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r9 = 0.07 * known.c3 - 0.302 * known.s3 + 0.27;
     let r12 = 0.302 * known.c3 + 0.07 * known.s3;
     let r15 = p.pz - 0.16 * p.r33_ - 0.29;
@@ -570,7 +574,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r21 = f64::abs(2.0 * p.magnitude + 3.408);
     let shared = &Shared3 { r9, r12, r15, r16, r20, r21 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 3 share.
@@ -597,9 +601,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Axis2.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r24 = shared.r9 * shared.r9 + shared.r12 * shared.r12;
-    if !(is_near(r24, 7.711028000000001e-7) && is_near(shared.r16, 0.01 * shared.r21) && is_near(shared.r15, 0.01 * shared.r20)) {
+    if !(is_near(r24, 7.711028000000001e-7, NEAR) && is_near(shared.r16, 0.01 * shared.r21, NEAR) && is_near(shared.r15, 0.01 * shared.r20, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r24, 7.711028000000001e-7, BESIDE) && is_near(shared.r16, 0.01 * shared.r21, BESIDE) && is_near(shared.r15, 0.01 * shared.r20, BESIDE))) {
         return;
     }
     let f2 = 1000000.0;
@@ -612,6 +616,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: Axis4.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
     let r11 = known.c3 * (p.r33_ * known.c2 + known.s2 * r4);
     let r12 = known.s3 * (known.c2 * r4 - p.r33_ * known.s2);
@@ -619,7 +624,7 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r14 = r11 + r12;
     let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// Block 4 behind a chart that hardly ever runs.
@@ -655,9 +660,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Axis4.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
-    if !is_near(r17, 4.24e-5) {
+    if !is_near(r17, 4.24e-5, NEAR) || (answers.suffice_since(p, before) && !is_near(r17, 4.24e-5, BESIDE)) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -961,6 +966,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -969,6 +977,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1648,8 +1663,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1798,6 +1813,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1825,6 +1841,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -154,6 +154,8 @@ int nao_arm_planar_nearest(const nao_arm_planar_solution *list, int count, const
 #define POLISHED 1e-15
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -719,6 +721,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_ARM_PLANAR_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[2][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1028,6 +1032,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && !close && take_pair(p, branch, at, answers);
         return;
@@ -1037,11 +1042,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 1, at[2], at[3]),
     };
     if (close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1128,9 +1135,15 @@ static void mark_choice(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1164,9 +1177,9 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 
 /* Chart 2: pz = 0.
  * It runs where pz is near zero and py is not zero. */
-static void chart_1_2(const Parameters *p, Answers *answers)
+static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
 {
-    if (!(is_near(p->pz, p->magnitude) && is_away(p->py, p->magnitude))) {
+    if (!(is_near(p->pz, p->magnitude, NEAR) && is_away(p->py, p->magnitude)) || (suffice_since(answers, before) && !(is_near(p->pz, p->magnitude, BESIDE) && is_away(p->py, p->magnitude)))) {
         return;
     }
     const double r0 = p->py * p->py, r1 = 100.0 * r0, s2 = (r1 - 190269.0) / (21000.0 * p->py);
@@ -1184,8 +1197,9 @@ static void chart_1_2(const Parameters *p, Answers *answers)
 /* Block 1: nao_arm_planar. */
 static void block_1(const Parameters *p, Answers *answers)
 {
+    const size_t before = answers->candidates;
     chart_1_1(p, answers);
-    chart_1_2(p, answers);
+    chart_1_2(p, before, answers);
 }
 
 static bool all_finite(const double *target)
@@ -1206,6 +1220,7 @@ static int find(const double *target, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 2; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

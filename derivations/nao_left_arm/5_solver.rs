@@ -82,7 +82,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -118,7 +118,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -356,6 +356,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -503,6 +505,7 @@ fn claim_1_3(p: &Parameters) -> f64 {
 
 /// Block 2: turn about the ray.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r20 = 0.02462 * (p.px * known.ux) + 0.02462 * (p.py * known.uy);
     let r24 = r20 + 0.02462 * (p.pz * known.uz) - 0.00241276 * known.uy;
     let r26 = 0.002462 * known.uz - r24;
@@ -522,7 +525,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r69 = f64::abs(r65 + 1.4594794227);
     let shared = &Shared2 { r26, r35, r52, r53, r67, r68, r69 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 2 share.
@@ -555,10 +558,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: ShoulderPitch.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r72 = shared.r26 * shared.r26 + shared.r35 * shared.r35;
     let r75 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
-    if !(is_near(r72, 1.0000000000000001e-7 * r75) && is_near(shared.r53, 0.01 * shared.r69)) {
+    if !(is_near(r72, 1.0000000000000001e-7 * r75, NEAR) && is_near(shared.r53, 0.01 * shared.r69, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r72, 1.0000000000000001e-7 * r75, BESIDE) && is_near(shared.r53, 0.01 * shared.r69, BESIDE))) {
         return;
     }
     let fr = 1000000.0;
@@ -571,6 +574,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: ShoulderPitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r7 = p.pz - 0.1137 * p.dz - 0.01231 * (known.sr * known.vz);
     let r10 = 0.1 - (r7 + 0.01231 * (known.cr * known.uz));
     let r14 = p.px - 0.1137 * p.dx - 0.01231 * (known.sr * known.vx);
@@ -579,7 +583,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r20 = f64::abs(p.magnitude + 2.63726);
     let shared = &Shared3 { r10, r16, r19, r20 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /// Block 3 behind a chart that hardly ever runs.
@@ -617,10 +621,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderPitch.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r23 = shared.r10 * shared.r10 + shared.r16 * shared.r16;
     let r26 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
-    if !is_near(r23, 1.0000000000000001e-7 * r26) {
+    if !is_near(r23, 1.0000000000000001e-7 * r26, NEAR) || (answers.suffice_since(p, before) && !is_near(r23, 1.0000000000000001e-7 * r26, BESIDE)) {
         return;
     }
     let f1 = 1000000.0;
@@ -669,12 +673,13 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Block 5: ElbowYaw.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r6 = known.s2 * (p.dx * known.c1 - p.dz * known.s1);
     let r7 = p.dz * known.c1 + p.dx * known.s1;
     let r8 = p.dy * known.c2 - r6;
     let shared = &Shared5 { r7, r8 };
     chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
+    chart_5_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 5 share.
@@ -703,9 +708,9 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Chart 2 of block 5: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ElbowYaw.
-fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
     let r11 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
-    if !is_near(r11, 6.100000000000001e-6) {
+    if !is_near(r11, 6.100000000000001e-6, NEAR) || (answers.suffice_since(p, before) && !is_near(r11, 6.100000000000001e-6, BESIDE)) {
         return;
     }
     for [c3, s3] in SAMPLES_1 {
@@ -934,6 +939,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -942,6 +950,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1620,8 +1635,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1770,6 +1785,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1797,6 +1813,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -142,6 +142,8 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -742,6 +744,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEFT_LEG_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
 } Answers;
@@ -1203,6 +1207,7 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         joint_angle(answers, 0, at[0], at[1]),
         joint_angle(answers, 1, at[2], at[3]),
@@ -1212,11 +1217,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1285,9 +1292,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1418,10 +1431,10 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r13 = shared->r6 * shared->r6 + shared->r10 * shared->r10;
-    if (!is_near(r13, 1.2e-6)) {
+    if (!is_near(r13, 1.2e-6, NEAR) || (suffice_since(answers, before) && !is_near(r13, 1.2e-6, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1439,12 +1452,13 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYawPitch. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r6 = p->r13_ * known->s6 - p->r12_ * known->c6;
     const double r8 = p->r22_ * known->c6 + (p->r32_ * known->c6 - p->r33_ * known->s6);
     const double r10 = 0.7071067811865475 * (r8 - p->r23_ * known->s6);
     const Shared4 own = { r6, r10 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -1482,11 +1496,11 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: AnklePitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
+    if (!(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared->r69, 0.00055566, NEAR) && is_near(shared->r67, 0.01 * shared->r85, NEAR)) || (suffice_since(answers, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared->r69, 0.00055566, BESIDE) && is_near(shared->r67, 0.01 * shared->r85, BESIDE)))) {
         return;
     }
     const double f5 = 1000000.0;
@@ -1506,6 +1520,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnklePitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = p->r22_ * known->s6, r3 = p->r23_ * known->c6, r4 = p->r32_ * known->s6;
     const double r5 = p->r33_ * known->c6, r10 = p->px * (p->r12_ * known->s6 + p->r13_ * known->c6);
     const double r31 = 0.009300102 * known->c6 + 0.2058 * r10 + 0.2058 * (p->py * (r2 + r3));
@@ -1524,7 +1539,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r85 = fabs(r81 + 3.1572666541);
     const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* Block 3 behind a chart that hardly ever runs. */
@@ -1566,11 +1581,11 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: AnkleRoll. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r26 = shared->r11 * shared->r11 + shared->r18 * shared->r18;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    if (!is_near(r26, 1.0000000000000001e-7 * r29)) {
+    if (!is_near(r26, 1.0000000000000001e-7 * r29, NEAR) || (suffice_since(answers, before) && !is_near(r26, 1.0000000000000001e-7 * r29, BESIDE))) {
         return;
     }
     const double f6 = 1000000.0;
@@ -1590,6 +1605,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: AnkleRoll. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r9 = 0.05 * p->r22_ - 0.085 * p->r32_ - p->px * p->r12_;
     const double r11 = p->pz * p->r32_ - (r9 - p->py * p->r22_);
     const double r15 = 0.05 * p->r23_ - 0.085 * p->r33_ - p->px * p->r13_;
@@ -1597,7 +1613,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r22 = fabs(r19 + 0.235), r23 = fabs(r19 + 0.75599);
     const Shared2 own = { r11, r18, r22, r23 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -1702,6 +1718,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 6; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

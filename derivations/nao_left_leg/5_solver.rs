@@ -84,7 +84,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -120,7 +120,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -378,6 +378,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -500,6 +502,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: AnkleRoll.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r9 = 0.05 * p.r22_ - 0.085 * p.r32_ - p.px * p.r12_;
     let r11 = p.pz * p.r32_ - (r9 - p.py * p.r22_);
     let r15 = 0.05 * p.r23_ - 0.085 * p.r33_ - p.px * p.r13_;
@@ -509,7 +512,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r23 = f64::abs(r19 + 0.75599);
     let shared = &Shared2 { r11, r18, r22, r23 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 2 share.
@@ -540,10 +543,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: AnkleRoll.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r26 = shared.r11 * shared.r11 + shared.r18 * shared.r18;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
-    if !is_near(r26, 1.0000000000000001e-7 * r29) {
+    if !is_near(r26, 1.0000000000000001e-7 * r29, NEAR) || (answers.suffice_since(p, before) && !is_near(r26, 1.0000000000000001e-7 * r29, BESIDE)) {
         return;
     }
     let f6 = 1000000.0;
@@ -556,6 +559,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: AnklePitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r2 = p.r22_ * known.s6;
     let r3 = p.r23_ * known.c6;
     let r4 = p.r32_ * known.s6;
@@ -581,7 +585,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared3 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /// Block 3 behind a chart that hardly ever runs.
@@ -616,10 +620,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: AnklePitch.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared.r69, 0.00055566) && is_near(shared.r67, 0.01 * shared.r85)) {
+    if !(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared.r69, 0.00055566, NEAR) && is_near(shared.r67, 0.01 * shared.r85, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared.r69, 0.00055566, BESIDE) && is_near(shared.r67, 0.01 * shared.r85, BESIDE))) {
         return;
     }
     let f5 = 1000000.0;
@@ -632,12 +636,13 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: HipYawPitch.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r6 = p.r13_ * known.s6 - p.r12_ * known.c6;
     let r8 = p.r22_ * known.c6 + (p.r32_ * known.c6 - p.r33_ * known.s6);
     let r10 = 0.7071067811865475 * (r8 - p.r23_ * known.s6);
     let shared = &Shared4 { r6, r10 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// Block 4 behind a chart that hardly ever runs.
@@ -673,9 +678,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r13 = shared.r6 * shared.r6 + shared.r10 * shared.r10;
-    if !is_near(r13, 1.2e-6) {
+    if !is_near(r13, 1.2e-6, NEAR) || (answers.suffice_since(p, before) && !is_near(r13, 1.2e-6, BESIDE)) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -1032,6 +1037,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -1040,6 +1048,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1719,8 +1734,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1869,6 +1884,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1896,6 +1912,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -183,6 +183,8 @@ int nao_legs_nearest(const nao_legs_solution *list, int count, const double *ref
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -903,6 +905,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEGS_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[11][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1423,6 +1427,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1441,11 +1446,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 10, at[20], at[21]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1514,9 +1521,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1665,10 +1678,10 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
 /* Chart 2 of block 11: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: right_AnklePitch. */
-static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r36 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!is_near(r36, 0.0002312)) {
+    if (!is_near(r36, 0.0002312, NEAR) || (suffice_since(answers, before) && !is_near(r36, 0.0002312, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1686,6 +1699,7 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
 /* Block 11: AnklePitch. */
 INLINE static void block_11(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r1 = p->right_dz - p->right_dy, r9 = 0.5 * p->right_dy + 0.5 * p->right_dz;
     const double r10 = 0.5 * (known->left_c1 * (p->right_dy - p->right_dz));
     const double r12 = 0.7071067811865475 * (p->right_dx * known->left_s1);
@@ -1698,7 +1712,7 @@ INLINE static void block_11(const Parameters *p, const Known *known, Answers *an
     const double r33 = known->right_c4 * r28 + known->right_s4 * r26;
     const Shared11 own = { r32, r33 }, *const shared = &own;
     chart_11_1(p, known, shared, answers);
-    chart_11_2(p, known, shared, answers);
+    chart_11_2(p, known, shared, before, answers);
 }
 
 /* Block 11 behind a chart that hardly ever runs. */
@@ -1736,10 +1750,10 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
 /* Chart 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: right_HipPitch. */
-static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
+static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *shared, size_t before, Answers *answers)
 {
     const double r42 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
-    if (!(is_near(r42, 7.755348200000001e-8) && is_near(shared->r33, 0.01 * shared->r39) && is_near(shared->r19, 0.01 * shared->r38))) {
+    if (!(is_near(r42, 7.755348200000001e-8, NEAR) && is_near(shared->r33, 0.01 * shared->r39, NEAR) && is_near(shared->r19, 0.01 * shared->r38, NEAR)) || (suffice_since(answers, before) && !(is_near(r42, 7.755348200000001e-8, BESIDE) && is_near(shared->r33, 0.01 * shared->r39, BESIDE) && is_near(shared->r19, 0.01 * shared->r38, BESIDE)))) {
         return;
     }
     const double right_f3 = 1000000.0;
@@ -1759,6 +1773,7 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
 /* Block 10: HipPitch. */
 INLINE static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r1 = p->right_px + 0.04519 * p->right_dx, r3 = p->right_py + 0.04519 * p->right_dy;
     const double r5 = p->right_pz + 0.04519 * p->right_dz, r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
     const double r18 = 0.7071067811865475 * (known->left_s1 * (r5 - r3 + 0.035));
@@ -1769,7 +1784,7 @@ INLINE static void block_10(const Parameters *p, const Known *known, Answers *an
     const double r38 = fabs(3.0 * p->magnitude + 2.29797), r39 = fabs(8.0 * p->magnitude + 6.61292);
     const Shared10 own = { r19, r30, r32, r33, r38, r39 }, *const shared = &own;
     chart_10_1(p, known, shared, answers);
-    chart_10_2(p, known, shared, answers);
+    chart_10_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 9 share. */
@@ -1848,11 +1863,11 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 8: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: right_HipRoll. */
-static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r29 = shared->r20 * shared->r20 + shared->r21 * shared->r21;
     const double r32 = shared->r25 * shared->r25 + shared->r26 * shared->r26;
-    if (!is_near(r29, 1.0000000000000001e-7 * r32)) {
+    if (!is_near(r29, 1.0000000000000001e-7 * r32, NEAR) || (suffice_since(answers, before) && !is_near(r29, 1.0000000000000001e-7 * r32, BESIDE))) {
         return;
     }
     const double right_f2 = 1000000.0;
@@ -1872,6 +1887,7 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
 /* Block 8: HipRoll. */
 static void block_8(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r3 = p->right_py + 0.04519 * p->right_dy, r5 = p->right_pz + 0.04519 * p->right_dz;
     const double r9 = 0.5 * r3 + 0.5 * r5 + 0.0675, r15 = known->left_s1 * (p->right_px + 0.04519 * p->right_dx);
     const double r16 = 0.7071067811865475 * r15, r20 = r9 + (known->left_c1 * (r3 - r9 + 0.05) - r16);
@@ -1879,7 +1895,7 @@ static void block_8(const Parameters *p, const Known *known, Answers *answers)
     const double r25 = fabs(r22 + 3.16896), r26 = fabs(r22 + 3.27396);
     const Shared8 own = { r20, r21, r25, r26 }, *const shared = &own;
     chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, answers);
+    chart_8_2(p, known, shared, before, answers);
 }
 
 /* Chart 1 of block 7: across x. */
@@ -2049,10 +2065,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r13 = shared->r6 * shared->r6 + shared->r10 * shared->r10;
-    if (!is_near(r13, 1.2e-6)) {
+    if (!is_near(r13, 1.2e-6, NEAR) || (suffice_since(answers, before) && !is_near(r13, 1.2e-6, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2070,13 +2086,14 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYawPitch. */
 INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r6 = p->left_r13 * known->left_s6 - p->left_r12 * known->left_c6;
     const double r7 = p->left_r32 * known->left_c6 - p->left_r33 * known->left_s6;
     const double r9 = p->left_r22 * known->left_c6 + r7 - p->left_r23 * known->left_s6;
     const double r10 = 0.7071067811865475 * r9;
     const Shared4 own = { r6, r10 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -2114,11 +2131,11 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: left_AnklePitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
+    if (!(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared->r69, 0.00055566, NEAR) && is_near(shared->r67, 0.01 * shared->r85, NEAR)) || (suffice_since(answers, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared->r69, 0.00055566, BESIDE) && is_near(shared->r67, 0.01 * shared->r85, BESIDE)))) {
         return;
     }
     const double left_f5 = 1000000.0;
@@ -2138,6 +2155,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnklePitch. */
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = p->left_r22 * known->left_s6, r3 = p->left_r23 * known->left_c6;
     const double r4 = p->left_r32 * known->left_s6, r5 = p->left_r33 * known->left_c6;
     const double r8 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
@@ -2161,7 +2179,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r85 = fabs(r81 + 3.1572666541);
     const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* Block 3 behind a chart that hardly ever runs. */
@@ -2203,11 +2221,11 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r26 = shared->r11 * shared->r11 + shared->r18 * shared->r18;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    if (!is_near(r26, 1.0000000000000001e-7 * r29)) {
+    if (!is_near(r26, 1.0000000000000001e-7 * r29, NEAR) || (suffice_since(answers, before) && !is_near(r26, 1.0000000000000001e-7 * r29, BESIDE))) {
         return;
     }
     const double left_f6 = 1000000.0;
@@ -2227,6 +2245,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: AnkleRoll. */
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r9 = 0.05 * p->left_r22 - 0.085 * p->left_r32 - p->left_px * p->left_r12;
     const double r11 = p->left_pz * p->left_r32 - (r9 - p->left_py * p->left_r22);
     const double r15 = 0.05 * p->left_r23 - 0.085 * p->left_r33 - p->left_px * p->left_r13;
@@ -2234,7 +2253,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r19 = 3.0 * p->magnitude, r22 = fabs(r19 + 0.235), r23 = fabs(r19 + 0.75599);
     const Shared2 own = { r11, r18, r22, r23 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -2357,6 +2376,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 11; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

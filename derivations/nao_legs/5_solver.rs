@@ -90,7 +90,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -126,7 +126,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -364,6 +364,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -512,6 +514,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: AnkleRoll.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r9 = 0.05 * p.left_r22 - 0.085 * p.left_r32 - p.left_px * p.left_r12;
     let r11 = p.left_pz * p.left_r32 - (r9 - p.left_py * p.left_r22);
     let r15 = 0.05 * p.left_r23 - 0.085 * p.left_r33 - p.left_px * p.left_r13;
@@ -522,7 +525,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r23 = f64::abs(r19 + 0.75599);
     let shared = &Shared2 { r11, r18, r22, r23 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 2 share.
@@ -553,10 +556,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r26 = shared.r11 * shared.r11 + shared.r18 * shared.r18;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
-    if !is_near(r26, 1.0000000000000001e-7 * r29) {
+    if !is_near(r26, 1.0000000000000001e-7 * r29, NEAR) || (answers.suffice_since(p, before) && !is_near(r26, 1.0000000000000001e-7 * r29, BESIDE)) {
         return;
     }
     let left_f6 = 1000000.0;
@@ -569,6 +572,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: AnklePitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r2 = p.left_r22 * known.left_s6;
     let r3 = p.left_r23 * known.left_c6;
     let r4 = p.left_r32 * known.left_s6;
@@ -598,7 +602,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared3 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /// Block 3 behind a chart that hardly ever runs.
@@ -633,10 +637,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared.r69, 0.00055566) && is_near(shared.r67, 0.01 * shared.r85)) {
+    if !(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared.r69, 0.00055566, NEAR) && is_near(shared.r67, 0.01 * shared.r85, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared.r69, 0.00055566, BESIDE) && is_near(shared.r67, 0.01 * shared.r85, BESIDE))) {
         return;
     }
     let left_f5 = 1000000.0;
@@ -649,13 +653,14 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: HipYawPitch.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r6 = p.left_r13 * known.left_s6 - p.left_r12 * known.left_c6;
     let r7 = p.left_r32 * known.left_c6 - p.left_r33 * known.left_s6;
     let r9 = p.left_r22 * known.left_c6 + r7 - p.left_r23 * known.left_s6;
     let r10 = 0.7071067811865475 * r9;
     let shared = &Shared4 { r6, r10 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// Block 4 behind a chart that hardly ever runs.
@@ -692,9 +697,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r13 = shared.r6 * shared.r6 + shared.r10 * shared.r10;
-    if !is_near(r13, 1.2e-6) {
+    if !is_near(r13, 1.2e-6, NEAR) || (answers.suffice_since(p, before) && !is_near(r13, 1.2e-6, BESIDE)) {
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
@@ -828,6 +833,7 @@ fn claim_7_3(p: &Parameters) -> f64 {
 
 /// Block 8: HipRoll.
 fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r3 = p.right_py + 0.04519 * p.right_dy;
     let r5 = p.right_pz + 0.04519 * p.right_dz;
     let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
@@ -840,7 +846,7 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r26 = f64::abs(r22 + 3.27396);
     let shared = &Shared8 { r20, r21, r25, r26 };
     chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, answers);
+    chart_8_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 8 share.
@@ -871,10 +877,10 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// Chart 2 of block 8: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: right_HipRoll.
-fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r29 = shared.r20 * shared.r20 + shared.r21 * shared.r21;
     let r32 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
-    if !is_near(r29, 1.0000000000000001e-7 * r32) {
+    if !is_near(r29, 1.0000000000000001e-7 * r32, NEAR) || (answers.suffice_since(p, before) && !is_near(r29, 1.0000000000000001e-7 * r32, BESIDE)) {
         return;
     }
     let right_f2 = 1000000.0;
@@ -926,6 +932,7 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
 /// Block 10: HipPitch.
 #[inline(always)]
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r1 = p.right_px + 0.04519 * p.right_dx;
     let r3 = p.right_py + 0.04519 * p.right_dy;
     let r5 = p.right_pz + 0.04519 * p.right_dz;
@@ -942,7 +949,7 @@ fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r39 = f64::abs(8.0 * p.magnitude + 6.61292);
     let shared = &Shared10 { r19, r30, r32, r33, r38, r39 };
     chart_10_1(p, known, shared, answers);
-    chart_10_2(p, known, shared, answers);
+    chart_10_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 10 share.
@@ -969,9 +976,9 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 /// Chart 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_HipPitch.
-fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
+fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, before: usize, answers: &mut Answers<'_>) {
     let r42 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
-    if !(is_near(r42, 7.755348200000001e-8) && is_near(shared.r33, 0.01 * shared.r39) && is_near(shared.r19, 0.01 * shared.r38)) {
+    if !(is_near(r42, 7.755348200000001e-8, NEAR) && is_near(shared.r33, 0.01 * shared.r39, NEAR) && is_near(shared.r19, 0.01 * shared.r38, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r42, 7.755348200000001e-8, BESIDE) && is_near(shared.r33, 0.01 * shared.r39, BESIDE) && is_near(shared.r19, 0.01 * shared.r38, BESIDE))) {
         return;
     }
     let right_f3 = 1000000.0;
@@ -984,6 +991,7 @@ fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 /// Block 11: AnklePitch.
 #[inline(always)]
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r1 = p.right_dz - p.right_dy;
     let r9 = 0.5 * p.right_dy + 0.5 * p.right_dz;
     let r10 = 0.5 * (known.left_c1 * (p.right_dy - p.right_dz));
@@ -997,7 +1005,7 @@ fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r33 = known.right_c4 * r28 + known.right_s4 * r26;
     let shared = &Shared11 { r32, r33 };
     chart_11_1(p, known, shared, answers);
-    chart_11_2(p, known, shared, answers);
+    chart_11_2(p, known, shared, before, answers);
 }
 
 /// Block 11 behind a chart that hardly ever runs.
@@ -1034,9 +1042,9 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// Chart 2 of block 11: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: right_AnklePitch.
-fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r36 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !is_near(r36, 0.0002312) {
+    if !is_near(r36, 0.0002312, NEAR) || (answers.suffice_since(p, before) && !is_near(r36, 0.0002312, BESIDE)) {
         return;
     }
     for [right_c5, right_s5] in SAMPLES_1 {
@@ -1564,6 +1572,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -1572,6 +1583,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -2256,8 +2274,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -2406,6 +2424,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -2433,6 +2452,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -185,6 +185,8 @@ int nao_legs_poses_nearest(const nao_legs_poses_solution *list, int count, const
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -940,6 +942,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEGS_POSES_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[11][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1460,6 +1464,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1478,11 +1483,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 10, at[20], at[21]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1513,9 +1520,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1654,11 +1667,11 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: right_AnklePitch. */
-static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
+    if (!(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared->r69, 0.00055566, NEAR) && is_near(shared->r67, 0.01 * shared->r85, NEAR)) || (suffice_since(answers, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared->r69, 0.00055566, BESIDE) && is_near(shared->r67, 0.01 * shared->r85, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1676,6 +1689,7 @@ static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *sh
 /* Block 9: AnklePitch. */
 INLINE static void block_9(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = p->right_r22 * known->right_s6, r3 = p->right_r23 * known->right_c6;
     const double r4 = p->right_r32 * known->right_s6, r5 = p->right_r33 * known->right_c6;
     const double r8 = p->right_px * (p->right_px + 0.04519 * p->right_r13);
@@ -1699,7 +1713,7 @@ INLINE static void block_9(const Parameters *p, const Known *known, Answers *ans
     const double r85 = fabs(r81 + 3.1572666541);
     const Shared9 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
     chart_9_1(p, known, shared, answers);
-    chart_9_2(p, known, shared, answers);
+    chart_9_2(p, known, shared, before, answers);
 }
 
 /* Block 9 behind a chart that hardly ever runs. */
@@ -1731,11 +1745,11 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 8: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r42 = shared->r17 * shared->r17, r43 = shared->r24 * shared->r24, r44 = r42 + r43;
     const double r47 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r37, shared->r41) && is_away(r44, 16.0 * r47))) {
+    if (!(is_near(shared->r37, shared->r41, NEAR) && is_away(r44, 16.0 * r47)) || (suffice_since(answers, before) && !(is_near(shared->r37, shared->r41, BESIDE) && is_away(r44, 16.0 * r47)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r42 - r43, sqrt(fmax(r47, 0.0)));
@@ -1755,11 +1769,11 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
 /* Chart 3 of block 8: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: right_AnkleRoll. */
-static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r44 = shared->r17 * shared->r17 + shared->r24 * shared->r24;
     const double r47 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r37, shared->r41) && is_near(r44, 1.0000000000000001e-7 * r47))) {
+    if (!(is_near(shared->r37, shared->r41, NEAR) && is_near(r44, 1.0000000000000001e-7 * r47, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r37, shared->r41, BESIDE) && is_near(r44, 1.0000000000000001e-7 * r47, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1776,10 +1790,10 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
 
 /* Chart 4 of block 8: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r42 = shared->r26 * shared->r26, r43 = shared->r28 * shared->r28, r44 = r42 + r43;
-    if (!(is_near(shared->r37, shared->r41) && is_away(r44, 288.0))) {
+    if (!(is_near(shared->r37, shared->r41, NEAR) && is_away(r44, 288.0)) || (suffice_since(answers, before) && !(is_near(shared->r37, shared->r41, BESIDE) && is_away(r44, 288.0)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r42 - r43, 4.242640687119285);
@@ -1799,10 +1813,10 @@ static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *sh
 /* Chart 5 of block 8: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: right_AnkleRoll. */
-static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r44 = shared->r26 * shared->r26 + shared->r28 * shared->r28;
-    if (!(is_near(shared->r37, shared->r41) && is_near(r44, 1.8000000000000001e-6))) {
+    if (!(is_near(shared->r37, shared->r41, NEAR) && is_near(r44, 1.8000000000000001e-6, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r37, shared->r41, BESIDE) && is_near(r44, 1.8000000000000001e-6, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1820,6 +1834,7 @@ static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *sh
 /* Block 8: AnkleRoll. */
 INLINE static void block_8(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r9 = known->left_s1 * (p->right_r32 - p->right_r22);
     const double r11 = known->left_s1 * (p->right_r33 - p->right_r23);
     const double r15 = p->right_px * p->right_r12 + (0.05 * p->right_r22 + 0.085 * p->right_r32);
@@ -1832,10 +1847,10 @@ INLINE static void block_8(const Parameters *p, const Known *known, Answers *ans
     const double r36 = 0.0 - r35, r37 = r34 + r35, r40 = 3.0 * r32 + 3.0 * r33, r41 = 0.001 * r40;
     const Shared8 own = { r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41 }, *const shared = &own;
     chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, answers);
-    chart_8_3(p, known, shared, answers);
-    chart_8_4(p, known, shared, answers);
-    chart_8_5(p, known, shared, answers);
+    chart_8_2(p, known, shared, before, answers);
+    chart_8_3(p, known, shared, before, answers);
+    chart_8_4(p, known, shared, before, answers);
+    chart_8_5(p, known, shared, before, answers);
 }
 
 /* What the charts of block 7 share. */
@@ -1978,11 +1993,11 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: left_AnklePitch. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
+    if (!(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared->r69, 0.00055566, NEAR) && is_near(shared->r67, 0.01 * shared->r85, NEAR)) || (suffice_since(answers, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared->r69, 0.00055566, BESIDE) && is_near(shared->r67, 0.01 * shared->r85, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2000,6 +2015,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: AnklePitch. */
 INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = p->left_r22 * known->left_s6, r3 = p->left_r23 * known->left_c6;
     const double r4 = p->left_r32 * known->left_s6, r5 = p->left_r33 * known->left_c6;
     const double r8 = p->left_px * (p->left_px + 0.04519 * p->left_r13);
@@ -2023,7 +2039,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r85 = fabs(r81 + 3.1572666541);
     const Shared4 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -2055,11 +2071,11 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 3: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r41 = shared->r17 * shared->r17, r42 = shared->r24 * shared->r24, r43 = r41 + r42;
     const double r46 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r36, shared->r40) && is_away(r43, 16.0 * r46))) {
+    if (!(is_near(shared->r36, shared->r40, NEAR) && is_away(r43, 16.0 * r46)) || (suffice_since(answers, before) && !(is_near(shared->r36, shared->r40, BESIDE) && is_away(r43, 16.0 * r46)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r41 - r42, sqrt(fmax(r46, 0.0)));
@@ -2079,11 +2095,11 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Chart 3 of block 3: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r43 = shared->r17 * shared->r17 + shared->r24 * shared->r24;
     const double r46 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
-    if (!(is_near(shared->r36, shared->r40) && is_near(r43, 1.0000000000000001e-7 * r46))) {
+    if (!(is_near(shared->r36, shared->r40, NEAR) && is_near(r43, 1.0000000000000001e-7 * r46, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r36, shared->r40, BESIDE) && is_near(r43, 1.0000000000000001e-7 * r46, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2100,10 +2116,10 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
 
 /* Chart 4 of block 3: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r41 = shared->r26 * shared->r26, r42 = shared->r28 * shared->r28, r43 = r41 + r42;
-    if (!(is_near(shared->r36, shared->r40) && is_away(r43, 288.0))) {
+    if (!(is_near(shared->r36, shared->r40, NEAR) && is_away(r43, 288.0)) || (suffice_since(answers, before) && !(is_near(shared->r36, shared->r40, BESIDE) && is_away(r43, 288.0)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r41 - r42, 4.242640687119285);
@@ -2123,10 +2139,10 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
 /* Chart 5 of block 3: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r43 = shared->r26 * shared->r26 + shared->r28 * shared->r28;
-    if (!(is_near(shared->r36, shared->r40) && is_near(r43, 1.8000000000000001e-6))) {
+    if (!(is_near(shared->r36, shared->r40, NEAR) && is_near(r43, 1.8000000000000001e-6, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r36, shared->r40, BESIDE) && is_near(r43, 1.8000000000000001e-6, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2144,6 +2160,7 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnkleRoll. */
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r15 = 0.05 * p->left_r22 - 0.085 * p->left_r32 - p->left_px * p->left_r12;
     const double r17 = p->left_pz * p->left_r32 - (r15 - p->left_py * p->left_r22);
     const double r21 = 0.05 * p->left_r23 - 0.085 * p->left_r33 - p->left_px * p->left_r13;
@@ -2156,10 +2173,10 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r39 = 3.0 * r32 + 3.0 * r33, r40 = 0.001 * r39;
     const Shared3 own = { r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
-    chart_3_3(p, known, shared, answers);
-    chart_3_4(p, known, shared, answers);
-    chart_3_5(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
+    chart_3_3(p, known, shared, before, answers);
+    chart_3_4(p, known, shared, before, answers);
+    chart_3_5(p, known, shared, before, answers);
 }
 
 /* What the charts of block 2 share. */
@@ -2227,11 +2244,11 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 
 /* Chart 2 of block 1: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r68 = shared->r19 * shared->r19, r69 = shared->r32 * shared->r32, r70 = r68 + r69;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_away(r70, 16.0 * r73))) {
+    if (!(is_near(shared->r64, shared->r67, NEAR) && is_away(r70, 16.0 * r73)) || (suffice_since(answers, before) && !(is_near(shared->r64, shared->r67, BESIDE) && is_away(r70, 16.0 * r73)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));
@@ -2251,11 +2268,11 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Chart 3 of block 1: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_3(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r70 = shared->r19 * shared->r19 + shared->r32 * shared->r32;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_near(r70, 1.0000000000000001e-7 * r73))) {
+    if (!(is_near(shared->r64, shared->r67, NEAR) && is_near(r70, 1.0000000000000001e-7 * r73, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r64, shared->r67, BESIDE) && is_near(r70, 1.0000000000000001e-7 * r73, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2272,11 +2289,11 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
 
 /* Chart 4 of block 1: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_4(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r68 = shared->r41 * shared->r41, r69 = shared->r54 * shared->r54, r70 = r68 + r69;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_away(r70, 16.0 * r73))) {
+    if (!(is_near(shared->r64, shared->r67, NEAR) && is_away(r70, 16.0 * r73)) || (suffice_since(answers, before) && !(is_near(shared->r64, shared->r67, BESIDE) && is_away(r70, 16.0 * r73)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));
@@ -2296,11 +2313,11 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Chart 5 of block 1: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_5(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r70 = shared->r41 * shared->r41 + shared->r54 * shared->r54;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
-    if (!(is_near(shared->r64, shared->r67) && is_near(r70, 1.0000000000000001e-7 * r73))) {
+    if (!(is_near(shared->r64, shared->r67, NEAR) && is_near(r70, 1.0000000000000001e-7 * r73, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r64, shared->r67, BESIDE) && is_near(r70, 1.0000000000000001e-7 * r73, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2318,6 +2335,7 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: HipYawPitch. */
 static void block_1(const Parameters *p, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r15 = 0.085 * p->left_r21 + 0.05 * p->left_r31 - p->left_py * p->left_r31;
     const double r19 = 0.04519 * p->left_r12 - (p->left_pz * p->left_r21 + r15);
     const double r21 = 0.7071067811865475 * (p->left_px * p->left_r21);
@@ -2341,10 +2359,10 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r63 = 0.0 - r62, r64 = r61 + r62, r65 = r59 * r60, r66 = r65 + r65, r67 = 0.001 * r66;
     const Shared1 own = { r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67 }, *const shared = &own;
     chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
-    chart_1_3(p, shared, answers);
-    chart_1_4(p, shared, answers);
-    chart_1_5(p, shared, answers);
+    chart_1_2(p, shared, before, answers);
+    chart_1_3(p, shared, before, answers);
+    chart_1_4(p, shared, before, answers);
+    chart_1_5(p, shared, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -2417,6 +2435,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 11; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -92,7 +92,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.sort();
@@ -127,7 +127,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -365,6 +365,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -477,6 +479,7 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: HipYawPitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r15 = 0.085 * p.left_r21 + 0.05 * p.left_r31 - p.left_py * p.left_r31;
     let r19 = 0.04519 * p.left_r12 - (p.left_pz * p.left_r21 + r15);
     let r21 = 0.7071067811865475 * (p.left_px * p.left_r21);
@@ -506,10 +509,10 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r67 = 0.001 * r66;
     let shared = &Shared1 { r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67 };
     chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
-    chart_1_3(p, shared, answers);
-    chart_1_4(p, shared, answers);
-    chart_1_5(p, shared, answers);
+    chart_1_2(p, shared, before, answers);
+    chart_1_3(p, shared, before, answers);
+    chart_1_4(p, shared, before, answers);
+    chart_1_5(p, shared, before, answers);
 }
 
 /// What the charts of block 1 share.
@@ -531,12 +534,12 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Chart 2 of block 1: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r68 = shared.r19 * shared.r19;
     let r69 = shared.r32 * shared.r32;
     let r70 = r68 + r69;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_away(r70, 16.0 * r73)) {
+    if !(is_near(shared.r64, shared.r67, NEAR) && is_away(r70, 16.0 * r73)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_away(r70, 16.0 * r73))) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
@@ -552,10 +555,10 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 3 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn chart_1_3(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r70 = shared.r19 * shared.r19 + shared.r32 * shared.r32;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_near(r70, 1.0000000000000001e-7 * r73)) {
+    if !(is_near(shared.r64, shared.r67, NEAR) && is_near(r70, 1.0000000000000001e-7 * r73, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_near(r70, 1.0000000000000001e-7 * r73, BESIDE))) {
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
@@ -566,12 +569,12 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Chart 4 of block 1: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn chart_1_4(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r68 = shared.r41 * shared.r41;
     let r69 = shared.r54 * shared.r54;
     let r70 = r68 + r69;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_away(r70, 16.0 * r73)) {
+    if !(is_near(shared.r64, shared.r67, NEAR) && is_away(r70, 16.0 * r73)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_away(r70, 16.0 * r73))) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
@@ -587,10 +590,10 @@ fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 5 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn chart_1_5(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r70 = shared.r41 * shared.r41 + shared.r54 * shared.r54;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
-    if !(is_near(shared.r64, shared.r67) && is_near(r70, 1.0000000000000001e-7 * r73)) {
+    if !(is_near(shared.r64, shared.r67, NEAR) && is_near(r70, 1.0000000000000001e-7 * r73, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_near(r70, 1.0000000000000001e-7 * r73, BESIDE))) {
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
@@ -641,6 +644,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: AnkleRoll.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r15 = 0.05 * p.left_r22 - 0.085 * p.left_r32 - p.left_px * p.left_r12;
     let r17 = p.left_pz * p.left_r32 - (r15 - p.left_py * p.left_r22);
     let r21 = 0.05 * p.left_r23 - 0.085 * p.left_r33 - p.left_px * p.left_r13;
@@ -660,10 +664,10 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r40 = 0.001 * r39;
     let shared = &Shared3 { r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
-    chart_3_3(p, known, shared, answers);
-    chart_3_4(p, known, shared, answers);
-    chart_3_5(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
+    chart_3_3(p, known, shared, before, answers);
+    chart_3_4(p, known, shared, before, answers);
+    chart_3_5(p, known, shared, before, answers);
 }
 
 /// What the charts of block 3 share.
@@ -685,12 +689,12 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Chart 2 of block 3: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r41 = shared.r17 * shared.r17;
     let r42 = shared.r24 * shared.r24;
     let r43 = r41 + r42;
     let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r36, shared.r40) && is_away(r43, 16.0 * r46)) {
+    if !(is_near(shared.r36, shared.r40, NEAR) && is_away(r43, 16.0 * r46)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_away(r43, 16.0 * r46))) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, f64::max(r46, 0.0).sqrt());
@@ -706,10 +710,10 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 3 of block 3: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r43 = shared.r17 * shared.r17 + shared.r24 * shared.r24;
     let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r36, shared.r40) && is_near(r43, 1.0000000000000001e-7 * r46)) {
+    if !(is_near(shared.r36, shared.r40, NEAR) && is_near(r43, 1.0000000000000001e-7 * r46, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_near(r43, 1.0000000000000001e-7 * r46, BESIDE))) {
         return;
     }
     for [left_c6, left_s6] in SAMPLES_1 {
@@ -720,11 +724,11 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Chart 4 of block 3: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r41 = shared.r26 * shared.r26;
     let r42 = shared.r28 * shared.r28;
     let r43 = r41 + r42;
-    if !(is_near(shared.r36, shared.r40) && is_away(r43, 288.0)) {
+    if !(is_near(shared.r36, shared.r40, NEAR) && is_away(r43, 288.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_away(r43, 288.0))) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, 4.242640687119285);
@@ -740,9 +744,9 @@ fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 5 of block 3: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r43 = shared.r26 * shared.r26 + shared.r28 * shared.r28;
-    if !(is_near(shared.r36, shared.r40) && is_near(r43, 1.8000000000000001e-6)) {
+    if !(is_near(shared.r36, shared.r40, NEAR) && is_near(r43, 1.8000000000000001e-6, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_near(r43, 1.8000000000000001e-6, BESIDE))) {
         return;
     }
     for [left_c6, left_s6] in SAMPLES_1 {
@@ -754,6 +758,7 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: AnklePitch.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r2 = p.left_r22 * known.left_s6;
     let r3 = p.left_r23 * known.left_c6;
     let r4 = p.left_r32 * known.left_s6;
@@ -783,7 +788,7 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared4 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// Block 4 behind a chart that hardly ever runs.
@@ -817,10 +822,10 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared.r69, 0.00055566) && is_near(shared.r67, 0.01 * shared.r85)) {
+    if !(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared.r69, 0.00055566, NEAR) && is_near(shared.r67, 0.01 * shared.r85, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared.r69, 0.00055566, BESIDE) && is_near(shared.r67, 0.01 * shared.r85, BESIDE))) {
         return;
     }
     for [left_c5, left_s5] in SAMPLES_1 {
@@ -940,6 +945,7 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
 /// Block 8: AnkleRoll.
 #[inline(always)]
 fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r15 = p.right_px * p.right_r12 + (0.05 * p.right_r22 + 0.085 * p.right_r32);
     let r17 = p.right_pz * p.right_r32 + (p.right_py * p.right_r22 + r15);
     let r21 = p.right_px * p.right_r13 + (0.05 * p.right_r23 + 0.085 * p.right_r33);
@@ -960,10 +966,10 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r41 = 0.001 * r40;
     let shared = &Shared8 { r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41 };
     chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, answers);
-    chart_8_3(p, known, shared, answers);
-    chart_8_4(p, known, shared, answers);
-    chart_8_5(p, known, shared, answers);
+    chart_8_2(p, known, shared, before, answers);
+    chart_8_3(p, known, shared, before, answers);
+    chart_8_4(p, known, shared, before, answers);
+    chart_8_5(p, known, shared, before, answers);
 }
 
 /// What the charts of block 8 share.
@@ -985,12 +991,12 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 
 /// Chart 2 of block 8: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r42 = shared.r17 * shared.r17;
     let r43 = shared.r24 * shared.r24;
     let r44 = r42 + r43;
     let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r37, shared.r41) && is_away(r44, 16.0 * r47)) {
+    if !(is_near(shared.r37, shared.r41, NEAR) && is_away(r44, 16.0 * r47)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_away(r44, 16.0 * r47))) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, f64::max(r47, 0.0).sqrt());
@@ -1006,10 +1012,10 @@ fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// Chart 3 of block 8: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
-fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r44 = shared.r17 * shared.r17 + shared.r24 * shared.r24;
     let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !(is_near(shared.r37, shared.r41) && is_near(r44, 1.0000000000000001e-7 * r47)) {
+    if !(is_near(shared.r37, shared.r41, NEAR) && is_near(r44, 1.0000000000000001e-7 * r47, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_near(r44, 1.0000000000000001e-7 * r47, BESIDE))) {
         return;
     }
     for [right_c6, right_s6] in SAMPLES_1 {
@@ -1020,11 +1026,11 @@ fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 
 /// Chart 4 of block 8: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r42 = shared.r26 * shared.r26;
     let r43 = shared.r28 * shared.r28;
     let r44 = r42 + r43;
-    if !(is_near(shared.r37, shared.r41) && is_away(r44, 288.0)) {
+    if !(is_near(shared.r37, shared.r41, NEAR) && is_away(r44, 288.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_away(r44, 288.0))) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, 4.242640687119285);
@@ -1040,9 +1046,9 @@ fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// Chart 5 of block 8: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
-fn chart_8_5(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+fn chart_8_5(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r44 = shared.r26 * shared.r26 + shared.r28 * shared.r28;
-    if !(is_near(shared.r37, shared.r41) && is_near(r44, 1.8000000000000001e-6)) {
+    if !(is_near(shared.r37, shared.r41, NEAR) && is_near(r44, 1.8000000000000001e-6, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_near(r44, 1.8000000000000001e-6, BESIDE))) {
         return;
     }
     for [right_c6, right_s6] in SAMPLES_1 {
@@ -1054,6 +1060,7 @@ fn chart_8_5(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// Block 9: AnklePitch.
 #[inline(always)]
 fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r2 = p.right_r22 * known.right_s6;
     let r3 = p.right_r23 * known.right_c6;
     let r4 = p.right_r32 * known.right_s6;
@@ -1083,7 +1090,7 @@ fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared9 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_9_1(p, known, shared, answers);
-    chart_9_2(p, known, shared, answers);
+    chart_9_2(p, known, shared, before, answers);
 }
 
 /// Block 9 behind a chart that hardly ever runs.
@@ -1117,10 +1124,10 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
 /// Chart 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_AnklePitch.
-fn chart_9_2(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
+fn chart_9_2(p: &Parameters, known: &Known, shared: &Shared9, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared.r69, 0.00055566) && is_near(shared.r67, 0.01 * shared.r85)) {
+    if !(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared.r69, 0.00055566, NEAR) && is_near(shared.r67, 0.01 * shared.r85, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared.r69, 0.00055566, BESIDE) && is_near(shared.r67, 0.01 * shared.r85, BESIDE))) {
         return;
     }
     for [right_c5, right_s5] in SAMPLES_1 {
@@ -1706,6 +1713,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -1714,6 +1724,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -2378,8 +2395,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -2528,6 +2545,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -2555,6 +2573,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -188,6 +188,8 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -1336,6 +1338,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEGS_YAW_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[14][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1862,6 +1866,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1883,11 +1888,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 13, at[26], at[27]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1918,9 +1925,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -2104,10 +2117,10 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
 /* Chart 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: right_AnklePitch. */
-static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
+static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *shared, size_t before, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
-    if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared->r92, 0.004729) && is_near(shared->r91, 0.011129))) {
+    if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared->r92, 0.004729, NEAR) && is_near(shared->r91, 0.011129, NEAR)) || (suffice_since(answers, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared->r92, 0.004729, BESIDE) && is_near(shared->r91, 0.011129, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2125,6 +2138,7 @@ static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *
 /* Block 12: AnklePitch. */
 INLINE static void block_12(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r0 = known->right_c7 * known->right_s9, r1 = known->right_s7 * known->right_s9;
     const double r2 = known->right_c7 * known->right_c9, r3 = known->right_s7 * known->right_c9;
     const double r22 = p->right_r11 * known->right_s7 - p->right_r12 * r0, r23 = r22 - p->right_r13 * r2;
@@ -2149,7 +2163,7 @@ INLINE static void block_12(const Parameters *p, const Known *known, Answers *an
     const double r92 = 0.1029 * known->right_s7, r95 = fabs(15.0 * p->magnitude + 8.72179);
     const Shared12 own = { r77, r89, r91, r92, r95 }, *const shared = &own;
     chart_12_1(p, known, shared, answers);
-    chart_12_2(p, known, shared, answers);
+    chart_12_2(p, known, shared, before, answers);
 }
 
 /* Block 12 behind a chart that hardly ever runs. */
@@ -2181,11 +2195,11 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
 
 /* Chart 2 of block 11: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68, r88 = r86 + r87;
     const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r88, 16.0 * r91))) {
+    if (!(is_near(shared->r81, shared->r85, NEAR) && is_away(r88, 16.0 * r91)) || (suffice_since(answers, before) && !(is_near(shared->r81, shared->r85, BESIDE) && is_away(r88, 16.0 * r91)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, sqrt(fmax(r91, 0.0)));
@@ -2205,11 +2219,11 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
 /* Chart 3 of block 11: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: right_AnkleRoll. */
-static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r57 * shared->r57 + shared->r68 * shared->r68;
     const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r81, shared->r85) && is_near(r88, 1.0000000000000001e-7 * r91))) {
+    if (!(is_near(shared->r81, shared->r85, NEAR) && is_near(r88, 1.0000000000000001e-7 * r91, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r81, shared->r85, BESIDE) && is_near(r88, 1.0000000000000001e-7 * r91, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2226,10 +2240,10 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
 
 /* Chart 4 of block 11: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72, r88 = r86 + r87;
-    if (!(is_near(shared->r81, shared->r85) && is_away(r88, 43808.0))) {
+    if (!(is_near(shared->r81, shared->r85, NEAR) && is_away(r88, 43808.0)) || (suffice_since(answers, before) && !(is_near(shared->r81, shared->r85, BESIDE) && is_away(r88, 43808.0)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
@@ -2249,10 +2263,10 @@ static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *
 /* Chart 5 of block 11: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: right_AnkleRoll. */
-static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r70 * shared->r70 + shared->r72 * shared->r72;
-    if (!(is_near(shared->r81, shared->r85) && is_near(r88, 0.00027380000000000004))) {
+    if (!(is_near(shared->r81, shared->r85, NEAR) && is_near(r88, 0.00027380000000000004, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r81, shared->r85, BESIDE) && is_near(r88, 0.00027380000000000004, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2270,6 +2284,7 @@ static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *
 /* Block 11: AnkleRoll. */
 INLINE static void block_11(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r14 = p->right_r12 * known->left_c1 + p->right_r22 * known->left_s1;
     const double r16 = p->right_r13 * known->left_c1 + p->right_r23 * known->left_s1;
     const double r24 = p->right_r22 * known->left_c1 - p->right_r12 * known->left_s1;
@@ -2295,10 +2310,10 @@ INLINE static void block_11(const Parameters *p, const Known *known, Answers *an
     const double r84 = 37.0 * r76 + 37.0 * r77, r85 = 0.001 * r84;
     const Shared11 own = { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 }, *const shared = &own;
     chart_11_1(p, known, shared, answers);
-    chart_11_2(p, known, shared, answers);
-    chart_11_3(p, known, shared, answers);
-    chart_11_4(p, known, shared, answers);
-    chart_11_5(p, known, shared, answers);
+    chart_11_2(p, known, shared, before, answers);
+    chart_11_3(p, known, shared, before, answers);
+    chart_11_4(p, known, shared, before, answers);
+    chart_11_5(p, known, shared, before, answers);
 }
 
 /* What the charts of block 10 share. */
@@ -2461,10 +2476,10 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: left_AnklePitch. */
-static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *shared, size_t before, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
-    if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared->r92, 0.004729) && is_near(shared->r91, 0.011129))) {
+    if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared->r92, 0.004729, NEAR) && is_near(shared->r91, 0.011129, NEAR)) || (suffice_since(answers, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared->r92, 0.004729, BESIDE) && is_near(shared->r91, 0.011129, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2482,6 +2497,7 @@ static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *sh
 /* Block 7: AnklePitch. */
 INLINE static void block_7(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r0 = known->left_c7 * known->left_s9, r1 = known->left_s7 * known->left_s9;
     const double r2 = known->left_c7 * known->left_c9, r3 = known->left_s7 * known->left_c9;
     const double r22 = p->left_r11 * known->left_s7 - p->left_r12 * r0, r23 = r22 - p->left_r13 * r2;
@@ -2505,7 +2521,7 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double r95 = fabs(15.0 * p->magnitude + 8.72179);
     const Shared7 own = { r77, r89, r91, r92, r95 }, *const shared = &own;
     chart_7_1(p, known, shared, answers);
-    chart_7_2(p, known, shared, answers);
+    chart_7_2(p, known, shared, before, answers);
 }
 
 /* Block 7 behind a chart that hardly ever runs. */
@@ -2537,11 +2553,11 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 6: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
 {
     const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68, r87 = r85 + r86;
     const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r87, 16.0 * r90))) {
+    if (!(is_near(shared->r80, shared->r84, NEAR) && is_away(r87, 16.0 * r90)) || (suffice_since(answers, before) && !(is_near(shared->r80, shared->r84, BESIDE) && is_away(r87, 16.0 * r90)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, sqrt(fmax(r90, 0.0)));
@@ -2561,11 +2577,11 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
 /* Chart 3 of block 6: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
 {
     const double r87 = shared->r57 * shared->r57 + shared->r68 * shared->r68;
     const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
-    if (!(is_near(shared->r80, shared->r84) && is_near(r87, 1.0000000000000001e-7 * r90))) {
+    if (!(is_near(shared->r80, shared->r84, NEAR) && is_near(r87, 1.0000000000000001e-7 * r90, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r80, shared->r84, BESIDE) && is_near(r87, 1.0000000000000001e-7 * r90, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2582,10 +2598,10 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
 
 /* Chart 4 of block 6: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
 {
     const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72, r87 = r85 + r86;
-    if (!(is_near(shared->r80, shared->r84) && is_away(r87, 43808.0))) {
+    if (!(is_near(shared->r80, shared->r84, NEAR) && is_away(r87, 43808.0)) || (suffice_since(answers, before) && !(is_near(shared->r80, shared->r84, BESIDE) && is_away(r87, 43808.0)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
@@ -2605,10 +2621,10 @@ static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *sh
 /* Chart 5 of block 6: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
 {
     const double r87 = shared->r70 * shared->r70 + shared->r72 * shared->r72;
-    if (!(is_near(shared->r80, shared->r84) && is_near(r87, 0.00027380000000000004))) {
+    if (!(is_near(shared->r80, shared->r84, NEAR) && is_near(r87, 0.00027380000000000004, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r80, shared->r84, BESIDE) && is_near(r87, 0.00027380000000000004, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -2626,6 +2642,7 @@ static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *sh
 /* Block 6: AnkleRoll. */
 INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r14 = p->left_r12 * known->left_c1 + p->left_r22 * known->left_s1;
     const double r16 = p->left_r13 * known->left_c1 + p->left_r23 * known->left_s1;
     const double r24 = p->left_r22 * known->left_c1 - p->left_r12 * known->left_s1, r25 = known->left_c3_ * r24;
@@ -2648,10 +2665,10 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r83 = 37.0 * r76 + 37.0 * r77, r84 = 0.001 * r83;
     const Shared6 own = { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
-    chart_6_2(p, known, shared, answers);
-    chart_6_3(p, known, shared, answers);
-    chart_6_4(p, known, shared, answers);
-    chart_6_5(p, known, shared, answers);
+    chart_6_2(p, known, shared, before, answers);
+    chart_6_3(p, known, shared, before, answers);
+    chart_6_4(p, known, shared, before, answers);
+    chart_6_5(p, known, shared, before, answers);
 }
 
 /* What the charts of block 5 share. */
@@ -2723,11 +2740,11 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 
 /* Chart 2 of block 4: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110, r148 = r146 + r147;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r148, 16.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145, NEAR) && is_away(r148, 16.0 * r151)) || (suffice_since(answers, before) && !(is_near(shared->r142, shared->r145, BESIDE) && is_away(r148, 16.0 * r151)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
@@ -2747,11 +2764,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Chart 3 of block 4: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r148 = shared->r98 * shared->r98 + shared->r110 * shared->r110;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_near(r148, 1.0000000000000001e-7 * r151))) {
+    if (!(is_near(shared->r142, shared->r145, NEAR) && is_near(r148, 1.0000000000000001e-7 * r151, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r142, shared->r145, BESIDE) && is_near(r148, 1.0000000000000001e-7 * r151, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 16; i0++) {
@@ -2768,11 +2785,11 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
 
 /* Chart 4 of block 4: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132, r148 = r146 + r147;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_away(r148, 16.0 * r151))) {
+    if (!(is_near(shared->r142, shared->r145, NEAR) && is_away(r148, 16.0 * r151)) || (suffice_since(answers, before) && !(is_near(shared->r142, shared->r145, BESIDE) && is_away(r148, 16.0 * r151)))) {
         return;
     }
     const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
@@ -2793,11 +2810,11 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
 /* Chart 5 of block 4: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r148 = shared->r120 * shared->r120 + shared->r132 * shared->r132;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
-    if (!(is_near(shared->r142, shared->r145) && is_near(r148, 1.0000000000000001e-7 * r151))) {
+    if (!(is_near(shared->r142, shared->r145, NEAR) && is_near(r148, 1.0000000000000001e-7 * r151, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r142, shared->r145, BESIDE) && is_near(r148, 1.0000000000000001e-7 * r151, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 16; i0++) {
@@ -2815,6 +2832,7 @@ static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYawPitch. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r10 = p->left_py * p->left_r31 - p->left_pz * p->left_r21, r12 = r10 + 0.04519 * p->left_r12;
     const double r14 = p->left_pz * p->left_r11 - p->left_px * p->left_r31, r16 = r14 + 0.04519 * p->left_r22;
     const double r20 = p->left_r11 * known->left_c1 + p->left_r21 * known->left_s1;
@@ -2860,10 +2878,10 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r145 = 0.001 * r144;
     const Shared4 own = { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
-    chart_4_3(p, known, shared, answers);
-    chart_4_4(p, known, shared, answers);
-    chart_4_5(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
+    chart_4_3(p, known, shared, before, answers);
+    chart_4_4(p, known, shared, before, answers);
+    chart_4_5(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -3109,9 +3127,9 @@ static double claim_3_5(const Shared3 *shared)
 /* Chart 6 of block 3: A = B = C = D = E = 0.
  * It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
  * Free: TorsoYaw. */
-static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
-    if (!(is_near(shared->r175, 0.01 * shared->r299) && is_near(shared->r184, 0.01 * shared->r300) && is_near(shared->r192, 0.01 * shared->r301) && is_near(shared->r200, 0.01 * shared->r302) && is_near(shared->r207, 0.01 * shared->r303))) {
+    if (!(is_near(shared->r175, 0.01 * shared->r299, NEAR) && is_near(shared->r184, 0.01 * shared->r300, NEAR) && is_near(shared->r192, 0.01 * shared->r301, NEAR) && is_near(shared->r200, 0.01 * shared->r302, NEAR) && is_near(shared->r207, 0.01 * shared->r303, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r175, 0.01 * shared->r299, BESIDE) && is_near(shared->r184, 0.01 * shared->r300, BESIDE) && is_near(shared->r192, 0.01 * shared->r301, BESIDE) && is_near(shared->r200, 0.01 * shared->r302, BESIDE) && is_near(shared->r207, 0.01 * shared->r303, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 16; i0++) {
@@ -3129,6 +3147,7 @@ static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: TorsoYaw. */
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r9 = p->left_r31 * known->left_c2_, r10 = p->left_r11 * known->left_s2_;
     const double r11 = p->left_r21 * known->left_s2_, r12 = p->left_py * p->left_r31 - p->left_pz * p->left_r21;
     const double r14 = r12 + 0.04519 * p->left_r12, r16 = p->left_pz * p->left_r11 - p->left_px * p->left_r31;
@@ -3217,7 +3236,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     default:
         break;
     }
-    chart_3_6(p, known, shared, answers);
+    chart_3_6(p, known, shared, before, answers);
 }
 
 /* Chart 1 of block 2: given. */
@@ -3323,6 +3342,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 14; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

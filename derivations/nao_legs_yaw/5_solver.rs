@@ -95,7 +95,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.sort();
@@ -130,7 +130,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -368,6 +368,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -528,6 +530,7 @@ fn chart_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 /// Block 3: TorsoYaw.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r9 = p.left_r31 * known.left_c2_;
     let r10 = p.left_r11 * known.left_s2_;
     let r11 = p.left_r21 * known.left_s2_;
@@ -635,7 +638,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
         4 => chart_3_5(p, known, shared, answers),
         _ => {}
     }
-    chart_3_6(p, known, shared, answers);
+    chart_3_6(p, known, shared, before, answers);
 }
 
 /// What the charts of block 3 share.
@@ -873,8 +876,8 @@ fn claim_3_5(shared: &Shared3) -> f64 {
 /// Chart 6 of block 3: A = B = C = D = E = 0.
 /// It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
 /// Free: TorsoYaw.
-fn chart_3_6(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    if !(is_near(shared.r175, 0.01 * shared.r299) && is_near(shared.r184, 0.01 * shared.r300) && is_near(shared.r192, 0.01 * shared.r301) && is_near(shared.r200, 0.01 * shared.r302) && is_near(shared.r207, 0.01 * shared.r303)) {
+fn chart_3_6(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+    if !(is_near(shared.r175, 0.01 * shared.r299, NEAR) && is_near(shared.r184, 0.01 * shared.r300, NEAR) && is_near(shared.r192, 0.01 * shared.r301, NEAR) && is_near(shared.r200, 0.01 * shared.r302, NEAR) && is_near(shared.r207, 0.01 * shared.r303, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r175, 0.01 * shared.r299, BESIDE) && is_near(shared.r184, 0.01 * shared.r300, BESIDE) && is_near(shared.r192, 0.01 * shared.r301, BESIDE) && is_near(shared.r200, 0.01 * shared.r302, BESIDE) && is_near(shared.r207, 0.01 * shared.r303, BESIDE))) {
         return;
     }
     for [left_c1, left_s1] in SAMPLES_1 {
@@ -885,6 +888,7 @@ fn chart_3_6(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// Block 4: HipYawPitch.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r10 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
     let r12 = r10 + 0.04519 * p.left_r12;
     let r14 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
@@ -938,10 +942,10 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r145 = 0.001 * r144;
     let shared = &Shared4 { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
-    chart_4_3(p, known, shared, answers);
-    chart_4_4(p, known, shared, answers);
-    chart_4_5(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
+    chart_4_3(p, known, shared, before, answers);
+    chart_4_4(p, known, shared, before, answers);
+    chart_4_5(p, known, shared, before, answers);
 }
 
 /// Block 4 behind a chart that hardly ever runs.
@@ -970,12 +974,12 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Chart 2 of block 4: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r146 = shared.r98 * shared.r98;
     let r147 = shared.r110 * shared.r110;
     let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r148, 16.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145, NEAR) && is_away(r148, 16.0 * r151)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_away(r148, 16.0 * r151))) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
@@ -991,10 +995,10 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 3 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r148 = shared.r98 * shared.r98 + shared.r110 * shared.r110;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_near(r148, 1.0000000000000001e-7 * r151)) {
+    if !(is_near(shared.r142, shared.r145, NEAR) && is_near(r148, 1.0000000000000001e-7 * r151, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_near(r148, 1.0000000000000001e-7 * r151, BESIDE))) {
         return;
     }
     for [left_c4, left_s4] in SAMPLES_1 {
@@ -1005,12 +1009,12 @@ fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 
 /// Chart 4 of block 4: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r146 = shared.r120 * shared.r120;
     let r147 = shared.r132 * shared.r132;
     let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_away(r148, 16.0 * r151)) {
+    if !(is_near(shared.r142, shared.r145, NEAR) && is_away(r148, 16.0 * r151)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_away(r148, 16.0 * r151))) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
@@ -1026,10 +1030,10 @@ fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 5 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_4_5(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_5(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r148 = shared.r120 * shared.r120 + shared.r132 * shared.r132;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145) && is_near(r148, 1.0000000000000001e-7 * r151)) {
+    if !(is_near(shared.r142, shared.r145, NEAR) && is_near(r148, 1.0000000000000001e-7 * r151, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_near(r148, 1.0000000000000001e-7 * r151, BESIDE))) {
         return;
     }
     for [left_c4, left_s4] in SAMPLES_1 {
@@ -1084,6 +1088,7 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: AnkleRoll.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r14 = p.left_r12 * known.left_c1 + p.left_r22 * known.left_s1;
     let r16 = p.left_r13 * known.left_c1 + p.left_r23 * known.left_s1;
     let r24 = p.left_r22 * known.left_c1 - p.left_r12 * known.left_s1;
@@ -1120,10 +1125,10 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r84 = 0.001 * r83;
     let shared = &Shared6 { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 };
     chart_6_1(p, known, shared, answers);
-    chart_6_2(p, known, shared, answers);
-    chart_6_3(p, known, shared, answers);
-    chart_6_4(p, known, shared, answers);
-    chart_6_5(p, known, shared, answers);
+    chart_6_2(p, known, shared, before, answers);
+    chart_6_3(p, known, shared, before, answers);
+    chart_6_4(p, known, shared, before, answers);
+    chart_6_5(p, known, shared, before, answers);
 }
 
 /// What the charts of block 6 share.
@@ -1145,12 +1150,12 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 
 /// Chart 2 of block 6: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
     let r85 = shared.r57 * shared.r57;
     let r86 = shared.r68 * shared.r68;
     let r87 = r85 + r86;
     let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r80, shared.r84) && is_away(r87, 16.0 * r90)) {
+    if !(is_near(shared.r80, shared.r84, NEAR) && is_away(r87, 16.0 * r90)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_away(r87, 16.0 * r90))) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, f64::max(r90, 0.0).sqrt());
@@ -1166,10 +1171,10 @@ fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// Chart 3 of block 6: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
     let r87 = shared.r57 * shared.r57 + shared.r68 * shared.r68;
     let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r80, shared.r84) && is_near(r87, 1.0000000000000001e-7 * r90)) {
+    if !(is_near(shared.r80, shared.r84, NEAR) && is_near(r87, 1.0000000000000001e-7 * r90, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_near(r87, 1.0000000000000001e-7 * r90, BESIDE))) {
         return;
     }
     for [left_c9, left_s9] in SAMPLES_2 {
@@ -1180,11 +1185,11 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 
 /// Chart 4 of block 6: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
     let r85 = shared.r70 * shared.r70;
     let r86 = shared.r72 * shared.r72;
     let r87 = r85 + r86;
-    if !(is_near(shared.r80, shared.r84) && is_away(r87, 43808.0)) {
+    if !(is_near(shared.r80, shared.r84, NEAR) && is_away(r87, 43808.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_away(r87, 43808.0))) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
@@ -1200,9 +1205,9 @@ fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// Chart 5 of block 6: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
     let r87 = shared.r70 * shared.r70 + shared.r72 * shared.r72;
-    if !(is_near(shared.r80, shared.r84) && is_near(r87, 0.00027380000000000004)) {
+    if !(is_near(shared.r80, shared.r84, NEAR) && is_near(r87, 0.00027380000000000004, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_near(r87, 0.00027380000000000004, BESIDE))) {
         return;
     }
     for [left_c9, left_s9] in SAMPLES_2 {
@@ -1214,6 +1219,7 @@ fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// Block 7: AnklePitch.
 #[inline(always)]
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r0 = known.left_c7 * known.left_s9;
     let r1 = known.left_s7 * known.left_s9;
     let r2 = known.left_c7 * known.left_c9;
@@ -1243,7 +1249,7 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
     let shared = &Shared7 { r77, r89, r91, r92, r95 };
     chart_7_1(p, known, shared, answers);
-    chart_7_2(p, known, shared, answers);
+    chart_7_2(p, known, shared, before, answers);
 }
 
 /// Block 7 behind a chart that hardly ever runs.
@@ -1278,10 +1284,10 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
 /// Chart 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
-fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
+fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, before: usize, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
     let r99 = shared.r95 * shared.r95;
-    if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared.r92, 0.004729) && is_near(shared.r91, 0.011129)) {
+    if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared.r92, 0.004729, NEAR) && is_near(shared.r91, 0.011129, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared.r92, 0.004729, BESIDE) && is_near(shared.r91, 0.011129, BESIDE))) {
         return;
     }
     for [left_c8, left_s8] in SAMPLES_2 {
@@ -1426,6 +1432,7 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 /// Block 11: AnkleRoll.
 #[inline(always)]
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r14 = p.right_r12 * known.left_c1 + p.right_r22 * known.left_s1;
     let r16 = p.right_r13 * known.left_c1 + p.right_r23 * known.left_s1;
     let r24 = p.right_r22 * known.left_c1 - p.right_r12 * known.left_s1;
@@ -1463,10 +1470,10 @@ fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r85 = 0.001 * r84;
     let shared = &Shared11 { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 };
     chart_11_1(p, known, shared, answers);
-    chart_11_2(p, known, shared, answers);
-    chart_11_3(p, known, shared, answers);
-    chart_11_4(p, known, shared, answers);
-    chart_11_5(p, known, shared, answers);
+    chart_11_2(p, known, shared, before, answers);
+    chart_11_3(p, known, shared, before, answers);
+    chart_11_4(p, known, shared, before, answers);
+    chart_11_5(p, known, shared, before, answers);
 }
 
 /// What the charts of block 11 share.
@@ -1488,12 +1495,12 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 
 /// Chart 2 of block 11: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r86 = shared.r57 * shared.r57;
     let r87 = shared.r68 * shared.r68;
     let r88 = r86 + r87;
     let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r81, shared.r85) && is_away(r88, 16.0 * r91)) {
+    if !(is_near(shared.r81, shared.r85, NEAR) && is_away(r88, 16.0 * r91)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_away(r88, 16.0 * r91))) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, f64::max(r91, 0.0).sqrt());
@@ -1509,10 +1516,10 @@ fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// Chart 3 of block 11: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
-fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r57 * shared.r57 + shared.r68 * shared.r68;
     let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r81, shared.r85) && is_near(r88, 1.0000000000000001e-7 * r91)) {
+    if !(is_near(shared.r81, shared.r85, NEAR) && is_near(r88, 1.0000000000000001e-7 * r91, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_near(r88, 1.0000000000000001e-7 * r91, BESIDE))) {
         return;
     }
     for [right_c9, right_s9] in SAMPLES_2 {
@@ -1523,11 +1530,11 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 
 /// Chart 4 of block 11: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r86 = shared.r70 * shared.r70;
     let r87 = shared.r72 * shared.r72;
     let r88 = r86 + r87;
-    if !(is_near(shared.r81, shared.r85) && is_away(r88, 43808.0)) {
+    if !(is_near(shared.r81, shared.r85, NEAR) && is_away(r88, 43808.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_away(r88, 43808.0))) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
@@ -1543,9 +1550,9 @@ fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// Chart 5 of block 11: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
-fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r70 * shared.r70 + shared.r72 * shared.r72;
-    if !(is_near(shared.r81, shared.r85) && is_near(r88, 0.00027380000000000004)) {
+    if !(is_near(shared.r81, shared.r85, NEAR) && is_near(r88, 0.00027380000000000004, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_near(r88, 0.00027380000000000004, BESIDE))) {
         return;
     }
     for [right_c9, right_s9] in SAMPLES_2 {
@@ -1557,6 +1564,7 @@ fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// Block 12: AnklePitch.
 #[inline(always)]
 fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r0 = known.right_c7 * known.right_s9;
     let r1 = known.right_s7 * known.right_s9;
     let r2 = known.right_c7 * known.right_c9;
@@ -1592,7 +1600,7 @@ fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
     let shared = &Shared12 { r77, r89, r91, r92, r95 };
     chart_12_1(p, known, shared, answers);
-    chart_12_2(p, known, shared, answers);
+    chart_12_2(p, known, shared, before, answers);
 }
 
 /// Block 12 behind a chart that hardly ever runs.
@@ -1627,10 +1635,10 @@ fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
 /// Chart 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_AnklePitch.
-fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
+fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, before: usize, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
     let r99 = shared.r95 * shared.r95;
-    if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99)) && is_near(shared.r92, 0.004729) && is_near(shared.r91, 0.011129)) {
+    if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared.r92, 0.004729, NEAR) && is_near(shared.r91, 0.011129, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared.r92, 0.004729, BESIDE) && is_near(shared.r91, 0.011129, BESIDE))) {
         return;
     }
     for [right_c8, right_s8] in SAMPLES_2 {
@@ -2347,6 +2355,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -2355,6 +2366,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -3028,8 +3046,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -3498,6 +3516,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -3525,6 +3544,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -141,6 +141,8 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -670,6 +672,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_RIGHT_ARM_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[5][3];
 } Answers;
@@ -1130,6 +1134,7 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         joint_angle(answers, 0, at[0], at[1]),
         joint_angle(answers, 1, at[2], at[3]),
@@ -1138,11 +1143,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 4, at[8], at[9]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1211,9 +1218,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1363,10 +1376,10 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Chart 2 of block 5: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: ElbowYaw. */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
 {
     const double r11 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
-    if (!is_near(r11, 6.100000000000001e-6)) {
+    if (!is_near(r11, 6.100000000000001e-6, NEAR) || (suffice_since(answers, before) && !is_near(r11, 6.100000000000001e-6, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1384,11 +1397,12 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: ElbowYaw. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r6 = known->s2 * (p->dx * known->c1 - p->dz * known->s1);
     const double r7 = p->dz * known->c1 + p->dx * known->s1, r8 = p->dy * known->c2 - r6;
     const Shared5 own = { r7, r8 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
+    chart_5_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 4 share. */
@@ -1460,11 +1474,11 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Chart 2 of block 3: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: ShoulderPitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r23 = shared->r10 * shared->r10 + shared->r16 * shared->r16;
     const double r26 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
-    if (!is_near(r23, 1.0000000000000001e-7 * r26)) {
+    if (!is_near(r23, 1.0000000000000001e-7 * r26, NEAR) || (suffice_since(answers, before) && !is_near(r23, 1.0000000000000001e-7 * r26, BESIDE))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1484,6 +1498,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: ShoulderPitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r7 = p->pz - 0.1137 * p->dz - 0.01231 * (known->sr * known->vz);
     const double r10 = 0.1 - (r7 + 0.01231 * (known->cr * known->uz));
     const double r14 = p->px - 0.1137 * p->dx - 0.01231 * (known->sr * known->vx);
@@ -1491,7 +1506,7 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r20 = fabs(p->magnitude + 2.63726);
     const Shared3 own = { r10, r16, r19, r20 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* Block 3 behind a chart that hardly ever runs. */
@@ -1534,11 +1549,11 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: ShoulderPitch. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r72 = shared->r26 * shared->r26 + shared->r35 * shared->r35;
     const double r75 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
-    if (!(is_near(r72, 1.0000000000000001e-7 * r75) && is_near(shared->r53, 0.01 * shared->r69))) {
+    if (!(is_near(r72, 1.0000000000000001e-7 * r75, NEAR) && is_near(shared->r53, 0.01 * shared->r69, NEAR)) || (suffice_since(answers, before) && !(is_near(r72, 1.0000000000000001e-7 * r75, BESIDE) && is_near(shared->r53, 0.01 * shared->r69, BESIDE)))) {
         return;
     }
     const double fr = 1000000.0;
@@ -1558,6 +1573,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: turn about the ray. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r20 = 0.02462 * (p->px * known->ux) + 0.02462 * (p->py * known->uy);
     const double r24 = r20 + 0.02462 * (p->pz * known->uz) + 0.00241276 * known->uy;
     const double r26 = 0.002462 * known->uz - r24;
@@ -1575,7 +1591,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r68 = fabs(2.48214 * p->magnitude + 0.32792888), r69 = fabs(r65 + 1.4594794227);
     const Shared2 own = { r26, r35, r52, r53, r67, r68, r69 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* Chart 1 of block 1: across x. */
@@ -1718,6 +1734,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 5; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

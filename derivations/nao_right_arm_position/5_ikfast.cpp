@@ -138,6 +138,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -655,6 +657,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_RIGHT_ARM_POSITION_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[4][3];
 } Answers;
@@ -1114,6 +1118,7 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         joint_angle(answers, 0, at[0], at[1]),
         joint_angle(answers, 1, at[2], at[3]),
@@ -1121,11 +1126,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 3, at[6], at[7]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1194,9 +1201,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1252,10 +1265,10 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 /* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: ShoulderRoll. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r19 = shared->r7 * shared->r7 + shared->r9 * shared->r9;
-    if (!(is_near(r19, 8.745627862900002e-7) && is_near(shared->r11, 0.01 * shared->r16) && is_near(shared->r10, 0.01 * shared->r15))) {
+    if (!(is_near(r19, 8.745627862900002e-7, NEAR) && is_near(shared->r11, 0.01 * shared->r16, NEAR) && is_near(shared->r10, 0.01 * shared->r15, NEAR)) || (suffice_since(answers, before) && !(is_near(r19, 8.745627862900002e-7, BESIDE) && is_near(shared->r11, 0.01 * shared->r16, BESIDE) && is_near(shared->r10, 0.01 * shared->r15, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1271,13 +1284,14 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: ShoulderRoll. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r6 = 0.1137 * (known->c3_ * known->s4) + 0.01231 * known->s3_, r7 = r6 - 0.015;
     const double r9 = 0.1137 * known->c4 + 0.105, r10 = p->py + 0.098;
     const double r11 = known->s1 * (p->pz - 0.1) - p->px * known->c1, r15 = fabs(p->magnitude + 0.098);
     const double r16 = fabs(2.0 * p->magnitude + 0.1);
     const Shared4 own = { r7, r9, r10, r11, r15, r16 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -1318,10 +1332,10 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Chart 2 of block 3: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: ShoulderPitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r12 = shared->r6 * shared->r6 + p->magnitude * p->magnitude;
-    if (!(is_near(shared->r1 * shared->r1 + p->px * p->px, 1.0000000000000001e-7 * r12) && is_near(shared->r4, 0.0173877))) {
+    if (!(is_near(shared->r1 * shared->r1 + p->px * p->px, 1.0000000000000001e-7 * r12, NEAR) && is_near(shared->r4, 0.0173877, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r1 * shared->r1 + p->px * p->px, 1.0000000000000001e-7 * r12, BESIDE) && is_near(shared->r4, 0.0173877, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1339,11 +1353,12 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: ShoulderPitch. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r1 = 0.1 - p->pz, r4 = 0.1137 * (known->s3_ * known->s4) - 0.01231 * known->c3_;
     const double r6 = fabs(p->magnitude + 0.1);
     const Shared3 own = { r1, r4, r6 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* Block 3 behind a chart that hardly ever runs. */
@@ -1385,10 +1400,10 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: ElbowRoll. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r14 = shared->r3 * shared->r3 + 0.0005701111289999999;
-    if (!(is_near(r14, 2.0000000000000002e-7) && is_near(shared->r12, 0.01))) {
+    if (!(is_near(r14, 2.0000000000000002e-7, NEAR) && is_near(shared->r12, 0.01, NEAR)) || (suffice_since(answers, before) && !(is_near(r14, 2.0000000000000002e-7, BESIDE) && is_near(shared->r12, 0.01, BESIDE)))) {
         return;
     }
     const double f4 = 1000000.0;
@@ -1408,11 +1423,12 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: ElbowRoll. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r3 = 0.003411 * known->c3_, r6 = p->py * p->py + (p->px * p->px + 0.0003693 * known->s3_);
     const double r11 = p->pz * p->pz + r6 + 0.196 * p->py - 0.2 * p->pz, r12 = 0.0047252261 - r11;
     const Shared2 own = { r3, r12 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* Chart 1 of block 1: given. */
@@ -1450,6 +1466,7 @@ static int find(const double *target, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 4; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

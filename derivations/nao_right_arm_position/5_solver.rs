@@ -84,7 +84,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
         return Err(Error::NotFinite);
     }
     let p = &parameters(target);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -123,7 +123,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
         return Err(Error::NotFinite);
     }
     let p = &parameters(target);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -360,6 +360,8 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -423,12 +425,13 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Block 2: ElbowRoll.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r3 = 0.003411 * known.c3_;
     let r6 = p.py * p.py + (p.px * p.px + 0.0003693 * known.s3_);
     let r12 = 0.0047252261 - (p.pz * p.pz + r6 + 0.196 * p.py - 0.2 * p.pz);
     let shared = &Shared2 { r3, r12 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 2 share.
@@ -460,9 +463,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: ElbowRoll.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r14 = shared.r3 * shared.r3 + 0.0005701111289999999;
-    if !(is_near(r14, 2.0000000000000002e-7) && is_near(shared.r12, 0.01)) {
+    if !(is_near(r14, 2.0000000000000002e-7, NEAR) && is_near(shared.r12, 0.01, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r14, 2.0000000000000002e-7, BESIDE) && is_near(shared.r12, 0.01, BESIDE))) {
         return;
     }
     let f4 = 1000000.0;
@@ -475,12 +478,13 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: ShoulderPitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r1 = 0.1 - p.pz;
     let r4 = 0.1137 * (known.s3_ * known.s4) - 0.01231 * known.c3_;
     let r6 = f64::abs(p.magnitude + 0.1);
     let shared = &Shared3 { r1, r4, r6 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /// Block 3 behind a chart that hardly ever runs.
@@ -518,9 +522,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: ShoulderPitch.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r12 = shared.r6 * shared.r6 + p.magnitude * p.magnitude;
-    if !(is_near(shared.r1 * shared.r1 + p.px * p.px, 1.0000000000000001e-7 * r12) && is_near(shared.r4, 0.0173877)) {
+    if !(is_near(shared.r1 * shared.r1 + p.px * p.px, 1.0000000000000001e-7 * r12, NEAR) && is_near(shared.r4, 0.0173877, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r1 * shared.r1 + p.px * p.px, 1.0000000000000001e-7 * r12, BESIDE) && is_near(shared.r4, 0.0173877, BESIDE))) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -532,6 +536,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: ShoulderRoll.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r6 = 0.1137 * (known.c3_ * known.s4) + 0.01231 * known.s3_;
     let r7 = r6 - 0.015;
     let r9 = 0.1137 * known.c4 + 0.105;
@@ -541,7 +546,7 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r16 = f64::abs(2.0 * p.magnitude + 0.1);
     let shared = &Shared4 { r7, r9, r10, r11, r15, r16 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// Block 4 behind a chart that hardly ever runs.
@@ -574,9 +579,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: ShoulderRoll.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r19 = shared.r7 * shared.r7 + shared.r9 * shared.r9;
-    if !(is_near(r19, 8.745627862900002e-7) && is_near(shared.r11, 0.01 * shared.r16) && is_near(shared.r10, 0.01 * shared.r15)) {
+    if !(is_near(r19, 8.745627862900002e-7, NEAR) && is_near(shared.r11, 0.01 * shared.r16, NEAR) && is_near(shared.r10, 0.01 * shared.r15, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r19, 8.745627862900002e-7, BESIDE) && is_near(shared.r11, 0.01 * shared.r16, BESIDE) && is_near(shared.r10, 0.01 * shared.r15, BESIDE))) {
         return;
     }
     for [c2, s2] in SAMPLES_1 {
@@ -697,6 +702,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -705,6 +713,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1382,8 +1397,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1532,6 +1547,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1559,6 +1575,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -181,6 +181,8 @@ int nao_right_leg_nearest(const nao_right_leg_solution *list, int count, const d
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -785,6 +787,8 @@ typedef struct {
     Solution *out;
     double relative[NAO_RIGHT_LEG_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1295,6 +1299,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1308,11 +1313,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1381,9 +1388,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1513,10 +1526,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r13 = shared->r6 * shared->r6 + shared->r10 * shared->r10;
-    if (!is_near(r13, 1.2e-6)) {
+    if (!is_near(r13, 1.2e-6, NEAR) || (suffice_since(answers, before) && !is_near(r13, 1.2e-6, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1534,12 +1547,13 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYawPitch. */
 INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r6 = p->r13_ * known->s6 - p->r12_ * known->c6;
     const double r8 = p->r32_ * known->c6 - p->r33_ * known->s6 - p->r22_ * known->c6;
     const double r10 = 0.7071067811865475 * (p->r23_ * known->s6 + r8);
     const Shared4 own = { r6, r10 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -1577,11 +1591,11 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: AnklePitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
-    if (!(is_near(r88, 1.0000000000000001e-7 * r91) && is_near(shared->r69, 0.00055566) && is_near(shared->r67, 0.01 * shared->r85))) {
+    if (!(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared->r69, 0.00055566, NEAR) && is_near(shared->r67, 0.01 * shared->r85, NEAR)) || (suffice_since(answers, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared->r69, 0.00055566, BESIDE) && is_near(shared->r67, 0.01 * shared->r85, BESIDE)))) {
         return;
     }
     const double f5 = 1000000.0;
@@ -1601,6 +1615,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnklePitch. */
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = p->r22_ * known->s6, r3 = p->r23_ * known->c6, r4 = p->r32_ * known->s6;
     const double r5 = p->r33_ * known->c6, r10 = p->px * (p->r12_ * known->s6 + p->r13_ * known->c6);
     const double r31 = 0.009300102 * known->c6 + 0.2058 * r10 + 0.2058 * (p->py * (r2 + r3));
@@ -1619,7 +1634,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r85 = fabs(r81 + 3.1572666541);
     const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* Block 3 behind a chart that hardly ever runs. */
@@ -1661,11 +1676,11 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: AnkleRoll. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r26 = shared->r11 * shared->r11 + shared->r18 * shared->r18;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
-    if (!is_near(r26, 1.0000000000000001e-7 * r29)) {
+    if (!is_near(r26, 1.0000000000000001e-7 * r29, NEAR) || (suffice_since(answers, before) && !is_near(r26, 1.0000000000000001e-7 * r29, BESIDE))) {
         return;
     }
     const double f6 = 1000000.0;
@@ -1685,6 +1700,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: AnkleRoll. */
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r9 = p->px * p->r12_ + (0.05 * p->r22_ + 0.085 * p->r32_);
     const double r11 = p->pz * p->r32_ + (p->py * p->r22_ + r9);
     const double r15 = p->px * p->r13_ + (0.05 * p->r23_ + 0.085 * p->r33_);
@@ -1692,7 +1708,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r22 = fabs(r19 + 0.235), r23 = fabs(r19 + 0.75599);
     const Shared2 own = { r11, r18, r22, r23 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -1797,6 +1813,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 6; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -138,6 +138,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -658,6 +660,8 @@ typedef struct {
     Solution *out;
     double relative[PLANAR_4R_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[4][3];
 } Answers;
@@ -1117,6 +1121,7 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         joint_angle(answers, 0, at[0], at[1]),
         joint_angle(answers, 1, at[2], at[3]),
@@ -1124,11 +1129,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 3, at[6], at[7]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1197,9 +1204,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1290,10 +1303,10 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: Shoulder. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r21 = shared->r8 * shared->r8 + shared->r10 * shared->r10;
-    if (!(is_near(r21, 1.1942500000000003e-6) && is_near(shared->r13, 0.01 * shared->r18) && is_near(shared->r11, 0.01 * shared->r17))) {
+    if (!(is_near(r21, 1.1942500000000003e-6, NEAR) && is_near(shared->r13, 0.01 * shared->r18, NEAR) && is_near(shared->r11, 0.01 * shared->r17, NEAR)) || (suffice_since(answers, before) && !(is_near(r21, 1.1942500000000003e-6, BESIDE) && is_near(shared->r13, 0.01 * shared->r18, BESIDE) && is_near(shared->r11, 0.01 * shared->r17, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1311,13 +1324,14 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Shoulder. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r1 = p->px - 0.1 * p->cphi, r4 = p->py - 0.1 * p->sphi, r8 = 0.3 * known->s3;
     const double r10 = 0.3 * known->c3 + 0.35, r11 = known->c1_ * r4 - known->s1_ * r1;
     const double r13 = 0.4 - (known->c1_ * r1 + known->s1_ * r4), r14 = 2.0 * p->magnitude;
     const double r17 = fabs(r14 + 4.4), r18 = fabs(r14 + 4.8);
     const Shared3 own = { r8, r10, r11, r13, r17, r18 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 2 share. */
@@ -1389,6 +1403,7 @@ static int find(const double *target, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 4; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -137,6 +137,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -636,6 +638,8 @@ typedef struct {
     Solution *out;
     double relative[POLAR_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[2][3];
 } Answers;
@@ -1093,17 +1097,20 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         joint_angle(answers, 0, at[0], at[1]),
         joint_angle(answers, 1, at[2], at[3]),
         at[4],
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1172,9 +1179,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1264,11 +1277,11 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Pitch. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r11 = shared->r2 * shared->r2 + shared->r3 * shared->r3;
     const double r14 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
-    if (!is_near(r11, 1.0000000000000001e-7 * r14)) {
+    if (!is_near(r11, 1.0000000000000001e-7 * r14, NEAR) || (suffice_since(answers, before) && !is_near(r11, 1.0000000000000001e-7 * r14, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1286,11 +1299,12 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Pitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = p->py - 0.66, r3 = p->pz * known->s1 - p->px * known->c1;
     const double r7 = fabs(3.0 * p->magnitude + 3.3), r8 = fabs(2.0 * p->magnitude);
     const Shared2 own = { r2, r3, r7, r8 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* Block 2 behind a chart that hardly ever runs. */
@@ -1326,10 +1340,10 @@ static void chart_1_1(const Parameters *p, Answers *answers)
 /* Chart 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Yaw. */
-static void chart_1_2(const Parameters *p, Answers *answers)
+static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
 {
     const double r3 = p->magnitude * p->magnitude;
-    if (!is_near(p->pz * p->pz + p->px * p->px, 1.0000000000000001e-7 * (r3 + r3))) {
+    if (!is_near(p->pz * p->pz + p->px * p->px, 1.0000000000000001e-7 * (r3 + r3), NEAR) || (suffice_since(answers, before) && !is_near(p->pz * p->pz + p->px * p->px, 1.0000000000000001e-7 * (r3 + r3), BESIDE))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1349,8 +1363,9 @@ static void chart_1_2(const Parameters *p, Answers *answers)
 /* Block 1: Yaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
+    const size_t before = answers->candidates;
     chart_1_1(p, answers);
-    chart_1_2(p, answers);
+    chart_1_2(p, before, answers);
 }
 
 static bool all_finite(const double *target)
@@ -1371,6 +1386,7 @@ static int find(const double *target, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 2; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

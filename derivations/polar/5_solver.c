@@ -171,6 +171,8 @@ int polar_nearest(const polar_solution *list, int count, const double *reference
 #define STAGES 4
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -674,6 +676,8 @@ typedef struct {
     Solution *out;
     double relative[POLAR_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[2][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1179,6 +1183,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1189,11 +1194,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         at[4],
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1262,9 +1269,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1354,11 +1367,11 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Pitch. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r11 = shared->r2 * shared->r2 + shared->r3 * shared->r3;
     const double r14 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
-    if (!is_near(r11, 1.0000000000000001e-7 * r14)) {
+    if (!is_near(r11, 1.0000000000000001e-7 * r14, NEAR) || (suffice_since(answers, before) && !is_near(r11, 1.0000000000000001e-7 * r14, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1376,11 +1389,12 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Pitch. */
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = p->py - 0.66, r3 = p->pz * known->s1 - p->px * known->c1;
     const double r7 = fabs(3.0 * p->magnitude + 3.3), r8 = fabs(2.0 * p->magnitude);
     const Shared2 own = { r2, r3, r7, r8 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* Block 2 behind a chart that hardly ever runs. */
@@ -1416,10 +1430,10 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 /* Chart 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Yaw. */
-static void chart_1_2(const Parameters *p, Answers *answers)
+static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
 {
     const double r3 = p->magnitude * p->magnitude;
-    if (!is_near(p->pz * p->pz + p->px * p->px, 1.0000000000000001e-7 * (r3 + r3))) {
+    if (!is_near(p->pz * p->pz + p->px * p->px, 1.0000000000000001e-7 * (r3 + r3), NEAR) || (suffice_since(answers, before) && !is_near(p->pz * p->pz + p->px * p->px, 1.0000000000000001e-7 * (r3 + r3), BESIDE))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1439,8 +1453,9 @@ static void chart_1_2(const Parameters *p, Answers *answers)
 /* Block 1: Yaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
+    const size_t before = answers->candidates;
     chart_1_1(p, answers);
-    chart_1_2(p, answers);
+    chart_1_2(p, before, answers);
 }
 
 static bool all_finite(const double *target)
@@ -1461,6 +1476,7 @@ static int find(const double *target, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 2; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -83,7 +83,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
         return Err(Error::NotFinite);
     }
     let p = &parameters(target);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -122,7 +122,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
         return Err(Error::NotFinite);
     }
     let p = &parameters(target);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -359,6 +359,8 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -405,8 +407,9 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Yaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     chart_1_1(p, answers);
-    chart_1_2(p, answers);
+    chart_1_2(p, before, answers);
 }
 
 /// Chart 1 of block 1: generic.
@@ -435,9 +438,9 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Chart 2 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Yaw.
-fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
+fn chart_1_2(p: &Parameters, before: usize, answers: &mut Answers<'_>) {
     let r3 = p.magnitude * p.magnitude;
-    if !is_near(p.pz * p.pz + p.px * p.px, 1.0000000000000001e-7 * (r3 + r3)) {
+    if !is_near(p.pz * p.pz + p.px * p.px, 1.0000000000000001e-7 * (r3 + r3), NEAR) || (answers.suffice_since(p, before) && !is_near(p.pz * p.pz + p.px * p.px, 1.0000000000000001e-7 * (r3 + r3), BESIDE)) {
         return;
     }
     let f1 = 1000000.0;
@@ -450,13 +453,14 @@ fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
 /// Block 2: Pitch.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r2 = p.py - 0.66;
     let r3 = p.pz * known.s1 - p.px * known.c1;
     let r7 = f64::abs(3.0 * p.magnitude + 3.3);
     let r8 = f64::abs(2.0 * p.magnitude);
     let shared = &Shared2 { r2, r3, r7, r8 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// Block 2 behind a chart that hardly ever runs.
@@ -493,10 +497,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Pitch.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r11 = shared.r2 * shared.r2 + shared.r3 * shared.r3;
     let r14 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
-    if !is_near(r11, 1.0000000000000001e-7 * r14) {
+    if !is_near(r11, 1.0000000000000001e-7 * r14, NEAR) || (answers.suffice_since(p, before) && !is_near(r11, 1.0000000000000001e-7 * r14, BESIDE)) {
         return;
     }
     for [c2, s2] in SAMPLES_1 {
@@ -612,6 +616,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -620,6 +627,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1299,8 +1313,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1449,6 +1463,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1476,6 +1491,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

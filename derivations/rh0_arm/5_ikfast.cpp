@@ -137,6 +137,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -637,6 +639,8 @@ typedef struct {
     Solution *out;
     double relative[RH0_ARM_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[3][3];
 } Answers;
@@ -1095,17 +1099,20 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         joint_angle(answers, 0, at[0], at[1]),
         joint_angle(answers, 1, at[2], at[3]),
         joint_angle(answers, 2, at[4], at[5]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1174,9 +1181,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1228,9 +1241,9 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: Shoulder. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
-    if (!(is_near(shared->r4 * shared->r4, 2.9444000000000003e-7) && is_near(shared->r6, 0.01 * shared->r11) && is_near(shared->r5, 0.01 * shared->r10))) {
+    if (!(is_near(shared->r4 * shared->r4, 2.9444000000000003e-7, NEAR) && is_near(shared->r6, 0.01 * shared->r11, NEAR) && is_near(shared->r5, 0.01 * shared->r10, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r4 * shared->r4, 2.9444000000000003e-7, BESIDE) && is_near(shared->r6, 0.01 * shared->r11, BESIDE) && is_near(shared->r5, 0.01 * shared->r10, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1244,12 +1257,13 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Shoulder. */
 static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r4 = 0.24 * known->c16 + 0.22, r5 = p->px + 0.2;
     const double r6 = known->c14 * (p->py - 0.3) + p->pz * known->s14, r10 = fabs(p->magnitude + 0.2);
     const double r11 = fabs(2.0 * p->magnitude + 0.9);
     const Shared3 own = { r4, r5, r6, r10, r11 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* Block 3 behind a chart that hardly ever runs. */
@@ -1290,10 +1304,10 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: Clavicle. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r10 = p->magnitude * p->magnitude + shared->r4 * shared->r4;
-    if (!(is_near(p->pz * p->pz + shared->r0 * shared->r0, 1.0000000000000001e-7 * r10) && is_near(shared->r2, 0.0024))) {
+    if (!(is_near(p->pz * p->pz + shared->r0 * shared->r0, 1.0000000000000001e-7 * r10, NEAR) && is_near(shared->r2, 0.0024, NEAR)) || (suffice_since(answers, before) && !(is_near(p->pz * p->pz + shared->r0 * shared->r0, 1.0000000000000001e-7 * r10, BESIDE) && is_near(shared->r2, 0.0024, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1311,10 +1325,11 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Clavicle. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r0 = p->py - 0.3, r1 = 0.24 * known->s16, r2 = 0.0 - r1, r4 = fabs(p->magnitude + 0.3);
     const Shared2 own = { r0, r1, r2, r4 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -1367,6 +1382,7 @@ static int find(const double *target, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 3; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

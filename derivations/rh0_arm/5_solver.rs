@@ -83,7 +83,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
         return Err(Error::NotFinite);
     }
     let p = &parameters(target);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -122,7 +122,7 @@ pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Resul
         return Err(Error::NotFinite);
     }
     let p = &parameters(target);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -359,6 +359,8 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -429,13 +431,14 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: Clavicle.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r0 = p.py - 0.3;
     let r1 = 0.24 * known.s16;
     let r2 = 0.0 - r1;
     let r4 = f64::abs(p.magnitude + 0.3);
     let shared = &Shared2 { r0, r1, r2, r4 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 2 share.
@@ -466,9 +469,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: Clavicle.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r10 = p.magnitude * p.magnitude + shared.r4 * shared.r4;
-    if !(is_near(p.pz * p.pz + shared.r0 * shared.r0, 1.0000000000000001e-7 * r10) && is_near(shared.r2, 0.0024)) {
+    if !(is_near(p.pz * p.pz + shared.r0 * shared.r0, 1.0000000000000001e-7 * r10, NEAR) && is_near(shared.r2, 0.0024, NEAR)) || (answers.suffice_since(p, before) && !(is_near(p.pz * p.pz + shared.r0 * shared.r0, 1.0000000000000001e-7 * r10, BESIDE) && is_near(shared.r2, 0.0024, BESIDE))) {
         return;
     }
     for [c14, s14] in SAMPLES_1 {
@@ -480,6 +483,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: Shoulder.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r4 = 0.24 * known.c16 + 0.22;
     let r5 = p.px + 0.2;
     let r6 = known.c14 * (p.py - 0.3) + p.pz * known.s14;
@@ -487,7 +491,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r11 = f64::abs(2.0 * p.magnitude + 0.9);
     let shared = &Shared3 { r4, r5, r6, r10, r11 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /// Block 3 behind a chart that hardly ever runs.
@@ -519,8 +523,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    if !(is_near(shared.r4 * shared.r4, 2.9444000000000003e-7) && is_near(shared.r6, 0.01 * shared.r11) && is_near(shared.r5, 0.01 * shared.r10)) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+    if !(is_near(shared.r4 * shared.r4, 2.9444000000000003e-7, NEAR) && is_near(shared.r6, 0.01 * shared.r11, NEAR) && is_near(shared.r5, 0.01 * shared.r10, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r4 * shared.r4, 2.9444000000000003e-7, BESIDE) && is_near(shared.r6, 0.01 * shared.r11, BESIDE) && is_near(shared.r5, 0.01 * shared.r10, BESIDE))) {
         return;
     }
     for [c15, s15] in SAMPLES_1 {
@@ -619,6 +623,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -627,6 +634,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1303,8 +1317,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1453,6 +1467,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1480,6 +1495,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -181,6 +181,8 @@ int rh0_left_leg_nearest(const rh0_left_leg_solution *list, int count, const dou
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -745,6 +747,8 @@ typedef struct {
     Solution *out;
     double relative[RH0_LEFT_LEG_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1255,6 +1259,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1268,11 +1273,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1341,9 +1348,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1481,10 +1494,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HipPitch. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
-    if (!is_near(r17, 2e-5)) {
+    if (!is_near(r17, 2e-5, NEAR) || (suffice_since(answers, before) && !is_near(r17, 2e-5, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1502,12 +1515,13 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipPitch. */
 INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = p->r22_ * known->c12 - p->r12_ * known->s12, r7 = known->c11 * r2 + p->r32_ * known->s11;
     const double r9 = p->r32_ * known->c11 - known->s11 * r2, r13 = known->s10 * r7 - known->c10 * r9;
     const double r14 = known->c10 * r7 + known->s10 * r9;
     const Shared4 own = { r13, r14 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -1544,10 +1558,10 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: AnklePitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r26 = shared->r11 * shared->r11 + shared->r13 * shared->r13;
-    if (!(is_near(r26, 1.96e-7) && is_near(shared->r18, 0.01 * shared->r23) && is_near(shared->r17, 0.01 * shared->r22))) {
+    if (!(is_near(r26, 1.96e-7, NEAR) && is_near(shared->r18, 0.01 * shared->r23, NEAR) && is_near(shared->r17, 0.01 * shared->r22, NEAR)) || (suffice_since(answers, before) && !(is_near(r26, 1.96e-7, BESIDE) && is_near(shared->r18, 0.01 * shared->r23, BESIDE) && is_near(shared->r17, 0.01 * shared->r22, BESIDE)))) {
         return;
     }
     const double f11 = 1000000.0;
@@ -1567,6 +1581,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: AnklePitch. */
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r4 = p->px + 0.112 * p->r11_ - 0.0265 * p->r12_ - 0.112;
     const double r9 = known->c12 * (p->py + 0.112 * p->r21_ - 0.0265 * p->r22_), r11 = 0.28 * known->s10;
     const double r13 = 0.28 * (known->c10 + 1.0), r17 = p->pz + 0.112 * p->r31_ - 0.0265 * p->r32_;
@@ -1574,7 +1589,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r23 = fabs(2.0 * p->magnitude + 2.629);
     const Shared3 own = { r11, r13, r17, r18, r22, r23 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 2 share. */
@@ -1651,11 +1666,11 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 /* Chart 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: AnkleRoll. */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r15 = shared->r4 * shared->r4 + shared->r8 * shared->r8;
     const double r18 = shared->r11 * shared->r11 + shared->r12 * shared->r12;
-    if (!is_near(r15, 1.0000000000000001e-7 * r18)) {
+    if (!is_near(r15, 1.0000000000000001e-7 * r18, NEAR) || (suffice_since(answers, before) && !is_near(r15, 1.0000000000000001e-7 * r18, BESIDE))) {
         return;
     }
     const double f12 = 1000000.0;
@@ -1675,12 +1690,13 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: AnkleRoll. */
 static void block_1(const Parameters *p, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r4 = 0.112 - (p->px + 0.112 * p->r11_ - 0.0265 * p->r12_);
     const double r8 = 0.0265 * p->r22_ - (p->py + 0.112 * p->r21_), r11 = fabs(p->magnitude + 1.3705);
     const double r12 = fabs(p->magnitude + 1.2585);
     const Shared1 own = { r4, r8, r11, r12 }, *const shared = &own;
     chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
+    chart_1_2(p, shared, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -1750,6 +1766,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 6; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -84,7 +84,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -120,7 +120,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -378,6 +378,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -473,13 +475,14 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: AnkleRoll.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r4 = 0.112 - (p.px + 0.112 * p.r11_ - 0.0265 * p.r12_);
     let r8 = 0.0265 * p.r22_ - (p.py + 0.112 * p.r21_);
     let r11 = f64::abs(p.magnitude + 1.3705);
     let r12 = f64::abs(p.magnitude + 1.2585);
     let shared = &Shared1 { r4, r8, r11, r12 };
     chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
+    chart_1_2(p, shared, before, answers);
 }
 
 /// What the charts of block 1 share.
@@ -510,10 +513,10 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 2 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: AnkleRoll.
-fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r15 = shared.r4 * shared.r4 + shared.r8 * shared.r8;
     let r18 = shared.r11 * shared.r11 + shared.r12 * shared.r12;
-    if !is_near(r15, 1.0000000000000001e-7 * r18) {
+    if !is_near(r15, 1.0000000000000001e-7 * r18, NEAR) || (answers.suffice_since(p, before) && !is_near(r15, 1.0000000000000001e-7 * r18, BESIDE)) {
         return;
     }
     let f12 = 1000000.0;
@@ -562,6 +565,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: AnklePitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r4 = p.px + 0.112 * p.r11_ - 0.0265 * p.r12_ - 0.112;
     let r9 = known.c12 * (p.py + 0.112 * p.r21_ - 0.0265 * p.r22_);
     let r11 = 0.28 * known.s10;
@@ -572,7 +576,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r23 = f64::abs(2.0 * p.magnitude + 2.629);
     let shared = &Shared3 { r11, r13, r17, r18, r22, r23 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 3 share.
@@ -599,9 +603,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: AnklePitch.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r26 = shared.r11 * shared.r11 + shared.r13 * shared.r13;
-    if !(is_near(r26, 1.96e-7) && is_near(shared.r18, 0.01 * shared.r23) && is_near(shared.r17, 0.01 * shared.r22)) {
+    if !(is_near(r26, 1.96e-7, NEAR) && is_near(shared.r18, 0.01 * shared.r23, NEAR) && is_near(shared.r17, 0.01 * shared.r22, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r26, 1.96e-7, BESIDE) && is_near(shared.r18, 0.01 * shared.r23, BESIDE) && is_near(shared.r17, 0.01 * shared.r22, BESIDE))) {
         return;
     }
     let f11 = 1000000.0;
@@ -614,6 +618,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: HipPitch.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r2 = p.r22_ * known.c12 - p.r12_ * known.s12;
     let r7 = known.c11 * r2 + p.r32_ * known.s11;
     let r9 = p.r32_ * known.c11 - known.s11 * r2;
@@ -621,7 +626,7 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r14 = known.c10 * r7 + known.s10 * r9;
     let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// Block 4 behind a chart that hardly ever runs.
@@ -657,9 +662,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipPitch.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
-    if !is_near(r17, 2e-5) {
+    if !is_near(r17, 2e-5, NEAR) || (answers.suffice_since(p, before) && !is_near(r17, 2e-5, BESIDE)) {
         return;
     }
     for [c9, s9] in SAMPLES_1 {
@@ -958,6 +963,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -966,6 +974,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1645,8 +1660,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1795,6 +1810,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1822,6 +1838,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

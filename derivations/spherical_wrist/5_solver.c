@@ -181,6 +181,8 @@ int spherical_wrist_nearest(const spherical_wrist_solution *list, int count, con
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -1248,6 +1250,8 @@ typedef struct {
     Solution *out;
     double relative[SPHERICAL_WRIST_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1758,6 +1762,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1771,11 +1776,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1844,9 +1851,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -2066,10 +2079,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Wrist1. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r109 = shared->r105 * shared->r105 + shared->r106 * shared->r106;
-    if (!is_near(r109, 0.004445198652036134)) {
+    if (!is_near(r109, 0.004445198652036134, NEAR) || (suffice_since(answers, before) && !is_near(r109, 0.004445198652036134, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 16; i0++) {
@@ -2087,6 +2100,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: Wrist1. */
 INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r2 = 0.6666666666666666 * p->r12_ - 0.3333333333333333 * p->r11_;
     const double r4 = r2 + 0.6666666666666666 * p->r13_;
     const double r7 = 0.6666666666666666 * p->r22_ - 0.3333333333333333 * p->r21_;
@@ -2117,7 +2131,7 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r105 = 0.3333333333333333 * (r81 - r87) - r100, r106 = 0.6666666666666666 * r101 - r104;
     const Shared4 own = { r105, r106 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* Block 4 behind a chart that hardly ever runs. */
@@ -2154,10 +2168,10 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: Axis2. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r57 = shared->r19 * shared->r19 + shared->r23 * shared->r23;
-    if (!(is_near(r57, 3.099959740283113e-5) && is_near(shared->r48, 0.01 * shared->r54) && is_near(shared->r32, 0.01 * shared->r53))) {
+    if (!(is_near(r57, 3.099959740283113e-5, NEAR) && is_near(shared->r48, 0.01 * shared->r54, NEAR) && is_near(shared->r32, 0.01 * shared->r53, NEAR)) || (suffice_since(answers, before) && !(is_near(r57, 3.099959740283113e-5, BESIDE) && is_near(shared->r48, 0.01 * shared->r54, BESIDE) && is_near(shared->r32, 0.01 * shared->r53, BESIDE)))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -2177,6 +2191,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 /* Block 3: Axis2. */
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r5 = p->px - 0.12 * p->r11_ - 0.03 * p->r12_ - 0.15 * p->r13_;
     const double r12 = p->py - 0.12 * p->r21_ - 0.03 * p->r22_ - 0.15 * p->r23_, r14 = known->c1 * r12;
     const double r15 = known->s1 * r5, r18 = 0.16224489795918368 * known->c3 - 0.5214285714285715 * known->s3;
@@ -2192,7 +2207,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r53 = fabs(5.0 * p->magnitude + 26.730498866213154), r54 = fabs(r52);
     const Shared3 own = { r19, r23, r32, r48, r53, r54 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /* Block 3 behind a chart that hardly ever runs. */
@@ -2230,11 +2245,11 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 2: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: Axis1. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r72 = shared->r41 * shared->r41 + shared->r44 * shared->r44;
     const double r75 = shared->r66 * shared->r66 + shared->r67 * shared->r67;
-    if (!(is_near(r72, 1.0000000000000001e-7 * r75) && is_near(shared->r52, 0.01 * shared->r69) && is_near(shared->r51, 0.01 * shared->r68))) {
+    if (!(is_near(r72, 1.0000000000000001e-7 * r75, NEAR) && is_near(shared->r52, 0.01 * shared->r69, NEAR) && is_near(shared->r51, 0.01 * shared->r68, NEAR)) || (suffice_since(answers, before) && !(is_near(r72, 1.0000000000000001e-7 * r75, BESIDE) && is_near(shared->r52, 0.01 * shared->r69, BESIDE) && is_near(shared->r51, 0.01 * shared->r68, BESIDE)))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -2254,6 +2269,7 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Axis1. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r5 = p->px - 0.12 * p->r11_ - 0.03 * p->r12_ - 0.15 * p->r13_;
     const double r11 = p->py - 0.12 * p->r21_ - 0.03 * p->r22_ - 0.15 * p->r23_;
     const double r17 = p->pz - 0.12 * p->r31_ - 0.03 * p->r32_ - 0.15 * p->r33_;
@@ -2271,7 +2287,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r69 = fabs(r62 + 2.0 * p->magnitude + 72.77766666666668);
     const Shared2 own = { r41, r44, r50, r51, r52, r66, r67, r68, r69 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* Block 2 behind a chart that hardly ever runs. */
@@ -2517,9 +2533,9 @@ static double claim_1_5(const Shared1 *shared)
 /* Chart 6 of block 1: A = B = C = D = E = 0.
  * It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
  * Free: Axis3. */
-static void chart_1_6(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_6(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
-    if (!(is_near(-0.21819403952057012, 0.0021819403952057013) && is_near(-0.6526507473737795, 0.006526507473737795) && is_near(shared->r37, 0.01 * shared->r78) && is_near(shared->r41, 0.01 * shared->r79) && is_near(shared->r49, 0.01 * shared->r80))) {
+    if (!(is_near(-0.21819403952057012, 0.0021819403952057013, NEAR) && is_near(-0.6526507473737795, 0.006526507473737795, NEAR) && is_near(shared->r37, 0.01 * shared->r78, NEAR) && is_near(shared->r41, 0.01 * shared->r79, NEAR) && is_near(shared->r49, 0.01 * shared->r80, NEAR)) || (suffice_since(answers, before) && !(is_near(-0.21819403952057012, 0.0021819403952057013, BESIDE) && is_near(-0.6526507473737795, 0.006526507473737795, BESIDE) && is_near(shared->r37, 0.01 * shared->r78, BESIDE) && is_near(shared->r41, 0.01 * shared->r79, BESIDE) && is_near(shared->r49, 0.01 * shared->r80, BESIDE)))) {
         return;
     }
     const double f3 = 1000000.0;
@@ -2539,6 +2555,7 @@ static void chart_1_6(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: Axis3. */
 static void block_1(const Parameters *p, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r5 = p->px - 0.12 * p->r11_ - 0.03 * p->r12_ - 0.15 * p->r13_;
     const double r12 = p->py - 0.12 * p->r21_ - 0.03 * p->r22_ - 0.15 * p->r23_;
     const double r19 = p->pz - 0.12 * p->r31_ - 0.03 * p->r32_ - 0.15 * p->r33_, r24 = 0.5922902494331066 - r19;
@@ -2577,7 +2594,7 @@ static void block_1(const Parameters *p, Answers *answers)
     default:
         break;
     }
-    chart_1_6(p, shared, answers);
+    chart_1_6(p, shared, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -2647,6 +2664,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 6; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

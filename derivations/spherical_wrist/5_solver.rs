@@ -84,7 +84,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -120,7 +120,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -378,6 +378,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -475,6 +477,7 @@ const SAMPLES_1: [[f64; 2]; 16] = [
 
 /// Block 1: Axis3.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
     let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
     let r19 = p.pz - 0.12 * p.r31_ - 0.03 * p.r32_ - 0.15 * p.r33_;
@@ -508,7 +511,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
         4 => chart_1_5(p, shared, answers),
         _ => {}
     }
-    chart_1_6(p, shared, answers);
+    chart_1_6(p, shared, before, answers);
 }
 
 /// What the charts of block 1 share.
@@ -737,8 +740,8 @@ fn claim_1_5(shared: &Shared1) -> f64 {
 /// Chart 6 of block 1: A = B = C = D = E = 0.
 /// It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
 /// Free: Axis3.
-fn chart_1_6(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    if !(is_near(-0.21819403952057012, 0.0021819403952057013) && is_near(-0.6526507473737795, 0.006526507473737795) && is_near(shared.r37, 0.01 * shared.r78) && is_near(shared.r41, 0.01 * shared.r79) && is_near(shared.r49, 0.01 * shared.r80)) {
+fn chart_1_6(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
+    if !(is_near(-0.21819403952057012, 0.0021819403952057013, NEAR) && is_near(-0.6526507473737795, 0.006526507473737795, NEAR) && is_near(shared.r37, 0.01 * shared.r78, NEAR) && is_near(shared.r41, 0.01 * shared.r79, NEAR) && is_near(shared.r49, 0.01 * shared.r80, NEAR)) || (answers.suffice_since(p, before) && !(is_near(-0.21819403952057012, 0.0021819403952057013, BESIDE) && is_near(-0.6526507473737795, 0.006526507473737795, BESIDE) && is_near(shared.r37, 0.01 * shared.r78, BESIDE) && is_near(shared.r41, 0.01 * shared.r79, BESIDE) && is_near(shared.r49, 0.01 * shared.r80, BESIDE))) {
         return;
     }
     let f3 = 1000000.0;
@@ -750,6 +753,7 @@ fn chart_1_6(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// Block 2: Axis1.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
     let r11 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
     let r17 = p.pz - 0.12 * p.r31_ - 0.03 * p.r32_ - 0.15 * p.r33_;
@@ -771,7 +775,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r69 = f64::abs(r62 + 2.0 * p.magnitude + 72.77766666666668);
     let shared = &Shared2 { r41, r44, r50, r51, r52, r66, r67, r68, r69 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// Block 2 behind a chart that hardly ever runs.
@@ -806,10 +810,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Axis1.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r72 = shared.r41 * shared.r41 + shared.r44 * shared.r44;
     let r75 = shared.r66 * shared.r66 + shared.r67 * shared.r67;
-    if !(is_near(r72, 1.0000000000000001e-7 * r75) && is_near(shared.r52, 0.01 * shared.r69) && is_near(shared.r51, 0.01 * shared.r68)) {
+    if !(is_near(r72, 1.0000000000000001e-7 * r75, NEAR) && is_near(shared.r52, 0.01 * shared.r69, NEAR) && is_near(shared.r51, 0.01 * shared.r68, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r72, 1.0000000000000001e-7 * r75, BESIDE) && is_near(shared.r52, 0.01 * shared.r69, BESIDE) && is_near(shared.r51, 0.01 * shared.r68, BESIDE))) {
         return;
     }
     let f1 = 1000000.0;
@@ -822,6 +826,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: Axis2.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
     let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
     let r14 = known.c1 * r12;
@@ -841,7 +846,7 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r54 = f64::abs(r52);
     let shared = &Shared3 { r19, r23, r32, r48, r53, r54 };
     chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, answers);
+    chart_3_2(p, known, shared, before, answers);
 }
 
 /// Block 3 behind a chart that hardly ever runs.
@@ -875,9 +880,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Axis2.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r57 = shared.r19 * shared.r19 + shared.r23 * shared.r23;
-    if !(is_near(r57, 3.099959740283113e-5) && is_near(shared.r48, 0.01 * shared.r54) && is_near(shared.r32, 0.01 * shared.r53)) {
+    if !(is_near(r57, 3.099959740283113e-5, NEAR) && is_near(shared.r48, 0.01 * shared.r54, NEAR) && is_near(shared.r32, 0.01 * shared.r53, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r57, 3.099959740283113e-5, BESIDE) && is_near(shared.r48, 0.01 * shared.r54, BESIDE) && is_near(shared.r32, 0.01 * shared.r53, BESIDE))) {
         return;
     }
     let f2 = 1000000.0;
@@ -890,6 +895,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: Wrist1.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r2 = 0.6666666666666666 * p.r12_ - 0.3333333333333333 * p.r11_;
     let r4 = r2 + 0.6666666666666666 * p.r13_;
     let r7 = 0.6666666666666666 * p.r22_ - 0.3333333333333333 * p.r21_;
@@ -931,7 +937,7 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r106 = 0.6666666666666666 * r101 - r104;
     let shared = &Shared4 { r105, r106 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// Block 4 behind a chart that hardly ever runs.
@@ -968,9 +974,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Wrist1.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r109 = shared.r105 * shared.r105 + shared.r106 * shared.r106;
-    if !is_near(r109, 0.004445198652036134) {
+    if !is_near(r109, 0.004445198652036134, NEAR) || (answers.suffice_since(p, before) && !is_near(r109, 0.004445198652036134, BESIDE)) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -1555,6 +1561,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -1563,6 +1572,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -2242,8 +2258,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -2712,6 +2728,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -2739,6 +2756,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

@@ -181,6 +181,8 @@ int stanford_nearest(const stanford_solution *list, int count, const double *ref
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -730,6 +732,8 @@ typedef struct {
     Solution *out;
     double relative[STANFORD_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[5][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1241,6 +1245,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1254,11 +1259,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 4, at[9], at[10]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1327,9 +1334,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1463,10 +1476,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: WristYaw. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r11 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
-    if (!is_near(r11, 6.100000000000001e-6)) {
+    if (!is_near(r11, 6.100000000000001e-6, NEAR) || (suffice_since(answers, before) && !is_near(r11, 6.100000000000001e-6, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1484,11 +1497,12 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: WristYaw. */
 INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r5 = known->c2 * (p->r33_ * known->c1 + p->r13_ * known->s1);
     const double r7 = p->r33_ * known->s1 - p->r13_ * known->c1, r8 = r5 - p->r23_ * known->s2;
     const Shared4 own = { r7, r8 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 3 share. */
@@ -1553,11 +1567,11 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: ShoulderPitch. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r18 = shared->r6 * shared->r6 + shared->r9 * shared->r9;
     const double r21 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
-    if (!is_near(r18, 1.0000000000000001e-7 * r21)) {
+    if (!is_near(r18, 1.0000000000000001e-7 * r21, NEAR) || (suffice_since(answers, before) && !is_near(r18, 1.0000000000000001e-7 * r21, BESIDE))) {
         return;
     }
     const double f2 = 1000000.0;
@@ -1577,12 +1591,13 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: ShoulderPitch. */
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r6 = known->c1 * (p->pz - 0.2 * p->r33_) + known->s1 * (p->px - 0.2 * p->r13_);
     const double r9 = 0.66 - (p->py - 0.2 * p->r23_), r14 = fabs(2.0 * p->magnitude + 3.84);
     const double r15 = fabs(3.0 * p->magnitude + 9.06);
     const Shared2 own = { r6, r9, r14, r15 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* Block 2 behind a chart that hardly ever runs. */
@@ -1624,10 +1639,10 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 /* Chart 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: ShoulderYaw. */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r1 * shared->r1 + shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
-    if (!is_near(r8, 1.0000000000000001e-7 * (r9 + r9))) {
+    if (!is_near(r8, 1.0000000000000001e-7 * (r9 + r9), NEAR) || (suffice_since(answers, before) && !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), BESIDE))) {
         return;
     }
     const double f1 = 1000000.0;
@@ -1647,10 +1662,11 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
 /* Block 1: ShoulderYaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r1 = 0.2 * p->r13_ - p->px, r3 = p->pz - 0.2 * p->r33_, r5 = fabs(p->magnitude + 1.92);
     const Shared1 own = { r1, r3, r5 }, *const shared = &own;
     chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
+    chart_1_2(p, shared, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -1720,6 +1736,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 5; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -84,7 +84,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -120,7 +120,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -378,6 +378,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -473,12 +475,13 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: ShoulderYaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r1 = 0.2 * p.r13_ - p.px;
     let r3 = p.pz - 0.2 * p.r33_;
     let r5 = f64::abs(p.magnitude + 1.92);
     let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, answers);
+    chart_1_2(p, shared, before, answers);
 }
 
 /// What the charts of block 1 share.
@@ -510,10 +513,10 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 2 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderYaw.
-fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
     let r9 = shared.r5 * shared.r5;
-    if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9)) {
+    if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), NEAR) || (answers.suffice_since(p, before) && !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), BESIDE)) {
         return;
     }
     let f1 = 1000000.0;
@@ -526,13 +529,14 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: ShoulderPitch.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r6 = known.c1 * (p.pz - 0.2 * p.r33_) + known.s1 * (p.px - 0.2 * p.r13_);
     let r9 = 0.66 - (p.py - 0.2 * p.r23_);
     let r14 = f64::abs(2.0 * p.magnitude + 3.84);
     let r15 = f64::abs(3.0 * p.magnitude + 9.06);
     let shared = &Shared2 { r6, r9, r14, r15 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// Block 2 behind a chart that hardly ever runs.
@@ -570,10 +574,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderPitch.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r18 = shared.r6 * shared.r6 + shared.r9 * shared.r9;
     let r21 = shared.r14 * shared.r14 + shared.r15 * shared.r15;
-    if !is_near(r18, 1.0000000000000001e-7 * r21) {
+    if !is_near(r18, 1.0000000000000001e-7 * r21, NEAR) || (answers.suffice_since(p, before) && !is_near(r18, 1.0000000000000001e-7 * r21, BESIDE)) {
         return;
     }
     let f2 = 1000000.0;
@@ -614,12 +618,13 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: WristYaw.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r5 = known.c2 * (p.r33_ * known.c1 + p.r13_ * known.s1);
     let r7 = p.r33_ * known.s1 - p.r13_ * known.c1;
     let r8 = r5 - p.r23_ * known.s2;
     let shared = &Shared4 { r7, r8 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 4 share.
@@ -648,9 +653,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: WristYaw.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r11 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
-    if !is_near(r11, 6.100000000000001e-6) {
+    if !is_near(r11, 6.100000000000001e-6, NEAR) || (answers.suffice_since(p, before) && !is_near(r11, 6.100000000000001e-6, BESIDE)) {
         return;
     }
     for [c4, s4] in SAMPLES_1 {
@@ -886,6 +891,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -894,6 +902,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1576,8 +1591,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1726,6 +1741,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1753,6 +1769,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

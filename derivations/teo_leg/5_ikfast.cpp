@@ -142,6 +142,8 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -702,6 +704,8 @@ typedef struct {
     Solution *out;
     double relative[TEO_LEG_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
 } Answers;
@@ -1163,6 +1167,7 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         joint_angle(answers, 0, at[0], at[1]),
         joint_angle(answers, 1, at[2], at[3]),
@@ -1172,11 +1177,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1245,9 +1252,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1384,10 +1397,10 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HipYaw. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5;
-    if (!is_near(r8, 8.000000000000001e-7)) {
+    if (!is_near(r8, 8.000000000000001e-7, NEAR) || (suffice_since(answers, before) && !is_near(r8, 8.000000000000001e-7, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1405,10 +1418,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYaw. */
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r4 = p->r13_ * known->s6 - p->r12_ * known->c6, r5 = p->r23_ * known->s6 - p->r22_ * known->c6;
     const Shared4 own = { r4, r5 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 3 share. */
@@ -1487,10 +1501,10 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: AnklePitch. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r17 = shared->r3 * shared->r3 + shared->r5 * shared->r5;
-    if (!(is_near(r17, 3.01316e-7) && is_near(shared->r11, 0.01 * shared->r14))) {
+    if (!(is_near(r17, 3.01316e-7, NEAR) && is_near(shared->r11, 0.01 * shared->r14, NEAR)) || (suffice_since(answers, before) && !(is_near(r17, 3.01316e-7, BESIDE) && is_near(shared->r11, 0.01 * shared->r14, BESIDE)))) {
         return;
     }
     const double f5 = 1000000.0;
@@ -1510,12 +1524,13 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: AnklePitch. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r3 = 0.33 * known->s4, r5 = 0.33 * known->c4 + 0.3;
     const double r9 = 0.146 * p->r21_ - 0.092 * p->r31_ - p->px * p->r11_;
     const double r11 = p->pz * p->r31_ - (r9 - p->py * p->r21_), r14 = fabs(3.0 * p->magnitude + 0.238);
     const Shared2 own = { r3, r5, r11, r14 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -1619,6 +1634,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 6; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -181,6 +181,8 @@ int teo_leg_nearest(const teo_leg_solution *list, int count, const double *refer
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -745,6 +747,8 @@ typedef struct {
     Solution *out;
     double relative[TEO_LEG_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1255,6 +1259,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1268,11 +1273,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1341,9 +1348,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1480,10 +1493,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HipYaw. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5;
-    if (!is_near(r8, 8.000000000000001e-7)) {
+    if (!is_near(r8, 8.000000000000001e-7, NEAR) || (suffice_since(answers, before) && !is_near(r8, 8.000000000000001e-7, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1501,10 +1514,11 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 /* Block 4: HipYaw. */
 INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r4 = p->r13_ * known->s6 - p->r12_ * known->c6, r5 = p->r23_ * known->s6 - p->r22_ * known->c6;
     const Shared4 own = { r4, r5 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 3 share. */
@@ -1583,10 +1597,10 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: AnklePitch. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r17 = shared->r3 * shared->r3 + shared->r5 * shared->r5;
-    if (!(is_near(r17, 3.01316e-7) && is_near(shared->r11, 0.01 * shared->r14))) {
+    if (!(is_near(r17, 3.01316e-7, NEAR) && is_near(shared->r11, 0.01 * shared->r14, NEAR)) || (suffice_since(answers, before) && !(is_near(r17, 3.01316e-7, BESIDE) && is_near(shared->r11, 0.01 * shared->r14, BESIDE)))) {
         return;
     }
     const double f5 = 1000000.0;
@@ -1606,12 +1620,13 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: AnklePitch. */
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r3 = 0.33 * known->s4, r5 = 0.33 * known->c4 + 0.3;
     const double r9 = 0.146 * p->r21_ - 0.092 * p->r31_ - p->px * p->r11_;
     const double r11 = p->pz * p->r31_ - (r9 - p->py * p->r21_), r14 = fabs(3.0 * p->magnitude + 0.238);
     const Shared2 own = { r3, r5, r11, r14 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -1715,6 +1730,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 6; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -84,7 +84,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -120,7 +120,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -378,6 +378,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -501,6 +503,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: AnklePitch.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r3 = 0.33 * known.s4;
     let r5 = 0.33 * known.c4 + 0.3;
     let r9 = 0.146 * p.r21_ - 0.092 * p.r31_ - p.px * p.r11_;
@@ -508,7 +511,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r14 = f64::abs(3.0 * p.magnitude + 0.238);
     let shared = &Shared2 { r3, r5, r11, r14 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 2 share.
@@ -540,9 +543,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: AnklePitch.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r17 = shared.r3 * shared.r3 + shared.r5 * shared.r5;
-    if !(is_near(r17, 3.01316e-7) && is_near(shared.r11, 0.01 * shared.r14)) {
+    if !(is_near(r17, 3.01316e-7, NEAR) && is_near(shared.r11, 0.01 * shared.r14, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r17, 3.01316e-7, BESIDE) && is_near(shared.r11, 0.01 * shared.r14, BESIDE))) {
         return;
     }
     let f5 = 1000000.0;
@@ -599,11 +602,12 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: HipYaw.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r4 = p.r13_ * known.s6 - p.r12_ * known.c6;
     let r5 = p.r23_ * known.s6 - p.r22_ * known.c6;
     let shared = &Shared4 { r4, r5 };
     chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, answers);
+    chart_4_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 4 share.
@@ -632,9 +636,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipYaw.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5;
-    if !is_near(r8, 8.000000000000001e-7) {
+    if !is_near(r8, 8.000000000000001e-7, NEAR) || (answers.suffice_since(p, before) && !is_near(r8, 8.000000000000001e-7, BESIDE)) {
         return;
     }
     for [c1, s1] in SAMPLES_1 {
@@ -939,6 +943,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -947,6 +954,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1626,8 +1640,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1776,6 +1790,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1803,6 +1818,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

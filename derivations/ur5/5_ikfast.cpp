@@ -142,6 +142,8 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
+/* The same where all candidates found before hold as they were found. */
+static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
 static const double PI = 3.141592653589793;
@@ -703,6 +705,8 @@ typedef struct {
     Solution *out;
     double relative[UR5_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
 } Answers;
@@ -1164,6 +1168,7 @@ static double joint_angle(Answers *answers, size_t i, double cosine, double sine
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     const double q[JOINTS] = {
         joint_angle(answers, 0, at[0], at[1]),
         joint_angle(answers, 1, at[2], at[3]),
@@ -1173,11 +1178,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1246,9 +1253,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1340,10 +1353,10 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 /* Chart 2 of block 5: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: ShoulderLift. */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
 {
     const double r39 = shared->r20 * shared->r20 + shared->r22 * shared->r22;
-    if (!(is_near(r39, 5.96255768362e-7) && is_near(shared->r31, 0.01 * shared->r36) && is_near(shared->r29, 0.01 * shared->r35))) {
+    if (!(is_near(r39, 5.96255768362e-7, NEAR) && is_near(shared->r31, 0.01 * shared->r36, NEAR) && is_near(shared->r29, 0.01 * shared->r35, NEAR)) || (suffice_since(answers, before) && !(is_near(r39, 5.96255768362e-7, BESIDE) && is_near(shared->r31, 0.01 * shared->r36, BESIDE) && is_near(shared->r29, 0.01 * shared->r35, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1361,6 +1374,7 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: ShoulderLift. */
 static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r9 = p->px + 0.09465 * (p->r11_ * known->s6) + 0.09465 * (p->r12_ * known->c6);
     const double r16 = p->py + 0.09465 * (p->r21_ * known->s6) + 0.09465 * (p->r22_ * known->c6);
     const double r20 = 0.39225 * known->s3, r22 = 0.39225 * known->c3 + 0.425;
@@ -1371,7 +1385,7 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r36 = fabs(2.0 * p->magnitude + 12.118564);
     const Shared5 own = { r20, r22, r29, r30, r31, r35, r36 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
+    chart_5_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 4 share. */
@@ -1475,10 +1489,10 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Wrist3. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5;
-    if (!is_near(r8, 8.000000000000001e-7)) {
+    if (!is_near(r8, 8.000000000000001e-7, NEAR) || (suffice_since(answers, before) && !is_near(r8, 8.000000000000001e-7, BESIDE))) {
         return;
     }
     const double f6 = 1000000.0;
@@ -1498,10 +1512,11 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Wrist3. */
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r4 = p->r12_ * known->s1 - p->r22_ * known->c1, r5 = p->r11_ * known->s1 - p->r21_ * known->c1;
     const Shared2 own = { r4, r5 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -1609,6 +1624,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 6; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

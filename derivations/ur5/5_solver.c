@@ -181,6 +181,8 @@ int ur5_nearest(const ur5_solution *list, int count, const double *reference, co
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -746,6 +748,8 @@ typedef struct {
     Solution *out;
     double relative[UR5_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1256,6 +1260,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1269,11 +1274,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1342,9 +1349,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1436,10 +1449,10 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 5: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: ShoulderLift. */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
 {
     const double r39 = shared->r20 * shared->r20 + shared->r22 * shared->r22;
-    if (!(is_near(r39, 5.96255768362e-7) && is_near(shared->r31, 0.01 * shared->r36) && is_near(shared->r29, 0.01 * shared->r35))) {
+    if (!(is_near(r39, 5.96255768362e-7, NEAR) && is_near(shared->r31, 0.01 * shared->r36, NEAR) && is_near(shared->r29, 0.01 * shared->r35, NEAR)) || (suffice_since(answers, before) && !(is_near(r39, 5.96255768362e-7, BESIDE) && is_near(shared->r31, 0.01 * shared->r36, BESIDE) && is_near(shared->r29, 0.01 * shared->r35, BESIDE)))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1457,6 +1470,7 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
 /* Block 5: ShoulderLift. */
 INLINE static void block_5(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r9 = p->px + 0.09465 * (p->r11_ * known->s6) + 0.09465 * (p->r12_ * known->c6);
     const double r16 = p->py + 0.09465 * (p->r21_ * known->s6) + 0.09465 * (p->r22_ * known->c6);
     const double r20 = 0.39225 * known->s3, r22 = 0.39225 * known->c3 + 0.425;
@@ -1467,7 +1481,7 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r36 = fabs(2.0 * p->magnitude + 12.118564);
     const Shared5 own = { r20, r22, r29, r30, r31, r35, r36 }, *const shared = &own;
     chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
+    chart_5_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 4 share. */
@@ -1571,10 +1585,10 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 /* Chart 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Wrist3. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5;
-    if (!is_near(r8, 8.000000000000001e-7)) {
+    if (!is_near(r8, 8.000000000000001e-7, NEAR) || (suffice_since(answers, before) && !is_near(r8, 8.000000000000001e-7, BESIDE))) {
         return;
     }
     const double f6 = 1000000.0;
@@ -1594,10 +1608,11 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 /* Block 2: Wrist3. */
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
+    const size_t before = answers->candidates;
     const double r4 = p->r12_ * known->s1 - p->r22_ * known->c1, r5 = p->r11_ * known->s1 - p->r21_ * known->c1;
     const Shared2 own = { r4, r5 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /* What the charts of block 1 share. */
@@ -1705,6 +1720,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 6; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -84,7 +84,7 @@ pub enum Error {
 /// As [`Error`] says; the content of `out` has no meaning then.
 pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     answers.unite();
@@ -120,7 +120,7 @@ impl Pairs {
 #[allow(dead_code)]
 pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
     let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
+    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
     block_1(p, &mut answers);
     answers.flush(p);
     let count = answers.count;
@@ -378,6 +378,8 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
+/// The same where all candidates found before hold as they were found.
+const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -507,11 +509,12 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: Wrist3.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r4 = p.r12_ * known.s1 - p.r22_ * known.c1;
     let r5 = p.r11_ * known.s1 - p.r21_ * known.c1;
     let shared = &Shared2 { r4, r5 };
     chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, answers);
+    chart_2_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 2 share.
@@ -541,9 +544,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Chart 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Wrist3.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5;
-    if !is_near(r8, 8.000000000000001e-7) {
+    if !is_near(r8, 8.000000000000001e-7, NEAR) || (answers.suffice_since(p, before) && !is_near(r8, 8.000000000000001e-7, BESIDE)) {
         return;
     }
     let f6 = 1000000.0;
@@ -621,6 +624,7 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Block 5: ShoulderLift.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+    let before = answers.candidates;
     let r9 = p.px + 0.09465 * (p.r11_ * known.s6) + 0.09465 * (p.r12_ * known.c6);
     let r16 = p.py + 0.09465 * (p.r21_ * known.s6) + 0.09465 * (p.r22_ * known.c6);
     let r20 = 0.39225 * known.s3;
@@ -633,7 +637,7 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r36 = f64::abs(2.0 * p.magnitude + 12.118564);
     let shared = &Shared5 { r20, r22, r29, r30, r31, r35, r36 };
     chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, answers);
+    chart_5_2(p, known, shared, before, answers);
 }
 
 /// What the charts of block 5 share.
@@ -659,9 +663,9 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Chart 2 of block 5: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: ShoulderLift.
-fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
     let r39 = shared.r20 * shared.r20 + shared.r22 * shared.r22;
-    if !(is_near(r39, 5.96255768362e-7) && is_near(shared.r31, 0.01 * shared.r36) && is_near(shared.r29, 0.01 * shared.r35)) {
+    if !(is_near(r39, 5.96255768362e-7, NEAR) && is_near(shared.r31, 0.01 * shared.r36, NEAR) && is_near(shared.r29, 0.01 * shared.r35, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r39, 5.96255768362e-7, BESIDE) && is_near(shared.r31, 0.01 * shared.r36, BESIDE) && is_near(shared.r29, 0.01 * shared.r35, BESIDE))) {
         return;
     }
     for [c2, s2] in SAMPLES_1 {
@@ -927,6 +931,9 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    candidates: usize,
+    unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
     at: [[f64; ROOM]; PLACES],
     /// How each was found.
@@ -935,6 +942,13 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
+    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
+        self.flush(p);
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
     /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
@@ -1614,8 +1628,8 @@ fn wrap(angle: f64) -> f64 {
 }
 
 /// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64) -> bool {
-    value.abs() <= NEAR * scale
+fn is_near(value: f64, scale: f64, share: f64) -> bool {
+    value.abs() <= share * scale
 }
 
 /// Whether a factor is not zero.
@@ -1764,6 +1778,7 @@ impl Answers<'_> {
         }
         self.found[k] = Found { branch, last, close, free };
         self.waiting = k + 1;
+        self.candidates += 1;
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
@@ -1791,6 +1806,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
+                self.unsound = self.candidates + 1 + k - waiting;
                 self.refine(p, branch, last, q, free);
             }
         }

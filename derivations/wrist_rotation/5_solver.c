@@ -174,6 +174,8 @@ int wrist_rotation_nearest(const wrist_rotation_solution *list, int count, const
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
+/* The same where all candidates found before hold as they were found. */
+#define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -689,6 +691,8 @@ typedef struct {
     Solution *out;
     double relative[WRIST_ROTATION_CAPACITY];
     size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[3][3];
     /* Where pairs are written instead, and whether all candidates so far can be. */
@@ -1193,6 +1197,7 @@ static bool take_pair(const Parameters *p, size_t branch, const double *at, Answ
 /* Keeps a candidate that solves the equations within rounding, and refines others. */
 static void finish(const Parameters *p, size_t branch, size_t last, bool close, const double *at, const bool *free, Answers *answers)
 {
+    answers->candidates++;
     if (answers->pairs != NULL) {
         answers->usual = answers->usual && is_isolated(free) && !close && take_pair(p, branch, at, answers);
         return;
@@ -1203,11 +1208,13 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 2, at[4], at[5]),
     };
     if (!is_isolated(free) || close) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
+        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1276,9 +1283,15 @@ static void sort(Answers *answers)
 }
 
 /* Whether a factor is near zero. */
-static bool is_near(double value, double scale)
+static bool is_near(double value, double scale, double share)
 {
-    return fabs(value) <= NEAR * scale;
+    return fabs(value) <= share * scale;
+}
+
+/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+static bool suffice_since(const Answers *answers, size_t candidates)
+{
+    return answers->candidates > candidates && answers->unsound <= candidates;
 }
 
 /* Whether a factor is not zero. */
@@ -1394,9 +1407,9 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 /* Chart 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Yaw. */
-static void chart_1_2(const Parameters *p, Answers *answers)
+static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
 {
-    if (!is_near(p->r21_ * p->r21_ + p->r11_ * p->r11_, 2.0000000000000002e-7)) {
+    if (!is_near(p->r21_ * p->r21_ + p->r11_ * p->r11_, 2.0000000000000002e-7, NEAR) || (suffice_since(answers, before) && !is_near(p->r21_ * p->r21_ + p->r11_ * p->r11_, 2.0000000000000002e-7, BESIDE))) {
         return;
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
@@ -1414,8 +1427,9 @@ static void chart_1_2(const Parameters *p, Answers *answers)
 /* Block 1: Yaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
+    const size_t before = answers->candidates;
     chart_1_1(p, answers);
-    chart_1_2(p, answers);
+    chart_1_2(p, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -1485,6 +1499,7 @@ static int find(const double *given, Answers *answers)
     }
     const Parameters p = parameters(target);
     answers->count = 0;
+    answers->candidates = answers->unsound = 0;
     for (size_t i = 0; i < 3; i++) {
         answers->last[i][0] = -1.0;
         answers->last[i][1] = -1.0;

@@ -27,6 +27,8 @@ pub(super) struct BlockText {
     shared: Vec<String>,
     charts: Vec<ChartText>,
     turns: Vec<Turn>,
+    /// Whether charts ask how many candidates there were before.
+    counts: bool,
     /// Whether one chart that often runs goes on here, so that a language had better put this block in its place.
     is_inlined: bool,
     /// Whether a chart that hardly ever runs goes on here.
@@ -92,6 +94,7 @@ impl BlockText {
             lines,
             shared,
             charts: block.charts.iter().map(|chart| ChartText::new(scene, index, chart)).collect(),
+            counts: block.charts.iter().any(Chart::is_of_stratum),
             is_inlined: before.iter().filter(|chart| !chart.is_rare()).count() == 1,
             is_met_again: before.iter().any(Chart::is_rare),
             turns: all.clone().filter(|&chart| block.opens_group(chart)).map(turn).collect(),
@@ -114,7 +117,8 @@ impl ChartText {
         let claim_names: Vec<&str> = names.into_iter().flatten().collect();
         let shared = reads(&lines.iter().collect::<Vec<_>>(), &language.shared("")).then_some("shared");
         let known = (block > 0).then_some("known");
-        let own: Vec<&str> = [Some("p"), known, shared].into_iter().flatten().collect();
+        let before = chart.is_of_stratum().then_some("before");
+        let own: Vec<&str> = [Some("p"), known, shared, before].into_iter().flatten().collect();
         ChartText {
             label: remark(&chart.label),
             quoted: language.quote(&chart.label),
@@ -137,7 +141,11 @@ impl Function {
             "known" => "Known".to_owned(),
             _ => format!("Shared{}", block + 1),
         };
-        let parameters: Vec<String> = names.iter().map(|name| language.argument(name, &kind(name))).collect();
+        let parameter = |name: &&str| match *name {
+            "before" => language.count(name),
+            _ => language.argument(name, &kind(name)),
+        };
+        let parameters: Vec<String> = names.iter().map(parameter).collect();
         Function { lines, parameters: parameters.join(", "), arguments: names.join(", ") }
     }
 }

@@ -249,7 +249,8 @@ impl Scene<'_> {
         let mut lines = printer.code(&chart.guard_code);
         if !chart.guards.is_empty() {
             let condition = self.condition(&chart.guards, &mut printer);
-            lines.extend(self.language.leave_unless(&condition, chart.is_rare()));
+            let beside = chart.is_of_stratum().then(|| condition.replace(", NEAR)", ", BESIDE)"));
+            lines.extend(self.language.leave_unless(&condition, chart.is_rare(), beside.as_deref()));
         }
         Walk::new(self, index, chart, lines).steps(&mut printer)
     }
@@ -269,8 +270,11 @@ impl Scene<'_> {
             .iter()
             .map(|guard| {
                 let (value, scale) = (printer.operand(guard.value), printer.operand(guard.scale));
-                let test = if guard.near { "is_near" } else { "is_away" };
-                format!("{test}({value}, {scale})")
+                if guard.near {
+                    format!("is_near({value}, {scale}, NEAR)")
+                } else {
+                    format!("is_away({value}, {scale})")
+                }
             })
             .collect();
         if terms.is_empty() { "true".to_owned() } else { terms.join(" && ") }

@@ -1,7 +1,7 @@
 //! C99: one file that is a translation unit, or the declarations alone.
 
 use super::outline::Outline;
-use super::printer::{Finish, INDENT, Language, State, spread};
+use super::printer::{Finish, INDENT, Language, State, negation, spread};
 use super::single::single;
 use crate::solver::Program;
 
@@ -102,6 +102,10 @@ impl Language for C99 {
         format!("const {kind} *{name}")
     }
 
+    fn count(&self, name: &str) -> String {
+        format!("size_t {name}")
+    }
+
     fn call(&self, function: &str, argument: &str) -> String {
         let function = if function == "abs" { "fabs" } else { function };
         format!("{function}({argument})")
@@ -166,9 +170,10 @@ impl Language for C99 {
         format!("if ({condition}) {{")
     }
 
-    fn leave_unless(&self, condition: &str, _: bool) -> Vec<String> {
-        let negation = if condition.contains(" && ") { format!("!({condition})") } else { format!("!{condition}") };
-        vec![format!("if ({negation}) {{"), format!("{INDENT}return;"), "}".to_owned()]
+    fn leave_unless(&self, condition: &str, _: bool, beside: Option<&str>) -> Vec<String> {
+        let far = |beside| format!(" || (suffice_since(answers, before) && {})", negation(beside));
+        let is_left = negation(condition) + &beside.map_or_else(String::new, far);
+        vec![format!("if ({is_left}) {{"), format!("{INDENT}return;"), "}".to_owned()]
     }
 
     fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String> {

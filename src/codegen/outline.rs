@@ -16,7 +16,7 @@ use super::quartic::Quartic;
 use super::samples::Table;
 use super::six_axes;
 use super::tolerances::{Arc, Tolerances};
-use crate::solver::{Condition, DAMPINGS, JointValue, LEAPS, Operand, Program, Step, Unit, square};
+use crate::solver::{Chart, Condition, DAMPINGS, JointValue, LEAPS, Operand, Program, Step, Unit, square};
 
 /// Shares of the squared Jacobian's size that are added where a plain Newton step fails, in single precision.
 const SINGLE_DAMPINGS: [f64; 4] = [0.0, 1e-5, 1e-4, 1e-3];
@@ -137,6 +137,8 @@ struct Needs {
     rotation: bool,
     unit: bool,
     near: bool,
+    /// Whether strata are told from what is beside them by the candidates.
+    strata: bool,
     away: bool,
     pivot: bool,
     squares: bool,
@@ -334,6 +336,7 @@ impl Needs {
             rotation: program.conditions.iter().any(|condition| matches!(condition, Condition::Rotation(_))),
             unit: program.conditions.iter().any(|condition| matches!(condition, Condition::Unit(_))),
             near: guards().any(|guard| guard.near),
+            strata: program.charts().any(Chart::is_of_stratum),
             away: guards().any(|guard| !guard.near),
             pivot: root_steps(program).any(|(_, polynomials)| polynomials.len() > 1),
             squares: root_steps(program).any(|(_, polynomials)| square(polynomials).is_some()),

@@ -30,6 +30,8 @@ pub(super) trait Language {
     fn shared(&self, name: &str) -> String;
     /// An argument of a function: a pointer to something of this type.
     fn argument(&self, name: &str, kind: &str) -> String;
+    /// An argument that is a count.
+    fn count(&self, name: &str) -> String;
     /// `function` (`abs`, `sqrt`, `cos` or `sin`) of an expression; the argument of all but `abs` is typed.
     fn call(&self, function: &str, argument: &str) -> String;
     /// The greater of two typed expressions.
@@ -71,8 +73,9 @@ pub(super) trait Language {
     /// Lines that open the loop with index `i{depth}` over the rows of the table of samples with a number, of which there are `rows`; each
     /// row's numbers are called by `names` where they have one.
     fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String>;
-    /// Leaving a chart, which hardly ever runs or often, unless a condition holds.
-    fn leave_unless(&self, condition: &str, is_rare: bool) -> Vec<String>;
+    /// Leaving a chart, which hardly ever runs or often, unless a condition holds, and this one `beside` a stratum too where the charts before
+    /// have sufficed.
+    fn leave_unless(&self, condition: &str, is_rare: bool, beside: Option<&str>) -> Vec<String>;
     /// The skeleton of what finds six joints together.
     fn six_axes(&self) -> &'static str;
     /// Lines that open the loop with index `i{depth}` over the answers of the chain with a number at a target.
@@ -87,6 +90,11 @@ pub(super) trait Language {
     fn finish(&self, answer: &Finish<'_>) -> Vec<String>;
     /// Going on to a block with what is known now.
     fn go_on(&self, state: &State<'_>) -> Vec<String>;
+}
+
+/// A condition that does not hold.
+pub(super) fn negation(condition: &str) -> String {
+    if condition.contains(" && ") { format!("!({condition})") } else { format!("!{condition}") }
 }
 
 /// What a chart of the last block hands over, as expressions.

@@ -2,7 +2,7 @@
 
 use super::batch;
 use super::outline::Outline;
-use super::printer::{Finish, INDENT, Language, State, spread};
+use super::printer::{Finish, INDENT, Language, State, negation, spread};
 use crate::solver::Program;
 
 const SKELETON: &str = concat!(
@@ -71,6 +71,10 @@ impl Language for Rust {
 
     fn argument(&self, name: &str, kind: &str) -> String {
         format!("{name}: &{kind}{}", if self.batch { "<T>" } else { "" })
+    }
+
+    fn count(&self, name: &str) -> String {
+        format!("{name}: usize")
     }
 
     fn call(&self, function: &str, argument: &str) -> String {
@@ -154,16 +158,19 @@ impl Language for Rust {
         format!("if {condition} {{")
     }
 
-    fn leave_unless(&self, condition: &str, is_rare: bool) -> Vec<String> {
-        let negation = match condition {
-            _ if self.batch && is_rare => {
-                format!("!T::is_rare(answers, {}) || T::MANY", condition.replace(" && ", " & "))
+    fn leave_unless(&self, condition: &str, is_rare: bool, beside: Option<&str>) -> Vec<String> {
+        let together = |condition: &str| condition.replace(" && ", " & ");
+        let far = |beside| format!(" || (answers.suffice_since(p, before) && {})", negation(beside));
+        let is_left = match (self.batch, beside) {
+            (true, Some(beside)) => {
+                let (near, beside) = (together(condition), together(beside));
+                format!("!T::is_due(answers, p, before, {near}, {beside}) || T::MANY")
             }
-            _ if self.batch => format!("!T::is_usual(answers, {})", condition.replace(" && ", " & ")),
-            _ if condition.contains(" && ") => format!("!({condition})"),
-            _ => format!("!{condition}"),
+            (true, None) if is_rare => format!("!T::is_rare(answers, {}) || T::MANY", together(condition)),
+            (true, None) => format!("!T::is_usual(answers, {})", together(condition)),
+            (false, _) => negation(condition) + &beside.map_or_else(String::new, far),
         };
-        vec![format!("if {negation} {{"), format!("{INDENT}return;"), "}".to_owned()]
+        vec![format!("if {is_left} {{"), format!("{INDENT}return;"), "}".to_owned()]
     }
 
     fn open_samples(&self, _: usize, names: &[Option<&str>], table: usize, _: usize) -> Vec<String> {

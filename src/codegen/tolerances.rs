@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::printer::number;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, FARTHER, FARTHEST,
-    GRAZING, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED, REGULAR, REST,
-    RETURNS, ROUNDING, SERIES, SINGULAR, STAGES, STIFF, TINY,
+    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BESIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, FARTHER,
+    FARTHEST, GRAZING, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED,
+    REGULAR, REST, RETURNS, ROUNDING, SERIES, SINGULAR, STAGES, STIFF, TINY,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -34,6 +34,7 @@ pub(super) struct Tolerances {
     blur: String,
     resolution: String,
     near: String,
+    beside: String,
     meeting: String,
     tiny: String,
     pivot: String,
@@ -76,6 +77,7 @@ impl Tolerances {
             blur: number(BLUR),
             resolution: number(ROUNDING),
             near: number(NEAR),
+            beside: number(BESIDE),
             meeting: number(MEETING),
             tiny: number(TINY),
             pivot: number(PIVOT),
@@ -116,6 +118,8 @@ impl Tolerances {
             blur: number(3e-2),
             resolution: number(5e-6),
             near: number(1e-2),
+            // Nothing that is not found holds this well.
+            beside: number(1e-2),
             meeting: number(1e-2),
             tiny: number(1e-14),
             pivot: number(1e-4),

@@ -23,6 +23,10 @@ pub(super) struct Answers<'a> {
     /// Holds what the equations read.
     pub(super) frame: Frame<'a>,
     pub(super) list: Vec<Answer>,
+    /// How many candidates there have been.
+    pub(super) candidates: usize,
+    /// So many there had been with the last one that did not hold as it was found, or was one of a family's.
+    unsound: usize,
     /// The candidate that missed the equations by the least share of their size.
     nearest: Option<Nearest>,
     /// The answers so far by cosines and sines, where these are asked for.
@@ -31,7 +35,7 @@ pub(super) struct Answers<'a> {
 
 impl<'a> Answers<'a> {
     pub fn new(program: &'a Program, frame: Frame<'a>, pairs: UsualPairs) -> Self {
-        Answers { program, frame, list: Vec::new(), nearest: None, pairs }
+        Answers { program, frame, list: Vec::new(), candidates: 0, unsound: 0, nearest: None, pairs }
     }
 
     /// The answers by cosines and sines: as they were found, or else of their angles.
@@ -81,7 +85,9 @@ impl<'a> Answers<'a> {
         for (slot, joint) in q.iter_mut().zip(&self.program.joints) {
             *slot = joint_value(joint.value, unknowns);
         }
+        self.candidates += 1;
         if path.free != NONE_FREE {
+            self.unsound = self.candidates;
             self.pairs.give_up();
             return self.propose_member(path, q);
         }
@@ -92,8 +98,14 @@ impl<'a> Answers<'a> {
                 return self.keep(path, &q, &fit);
             }
         }
+        self.unsound = self.candidates;
         self.pairs.give_up();
         self.settle(path, q);
+    }
+
+    /// Whether there have been candidates behind so many, and each has held as it was found.
+    pub fn suffice_since(&self, candidates: usize) -> bool {
+        self.candidates > candidates && self.unsound <= candidates
     }
 
     /// Whether the cosines and sines of all angles are on the circle.

@@ -1,8 +1,8 @@
 //! What operands refer to while a program runs, and the running of straight-line code.
 
+use super::TINY;
 use super::instruction::{Instruction, Operand, Operation};
 use super::program::Guard;
-use super::{NEAR, TINY};
 
 /// The values that operands refer to.
 pub(super) struct Frame<'a> {
@@ -45,8 +45,9 @@ impl<'a> Frame<'a> {
         }
     }
 
-    pub fn holds(&self, guard: &Guard) -> bool {
+    /// Whether a guard holds; a stratum is near up to the share `near` of its factor's scale.
+    pub fn holds(&self, guard: &Guard, near: f64) -> bool {
         let (value, scale) = (self.value(guard.value).abs(), self.value(guard.scale));
-        if guard.near { value <= NEAR * scale } else { value > TINY * scale }
+        if guard.near { value <= near * scale } else { value > TINY * scale }
     }
 }

@@ -52,6 +52,9 @@ pub const MEETING: f64 = 1e-5;
 pub const GRAZING: f64 = 1e-6;
 /// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
 pub const NEAR: f64 = 1e-3;
+/// Where all candidates of the charts before have held as they were found, it runs below this share only: a stratum on which they would have
+/// lost an answer is as near as rounding.
+pub const BESIDE: f64 = 1e-7;
 /// A chart does not run where a denominator is below this share of its scale: a factor of degree two in the distance from its
 /// stratum is as small as the square of what rounding leaves of that distance. Wrong candidates are measured and dropped.
 pub const TINY: f64 = 1e-30;

@@ -307,6 +307,11 @@ impl Program {
 }
 
 impl Chart {
+    /// Whether it runs near a stratum, whatever the pivots of others, and there has been derived.
+    pub(crate) fn is_of_stratum(&self) -> bool {
+        !self.open && self.pivot.is_none() && self.guards.iter().any(|guard| guard.near)
+    }
+
     /// Whether it runs at targets only that are singular, or all but that.
     pub(crate) fn is_rare(&self) -> bool {
         !self.free.is_empty() || self.guards.iter().any(|guard| guard.near)

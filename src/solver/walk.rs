@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Block, Chart, JointValue, Program, Step, square};
 use super::template::SixAxes;
-use super::{GRAZING, MAX_JOINTS, MEETING, PIVOT};
+use super::{BESIDE, GRAZING, MAX_JOINTS, MEETING, NEAR, PIVOT};
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The coefficients of a polynomial, constant term first.
@@ -74,8 +74,9 @@ impl<'a> Walk<'a> {
         };
         let outer = std::mem::replace(&mut self.frame.base, self.places[index].base);
         self.frame.run(&block.code);
+        let before = self.answers.candidates;
         for first in (0..block.charts.len()).filter(|&chart| block.opens_group(chart)) {
-            if let Some(chart) = self.elect(&block.charts, first) {
+            if let Some(chart) = self.elect(&block.charts, first, before) {
                 self.chart(index, chart, path)?;
             }
         }
@@ -83,24 +84,26 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// The chart with index `first` if its guards hold, or the best of its pivot group; its guards' code has run last.
-    fn elect(&mut self, charts: &'a [Chart], first: usize) -> Option<&'a Chart> {
+    /// The chart with index `first` if its guards hold, or the best of its pivot group; its guards' code has run last. There were
+    /// so many candidates `before` the block.
+    fn elect(&mut self, charts: &'a [Chart], first: usize, before: usize) -> Option<&'a Chart> {
         let Some(pivot) = charts[first].pivot else {
-            return self.applies(&charts[first]).then_some(&charts[first]);
+            let narrows = charts[first].is_of_stratum() && self.answers.suffice_since(before);
+            return self.applies(&charts[first], if narrows { BESIDE } else { NEAR }).then_some(&charts[first]);
         };
         let (mut greatest, mut elected) = (-1.0, None);
         for chart in &charts[first..] {
             let Some(claim) = chart.pivot.filter(|claim| claim.group == pivot.group) else { continue };
-            if self.applies(chart) && self.frame.value(claim.value).abs() > greatest {
+            if self.applies(chart, NEAR) && self.frame.value(claim.value).abs() > greatest {
                 (greatest, elected) = (self.frame.value(claim.value).abs(), Some(chart));
             }
         }
         elected.inspect(|chart| self.frame.run(&chart.guard_code))
     }
 
-    fn applies(&mut self, chart: &Chart) -> bool {
+    fn applies(&mut self, chart: &Chart, near: f64) -> bool {
         self.frame.run(&chart.guard_code);
-        chart.guards.iter().all(|guard| self.frame.holds(guard))
+        chart.guards.iter().all(|guard| self.frame.holds(guard, near))
     }
 
     fn chart(&mut self, block: usize, chart: &Chart, mut path: Path) -> Result<()> {
